@@ -1,0 +1,42 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# baum_compile_options(target): C11, reproducible arithmetic, hidden symbols, the warnings of the
+# house as far as the compiler knows them. Sanitizers reach everything that is built here.
+include(CheckCCompilerFlag)
+include(CheckLinkerFlag)
+
+set(BAUM_WARNINGS "")
+foreach(
+  flag
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wdouble-promotion
+  -Wstrict-prototypes -Wmissing-prototypes -Wold-style-definition -Wundef -Wvla -Wcast-qual
+  -Wcast-align -Wpointer-arith -Wwrite-strings -Wformat=2 -Wimplicit-fallthrough -Wswitch-enum
+  -Wnull-dereference -Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wredundant-decls)
+  string(MAKE_C_IDENTIFIER "BAUM_KNOWS${flag}" known)
+  check_c_compiler_flag(${flag} ${known})
+  if(${known})
+    list(APPEND BAUM_WARNINGS ${flag})
+  endif()
+endforeach()
+check_c_compiler_flag(-ffp-contract=off BAUM_KNOWS_fp_contract)
+check_linker_flag(C LINKER:--as-needed BAUM_KNOWS_as_needed)
+
+set(BAUM_AS_NEEDED $<$<BOOL:${BAUM_KNOWS_as_needed}>:LINKER:--as-needed>)
+
+if(BAUM_SANITIZE)
+  set(sanitize -fsanitize=${BAUM_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_compile_options(${sanitize})
+  add_link_options(${sanitize})
+endif()
+
+function(baum_compile_options target)
+  set_target_properties(
+    ${target}
+    PROPERTIES C_STANDARD 11
+               C_STANDARD_REQUIRED ON
+               C_EXTENSIONS OFF
+               C_VISIBILITY_PRESET hidden)
+  target_compile_definitions(${target} PRIVATE _POSIX_C_SOURCE=200809L)
+  target_compile_options(
+    ${target} PRIVATE ${BAUM_WARNINGS} $<$<BOOL:${BAUM_WERROR}>:-Werror>
+                      $<$<BOOL:${BAUM_KNOWS_fp_contract}>:-ffp-contract=off>)
+endfunction()

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Finds what baum is built on, or stops with the sentence that helps. Sets
+#   BAUM_BACKENDS      what the library links
+#   BAUM_CAPABILITIES  compile definitions that tell the sources what is there
+
+function(baum_refuse what package option)
+  set(way_out "")
+  if(option)
+    set(way_out " or configure with -D ${option}=OFF")
+  endif()
+  message(FATAL_ERROR "${what} was not found: install the Debian package ${package}${way_out}.")
+endfunction()
+
+set(BAUM_BACKENDS "")
+set(BAUM_CAPABILITIES "BAUM_HAVE_SUNDIALS=0" "BAUM_HAVE_GSL=0")
+
+find_package(SuiteSparse QUIET COMPONENTS KLU SPQR)
+if(NOT SuiteSparse_FOUND)
+  baum_refuse("SuiteSparse with KLU and SPQR" libsuitesparse-dev "")
+endif()
+
+if(BAUM_SUNDIALS)
+  find_package(BaumSundials QUIET)
+  if(NOT BaumSundials_FOUND)
+    baum_refuse("SUNDIALS 6.4 to 7 with KLU" libsundials-dev BAUM_SUNDIALS)
+  endif()
+  list(APPEND BAUM_BACKENDS ${BAUM_SUNDIALS_TARGETS})
+  list(TRANSFORM BAUM_CAPABILITIES REPLACE "SUNDIALS=0" "SUNDIALS=1")
+endif()
+
+list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR m)
+
+if(BAUM_GSL)
+  find_package(GSL QUIET)
+  if(NOT GSL_FOUND)
+    baum_refuse("GSL" libgsl-dev BAUM_GSL)
+  endif()
+  list(TRANSFORM BAUM_CAPABILITIES REPLACE "GSL=0" "GSL=1")
+endif()
+
+if(BAUM_TESTS)
+  find_package(PkgConfig QUIET)
+  if(PkgConfig_FOUND)
+    pkg_check_modules(CMOCKA QUIET IMPORTED_TARGET cmocka)
+  endif()
+  if(NOT TARGET PkgConfig::CMOCKA)
+    baum_refuse("CMocka (through pkg-config)" "libcmocka-dev (and pkg-config)" BAUM_TESTS)
+  endif()
+endif()

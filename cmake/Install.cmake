@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs headers, both libraries, the CMake package and baum.pc, all free of absolute paths.
+include(CMakePackageConfigHelpers)
+
+set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/baum)
+
+install(DIRECTORY include/baum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+# Two sets, because only the static library needs the backends where it is used.
+foreach(library baum baum_static)
+  install(TARGETS ${library} EXPORT ${library}-targets)
+  install(
+    EXPORT ${library}-targets
+    NAMESPACE baum::
+    DESTINATION ${config_dir})
+endforeach()
+
+configure_package_config_file(cmake/baum-config.cmake.in baum-config.cmake
+                              INSTALL_DESTINATION ${config_dir})
+write_basic_package_version_file(baum-config-version.cmake COMPATIBILITY SameMinorVersion)
+install(
+  FILES ${PROJECT_BINARY_DIR}/baum-config.cmake ${PROJECT_BINARY_DIR}/baum-config-version.cmake
+        cmake/FindSuiteSparse.cmake cmake/FindBaumSundials.cmake
+  DESTINATION ${config_dir})
+
+# baum.pc: library names only, taken from what is linked.
+set(BAUM_PC_PRIVATE "")
+foreach(target IN LISTS BAUM_SUNDIALS_TARGETS)
+  string(REPLACE "SUNDIALS::" " -lsundials_" flag ${target})
+  string(APPEND BAUM_PC_PRIVATE ${flag})
+endforeach()
+string(APPEND BAUM_PC_PRIVATE " -lklu -lbtf -lamd -lcolamd -lspqr -lcholmod -lsuitesparseconfig -lm")
+file(RELATIVE_PATH BAUM_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+string(REGEX REPLACE "/$" "" BAUM_PC_PREFIX "${BAUM_PC_PREFIX}")
+configure_file(cmake/baum.pc.in baum.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/baum.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
