@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Everything. Each header is the manual of its topic.
+ */
+#ifndef BAUM_BAUM_H
+#define BAUM_BAUM_H
+
+#include <baum/dynamics.h>
+#include <baum/mechanism.h>
+#include <baum/planar.h>
+#include <baum/simulation.h>
+#include <baum/stabilization.h>
+#include <baum/status.h>
+#include <baum/version.h>
+
+#endif

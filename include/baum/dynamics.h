@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Evaluation of a frozen mechanism at a point, without a run. Simulations do this by themselves; a workspace
+ *  is for those who need Phi, J, nu, gamma, M, g or an acceleration of their own accord.
+ *
+ *  Dense matrices are row-major. Rows and columns are in the order of adding. Units follow the coordinates.
+ *  Threads: one workspace is used by one thread at a time; any number may share a mechanism.
+ *  NULL: q, v and every array are required unless an argument says otherwise.
+ *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
+ *  BAUM_ERR_NOT_FINITE (the message names the element), and what its own text adds.
+ */
+#ifndef BAUM_DYNAMICS_H
+#define BAUM_DYNAMICS_H
+
+#include <baum/mechanism.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Memory for evaluating one mechanism. */
+typedef struct baum_workspace baum_workspace;
+
+/** Make a workspace; it keeps the mechanism alive.
+ *  @param[in]  mechanism  frozen
+ *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK
+ */
+BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out);
+
+/** Give up a workspace.
+ *  @param workspace  may be NULL
+ */
+BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
+
+/** The drawn pose and the given velocities, NaN where free.
+ *  @param[out] q,v  (nq), (nv); each may be NULL
+ *  @return          BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v);
+
+/** Constraint residual Phi(q, t) (1).
+ *  @param[in]  q    (nq)
+ *  @param[out] phi  (nc) [m], [rad] or the unit of a user constraint
+ */
+BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
+                                        double *phi);
+
+/** Velocity Jacobian J = dPhi/dq (3).
+ *  @param[out] jacobian  (nc x nv)
+ */
+BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
+                                             double *jacobian);
+
+/** nu = -dPhi/dt, so that J v = nu (3).
+ *  @param[out] nu  (nc)
+ */
+BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
+                                       double *nu);
+
+/** gamma, so that J a = gamma (4).
+ *  @param[out] gamma  (nc)
+ */
+BAUM_API baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const double *q,
+                                          const double *v, double *gamma);
+
+/** Mass matrix M.
+ *  @param[out] mass  (nv x nv)
+ */
+BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q,
+                                         double *mass);
+
+/** Force vector g: applied, gravity and velocity terms.
+ *  @param[out] force  (nv)
+ */
+BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
+                                          const double *v, double *force);
+
+/** Kinetic and potential energy; the latter of gravity, springs, fixed loads and user potentials.
+ *  @param[out] kinetic,potential  [J]; each may be NULL
+ */
+BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
+                                           const double *v, double *kinetic, double *potential);
+
+/** Acceleration and multipliers of M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7);
+ *  with alpha = beta = 0 those of (5). Redundant rows are left out of the solution; where multipliers are not
+ *  unique they are those of least norm in rows scaled by M.
+ *  @param      alpha,beta  [1/s] finite
+ *  @param[out] a           (nv); may be NULL
+ *  @param[out] lambda      (nc); may be NULL
+ *  @return                 also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
+ */
+BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
+                                                 const double *q, const double *v, double alpha,
+                                                 double beta, double *a, double *lambda);
+
+/** Force and moment of a joint on its body_b: see planar.h. For a user constraint: -J^T lambda over its bodies.
+ *  @param[in]  lambda    (nc)
+ *  @param[out] reaction  (width) as the channel BAUM_JOINT_REACTION, 3 for planar joints
+ */
+BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
+                                             const double *lambda, baum_joint_id joint,
+                                             double *reaction);
+
+/** Which equations baum_workspace_residual() evaluates. */
+typedef enum baum_residual {
+  BAUM_RESIDUAL_INDEX1 = 1, /**< q' - v, M v' + J^T lambda - g, J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
+  BAUM_RESIDUAL_INDEX3 = 3  /**< q' - v, M v' + J^T lambda - g, Phi. */
+} baum_residual;
+
+/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda).
+ *  @param      index       which equations
+ *  @param      alpha,beta  [1/s] finite; used by index 1
+ *  @param[in]  y,dy        (nq + nv + nc) each
+ *  @param[out] residual    (nq + nv + nc)
+ */
+BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, baum_residual index,
+                                             double alpha, double beta, double t, const double *y,
+                                             const double *dy, double *residual);
+
+/** Jacobian dF/dy + c dF/dy' of that residual, in compressed columns with sorted rows and a fixed pattern.
+ *  @param      c        [1/s] finite
+ *  @param[out] columns  (nq + nv + nc + 1) starts of the columns; may be NULL
+ *  @param[out] rows     (nonzeros); may be NULL
+ *  @param[out] values   (nonzeros); may be NULL, then only the pattern is written
+ *  @param[out] nonzeros number of entries; may be NULL. Call with all other outputs NULL to learn it.
+ */
+BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
+                                                      baum_residual index, double alpha,
+                                                      double beta, double c, double t,
+                                                      const double *y, const double *dy,
+                                                      int32_t *columns, int32_t *rows,
+                                                      double *values, int32_t *nonzeros);
+
+/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v.
+ *  @param[in,out] q     (nq) a guess on entry; unchanged on failure
+ *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints and are least
+ *                       where undetermined; unchanged on failure
+ *  @param[in]     held  (held_count) bodies whose positions stay; may be NULL when held_count is 0. Bodies whose
+ *                       definition says `held` stay too.
+ *  @return              also BAUM_ERR_INCONSISTENT (names the joints that conflict), BAUM_ERR_MEMORY
+ */
+BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q,
+                                             double *v, const baum_body_id *held,
+                                             int32_t held_count);
+
+/** Project onto the constraints: q by the least change in the metric of M, then v likewise.
+ *  @param[in,out] q,v  (nq), (nv) near the constraints; unchanged on failure
+ *  @return             also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
+ */
+BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
+                                            double *v);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

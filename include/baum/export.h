@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Visibility of the public functions. Define BAUM_STATIC when linking the static library by hand.
+ */
+#ifndef BAUM_EXPORT_H
+#define BAUM_EXPORT_H
+
+#if defined(_WIN32) && !defined(BAUM_STATIC)
+#ifdef BAUM_BUILDING
+#define BAUM_API __declspec(dllexport)
+#else
+#define BAUM_API __declspec(dllimport)
+#endif
+#elif defined(__GNUC__)
+#define BAUM_API __attribute__((visibility("default")))
+#else
+#define BAUM_API
+#endif
+
+#endif

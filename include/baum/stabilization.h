@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and what an integrator makes of
+ *  them.
+ *
+ *  Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) is integrated by the same method as the motion, so whether the
+ *  violation decays depends on the method and on (alpha h, beta^2 h^2). These functions compute it. They need no
+ *  mechanism, allocate nothing and may be called from any thread.
+ */
+#ifndef BAUM_STABILIZATION_H
+#define BAUM_STABILIZATION_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include <baum/export.h>
+#include <baum/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** A method of integration; see simulation.h for the list. */
+typedef struct baum_integrator baum_integrator;
+
+/** How gains are chosen. */
+typedef enum baum_gain_rule {
+  BAUM_GAINS_DEFAULT = 0,   /**< Dead-beat for the Eulers, else auto. */
+  BAUM_GAINS_FIXED = 1,     /**< alpha, beta [1/s]. */
+  BAUM_GAINS_SCALED = 2,    /**< alpha h, beta^2 h^2 [-]; fixed step only. */
+  BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
+  BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
+  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero where the method has such a point, else least radius. */
+  BAUM_GAINS_AUTO = 6       /**< alpha = beta = 2 x the fastest angular rate at start, capped to be stable. */
+} baum_gain_rule;
+
+/** A rule with its numbers. Make it with one of the functions below; all-zero is BAUM_GAINS_DEFAULT. */
+typedef struct baum_gains {
+  int32_t rule;    /**< A baum_gain_rule. */
+  double value[2]; /**< The numbers of the rule. */
+} baum_gains;
+
+/** Gains as numbers. @param alpha,beta  [1/s] >= 0 */
+BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
+
+/** Gains relative to the step; stable where the method's region says so.
+ *  @param alpha_h    [-] alpha h >= 0
+ *  @param beta2_h2   [-] (beta h)^2 >= 0
+ */
+BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
+
+/** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With explicit Euler
+ *  the roots lie on the unit circle (marginal), with semi-implicit Euler outside it (unstable). */
+BAUM_API baum_gains baum_gains_taylor(void);
+
+/** Gains of an oscillator.
+ *  @param hertz          [Hz] > 0, natural frequency
+ *  @param damping_ratio  [-] > 0, 1 is critical
+ */
+BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
+
+/** Fastest decay per step: explicit Euler alpha = beta = 1/h, semi-implicit Euler alpha = 1/(2h), beta = 1/h; for
+ *  other methods of fixed step the point of least spectral radius. It costs methods of order above 1 their
+ *  order, because the gains grow as the step shrinks. */
+BAUM_API baum_gains baum_gains_deadbeat(void);
+
+/** alpha = beta = twice the fastest angular rate of the start state: |omega|, |v|/L, sqrt(|a|/L). With a fixed
+ *  step capped at alpha h = 0.3. Keeps the order of the method. */
+BAUM_API baum_gains baum_gains_auto(void);
+
+/** What becomes of a violation. */
+typedef enum baum_stability {
+  BAUM_STABLE = 0,       /**< Every violation decays: spectral radius < 1. */
+  BAUM_MARGINAL = 1,     /**< Some violation neither decays nor grows faster than linearly: radius = 1. */
+  BAUM_UNSTABLE = 2,     /**< Some violation grows exponentially: radius > 1. */
+  BAUM_VARIABLE_STEP = 3 /**< The method chooses its step, so there is no fixed region. */
+} baum_stability;
+
+/** Amplification of a violation by one step. */
+typedef struct baum_amplification {
+  size_t struct_size;       /**< Set by baum_stability_at(). */
+  baum_stability stability; /**< Class. */
+  double spectral_radius;   /**< [-] largest |z|; NaN for BAUM_VARIABLE_STEP. */
+  double z[2][2];           /**< [-] the two largest roots, real and imaginary part; NaN likewise. */
+} baum_amplification;
+
+/** Amplification at a point of the plane of Fig. 1.
+ *  @param      integrator   the method
+ *  @param      alpha_h      [-] |alpha h|, finite
+ *  @param      beta2_h2     [-] (beta h)^2, finite
+ *  @param[out] out          the result
+ *  @param      caller_size  sizeof *out
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h,
+                                       double beta2_h2, baum_amplification *out,
+                                       size_t caller_size);
+
+/** Largest alpha h for which alpha = damping_ratio x beta is stable.
+ *  @param      damping_ratio  [-] > 0
+ *  @param[out] alpha_h        receives the limit, 0 when nothing is stable
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ */
+BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
+                                          double *alpha_h);
+
+/** The point of fastest decay, see baum_gains_deadbeat().
+ *  @param[out] alpha_h,beta2_h2  receive the point
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ */
+BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
+                                             double *beta2_h2);
+
+/** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2 h^2).
+ *  @param      alpha_h,beta2_h2            [-] finite, the point asked for
+ *  @param[out] good_alpha_h,good_beta2_h2  receive the nearest good point; the point itself when it is good
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ */
+BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
+                                            double beta2_h2, double *good_alpha_h,
+                                            double *good_beta2_h2);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

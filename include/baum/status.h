@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  What a call returns, and the sentence that explains it.
+ *
+ *  Every call that can fail returns a baum_status and nothing else; results come through `out` pointers.
+ *  0 is done; 1 to 9 stopped as asked; 10 and up reached the end, but look at the warnings; below 0 failed.
+ *  On failure outputs are null or untouched and the object is as before the call; a run keeps its last good
+ *  step. The library never prints, exits or aborts.
+ *
+ *  Threads: baum_message() is one buffer per thread; everything else in the library is in objects.
+ */
+#ifndef BAUM_STATUS_H
+#define BAUM_STATUS_H
+
+#include <baum/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** The one list of statuses: name, value, text. Values are part of the ABI: never renumbered, never reused. */
+#define BAUM_STATUS_LIST(X)                                                                        \
+  X(BAUM_OK, 0, "done")                                                                            \
+  X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                           \
+  X(BAUM_STOP_EVENT, 2, "an event function changed sign")                                          \
+  X(BAUM_WARNED, 10, "reached the end with warnings")                                              \
+  X(BAUM_ERR_ARGUMENT, -1, "an argument is NULL, out of range or not finite")                      \
+  X(BAUM_ERR_STATE, -2, "the call is not allowed at this stage")                                   \
+  X(BAUM_ERR_MEMORY, -3, "out of memory")                                                          \
+  X(BAUM_ERR_STRUCT, -4, "struct_size is not that of a struct initialised by this library")        \
+  X(BAUM_ERR_UNSUPPORTED, -5, "not supported by this build or this pair of settings")              \
+  X(BAUM_ERR_INCONSISTENT, -10, "the start or the constraints are inconsistent")                   \
+  X(BAUM_ERR_SINGULAR, -11, "the equations of motion cannot be solved here")                       \
+  X(BAUM_ERR_UNSTABLE, -12, "the gains are unstable with this integrator and step")                \
+  X(BAUM_ERR_STEP, -20, "the step size fell below its minimum")                                    \
+  X(BAUM_ERR_CONVERGENCE, -21, "an iteration did not converge")                                    \
+  X(BAUM_ERR_INTEGRATOR, -22, "the integrator failed")                                             \
+  X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                                    \
+  X(BAUM_ERR_CALLBACK, -30, "a user function reported a failure")
+
+/** Result of every fallible call. */
+typedef enum baum_status {
+#define BAUM_X(name, value, text) name = (value),
+  BAUM_STATUS_LIST(BAUM_X)
+#undef BAUM_X
+} baum_status;
+
+/** Name of a status, such as "BAUM_ERR_ARGUMENT".
+ *  @param status  any value
+ *  @return        static text, never NULL; "BAUM_?" for a value that is no status
+ */
+BAUM_API const char *baum_status_name(baum_status status);
+
+/** General meaning of a status.
+ *  @param status  any value
+ *  @return        static text, never NULL
+ */
+BAUM_API const char *baum_status_text(baum_status status);
+
+/** The sentence of this thread's last call that returned a non-zero status: it names element, field, value
+ *  and unit, and for a run the time.
+ *  @return  this thread's buffer, never NULL, "" at first; valid until this thread's next failing call
+ */
+BAUM_API const char *baum_message(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Which library this is and what it was built with.
+ */
+#ifndef BAUM_VERSION_H
+#define BAUM_VERSION_H
+
+#include <stdbool.h>
+
+#include <baum/export.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define BAUM_VERSION_MAJOR 0 /**< Changes of the interface that break callers. */
+#define BAUM_VERSION_MINOR 1 /**< Additions; before 1.0 also changes. */
+#define BAUM_VERSION_PATCH 0 /**< Corrections. */
+#define BAUM_VERSION "0.1.0" /**< The three as text. */
+
+/** Version of the library that is running, which may differ from that of the headers.
+ *  @return  static text such as "0.1.0"
+ */
+BAUM_API const char *baum_version(void);
+
+/** Whether an optional part is built in.
+ *  @param feature  "sundials" (CVODE and IDA) or "gsl"; NULL and unknown names give false
+ *  @return         true when it can be used
+ */
+BAUM_API bool baum_has(const char *feature);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Heap memory. The only file that calls malloc and its kin. */
+#include "base/alloc.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+void *baum_i_alloc(size_t count, size_t size)
+{
+  return calloc(count > 0 ? count : 1, size > 0 ? size : 1);
+}
+
+void *baum_i_grow(void *old, size_t count, size_t size)
+{
+  if (size > 0 && count > SIZE_MAX / size) {
+    return NULL;
+  }
+  size_t bytes = count * size;
+  return realloc(old, bytes > 0 ? bytes : 1);
+}
+
+void *baum_i_copy(const void *source, size_t count, size_t size)
+{
+  void *copy = baum_i_alloc(count, size);
+  if (copy && count * size > 0) {
+    memcpy(copy, source, count * size);
+  }
+  return copy;
+}
+
+char *baum_i_copy_text(const char *text)
+{
+  return baum_i_copy(text, strlen(text) + 1, 1);
+}
+
+void baum_i_free(void *memory)
+{
+  free(memory);
+}

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All heap use of the library's own code goes through here: zeroed, checked against overflow. */
+#ifndef BAUM_I_BASE_ALLOC_H
+#define BAUM_I_BASE_ALLOC_H
+
+#include <stddef.h>
+
+/* Zeroed memory for count elements; one byte at least, so that NULL always means "out of memory". */
+void *baum_i_alloc(size_t count, size_t size);
+
+/* Grow an array to hold count elements; on failure returns NULL and leaves the old one. */
+void *baum_i_grow(void *old, size_t count, size_t size);
+
+/* Copy of count elements, or NULL. */
+void *baum_i_copy(const void *source, size_t count, size_t size);
+
+/* Copy of a string, or NULL. */
+char *baum_i_copy_text(const char *text);
+
+/* Release; NULL is fine. */
+void baum_i_free(void *memory);
+
+#endif

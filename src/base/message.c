@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The sentence behind a status: one fixed buffer per thread. */
+#include "base/message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static _Thread_local char sentence[BAUM_I_MESSAGE_SIZE];
+
+const char *baum_message(void)
+{
+  return sentence;
+}
+
+baum_status baum_i_fail(baum_status status, const char *format, ...)
+{
+  /* Formatted aside first: an argument may be the present sentence. */
+  char text[BAUM_I_MESSAGE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  memcpy(sentence, text, sizeof text);
+  return status;
+}
+
+baum_status baum_i_fail_memory(void)
+{
+  return baum_i_fail(BAUM_ERR_MEMORY, "out of memory");
+}
+
+void baum_i_message_prefix(const char *format, ...)
+{
+  char text[BAUM_I_MESSAGE_SIZE];
+  va_list arguments;
+  va_start(arguments, format);
+  int length = vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  if (length >= 0 && (size_t)length < sizeof text) {
+    (void)snprintf(text + length, sizeof text - (size_t)length, "%s", sentence);
+    memcpy(sentence, text, sizeof text);
+  }
+}

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which library this is. */
+#include <baum/version.h>
+
+#include <string.h>
+
+const char *baum_version(void)
+{
+  return BAUM_VERSION;
+}
+
+bool baum_has(const char *feature)
+{
+  if (!feature) {
+    return false;
+  }
+  return (BAUM_HAVE_SUNDIALS && strcmp(feature, "sundials") == 0) ||
+         (BAUM_HAVE_GSL && strcmp(feature, "gsl") == 0);
+}

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The saddle-point system of constrained dynamics
+ *
+ *   [ M   J^T ] [ a      ]   [ f ]
+ *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal (nc x nc), mostly zero
+ *
+ * M is block diagonal, J a list of dense blocks; both are given by their blocks, row-major, with a structure
+ * that never changes. A dropped row i is replaced by lambda_i = 0. Backends stand behind one ops table.
+ */
+#ifndef BAUM_I_LINEAR_KKT_H
+#define BAUM_I_LINEAR_KKT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <baum/status.h>
+
+/* A dense block of M on the diagonal. */
+typedef struct baum_i_mass_block {
+  int first; /* first row and column */
+  int size;
+  int value; /* start of its size x size values */
+} baum_i_mass_block;
+
+/* A dense block of J. */
+typedef struct baum_i_row_block {
+  int row; /* first row */
+  int rows;
+  int cols;
+  const int *col; /* (cols) columns, each once, any order; owned by the mechanism */
+  int value;      /* start of its rows x cols values */
+} baum_i_row_block;
+
+typedef struct baum_i_kkt_structure {
+  int nv;
+  int nc;
+  int mass_block_count;
+  const baum_i_mass_block *mass_blocks;
+  int row_block_count;
+  const baum_i_row_block *row_blocks;
+} baum_i_kkt_structure;
+
+typedef struct baum_i_kkt_values {
+  const double *mass;           /* values of the mass blocks */
+  const double *jacobian;       /* values of the row blocks */
+  const double *shift;          /* (nc) diagonal of S, or NULL for zeros */
+  const unsigned char *dropped; /* (nc) non-zero where a row is left out, or NULL for none */
+} baum_i_kkt_values;
+
+/* How far the present factorization can be trusted. */
+typedef enum baum_i_kkt_quality {
+  BAUM_I_KKT_GOOD,
+  BAUM_I_KKT_NEAR_SINGULAR, /* solved, but the matrix is close to singular or was solved in the least-squares sense */
+  BAUM_I_KKT_SINGULAR       /* no factorization */
+} baum_i_kkt_quality;
+
+typedef struct baum_i_kkt_counters {
+  int64_t factorizations;      /* refactorizations and full ones */
+  int64_t full_factorizations; /* those that chose pivots anew, which may allocate */
+  int64_t refinements;
+  int64_t fallbacks; /* times QR was used because LU could not be trusted */
+} baum_i_kkt_counters;
+
+/* Forced choice of backend. */
+typedef enum baum_i_kkt_choice { BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR } baum_i_kkt_choice;
+
+typedef struct baum_i_kkt baum_i_kkt;
+
+/* The structure's arrays must outlive the solver. */
+baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
+                              baum_i_kkt **out);
+void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
+
+/* Factor at new values, which must stay in place until the last solve with them (the residual is formed from
+ * them). Refactors on the fixed pattern, allocation-free, and chooses pivots anew only when rcond or residual
+ * demands it. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE; sets no message
+ * but for memory: the caller knows time and names. */
+baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
+
+/* Solve, with the residual of both equations checked and refined (a and lambda are unknowns of their own) until it
+ * is at rounding level. x = (a, lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (residual stays
+ * large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May itself fall back to a full factorization or to QR. */
+baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
+                             double *lambda);
+
+baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
+baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
+
+/* ---- plain products with the blocks, also used by dynamics ---- */
+
+/* y += M x */
+void baum_i_mass_times(const baum_i_kkt_structure *structure, const double *mass, const double *x,
+                       double *y);
+/* y += J x */
+void baum_i_jacobian_times(const baum_i_kkt_structure *structure, const double *jacobian,
+                           const double *x, double *y);
+/* y += J^T x */
+void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, const double *jacobian,
+                                      const double *x, double *y);
+
+/* ---- rank ---- */
+
+/* Rank of J with column j scaled by column_scale[j] and every row then scaled to unit length (rows of zeros stay
+ * zero), by rank-revealing sparse QR of its transpose with tolerance `tolerance` on the remaining column norms.
+ * independent[i] (nc) receives 1 for the rows of one largest independent set, else 0.
+ * BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
+baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
+                                 const double *column_scale, double tolerance, int *rank,
+                                 unsigned char *independent);
+
+#endif
