@@ -1,0 +1,66 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: sh examples/run.sh [NAME...]
+#
+# Sets up what is missing, builds the release library, runs the examples named or all of them,
+# and leaves in out/ what each printed (.txt), its table (.json) and the figures drawn from them.
+set -eu
+cd "$(dirname "$0")/.."
+. tests/setup.sh
+
+names=${*:-pendulum slider_crank stability_region formulations}
+out=$PWD/out
+
+# shellcheck disable=SC2086
+need_packages $build_packages gnuplot-nox
+need_venv
+heading "library and examples"
+build release release -DBAUM_TESTS=OFF
+mkdir -p "$out"
+
+summary=
+failures=0
+
+# run NAME COMMAND...: run one example, keep and show what it prints, note how it went.
+run() {
+  name=$1
+  shift
+  heading "$name"
+  begun=$(date +%s)
+  verdict=ok
+  "$@" >"$out/$name.txt" 2>&1 || verdict=FAILED
+  cat "$out/$name.txt"
+  [ "$verdict" = ok ] || failures=$((failures + 1))
+  summary="$summary$(printf '%-28s %-6s %5d s' "$name" "$verdict" "$(($(date +%s) - begun))")
+"
+}
+
+for name in $names; do
+  if [ -e "examples/$name.c" ]; then
+    run "$name" "build/release/examples/$name" --json "$out/$name.json"
+  fi
+done
+
+for program in examples/*.py; do
+  [ -e "$program" ] && [ -d bindings/python ] || continue
+  name=$(basename "$program" .py)
+  case " $names " in *" $name "*) ;; *) continue ;; esac
+  run "${name}_py" env BAUM_LIBRARY="$PWD/build/release/libbaum.so" \
+    PYTHONPATH="$PWD/bindings/python" PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=agg \
+    "$venv/bin/python" "$program" --json "$out/${name}_py.json"
+done
+
+# Scripts draw in out/, from the tables there.
+for script in examples/*.gp; do
+  [ -e "$script" ] || continue
+  name=$(basename "$script" .gp)
+  case " $names " in *" $name "*) ;; *) continue ;; esac
+  script=$PWD/$script
+  run "$name figure" env --chdir="$out" gnuplot "$script"
+done
+
+heading "summary"
+printf '%s' "$summary"
+echo "tables and figures are in out/:"
+(cd "$out" && ls -1 | sed 's/^/  /')
+[ "$failures" -eq 0 ]

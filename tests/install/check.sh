@@ -1,0 +1,56 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: check.sh PREFIX PROJECT
+# An installed baum serves a CMake project and a plain command line, shared and static; a version
+# that is not there is refused; nothing installed knows where it was built.
+set -eu
+prefix=$1
+project=$2
+source=$project/tests/install
+build=$project/build/install-consumer
+rm -rf "$build"
+mkdir -p "$build"
+
+fail() {
+  echo "$*"
+  exit 1
+}
+
+echo "find_package(baum)"
+cmake -S "$source" -B "$build/cmake" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$build/log" 2>&1 ||
+  { cat "$build/log"; exit 1; }
+cmake --build "$build/cmake" >"$build/log" 2>&1 || { cat "$build/log"; exit 1; }
+"$build/cmake/consumer"
+"$build/cmake/consumer_static"
+readelf -d "$build/cmake/consumer" | grep -q 'NEEDED.*\[libbaum\.so\.0\]' || fail "no soname libbaum.so.0"
+if readelf -d "$build/cmake/consumer_static" | grep 'NEEDED.*libbaum'; then
+  fail "the static program loads the shared library"
+fi
+
+for wrong in 0.2 1.0 0.1.99; do
+  echo "find_package(baum $wrong) is refused"
+  if cmake -S "$source" -B "$build/wrong-$wrong" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" \
+    -DWANTED="$wrong" >"$build/log" 2>&1; then
+    fail "version $wrong was accepted"
+  fi
+  grep -q "compatible with requested" "$build/log" || { cat "$build/log"; exit 1; }
+done
+
+pc=$(dirname "$(find "$prefix" -name baum.pc)")
+libraries=$(dirname "$pc")
+export PKG_CONFIG_PATH="$pc"
+cc=${CC:-cc}
+echo "pkg-config baum: $(pkg-config --libs baum)"
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$source/consumer.c" -o "$build/shared" $(pkg-config --cflags --libs baum)
+LD_LIBRARY_PATH=$libraries "$build/shared"
+echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$source/consumer.c" -o "$build/static" \
+  $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
+"$build/static"
+
+echo "no path of the build is installed"
+if grep -rF "$project" "$libraries/cmake" "$pc" "$prefix/include"; then
+  fail "these lines name the folder of the build"
+fi

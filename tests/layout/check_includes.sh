@@ -1,0 +1,70 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: check_includes.sh PROJECT
+# Holds who may include what: layers only downwards, a foreign header only in its backend file,
+# public headers only public ones and the C library's.
+set -eu
+cd "$1"
+
+find src include -name '*.[ch]' | sort | xargs awk '
+  function fail(why) { printf "%s:%d: %s\n", FILENAME, FNR, why; failures++ }
+
+  # The backend files, and what each may see.
+  function foreign_allowed(file, header) {
+    if (header ~ /^klu\.h$/) return file == "src/linear/klu.c"
+    if (header ~ /^(SuiteSparseQR_C|cholmod)\.h$/) return file == "src/linear/qr.c"
+    if (header ~ /^SuiteSparse_config\.h$/) return file ~ /^src\/linear\/(klu|qr)\.c$/
+    if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
+      return file ~ /^src\/integrate\/(cvode|ida|sundials_common)\.[ch]$/
+    return 0
+  }
+
+  BEGIN {
+    below["base"] = ""
+    below["linear"] = "base"
+    below["mechanism"] = "base"
+    below["stabilization"] = "base"
+    below["dynamics"] = "linear mechanism base"
+    below["integrate"] = "dynamics stabilization linear mechanism base"
+    below["simulate"] = "integrate " below["integrate"]
+    below["study"] = "simulate " below["simulate"]
+    below["catalog"] = ""
+    n = split("assert complex ctype errno fenv float inttypes limits locale math setjmp signal " \
+              "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string " \
+              "tgmath threads time", names, " ")
+    for (i = 1; i <= n; i++) c_library[names[i] ".h"] = 1
+  }
+
+  /^[ \t]*#[ \t]*include/ {
+    includes++
+    header = $0
+    sub(/^[ \t]*#[ \t]*include[ \t]*/, "", header)
+    quoted = header ~ /^"/
+    if (header !~ /^("[^"]+"|<[^>]+>)/) { fail("an include that names no file: " $0); next }
+    sub(/^["<]/, "", header)
+    sub(/[">].*$/, "", header)
+
+    split(FILENAME, part, "/")
+    if (!quoted) {
+      if (header in c_library || header ~ /^baum\/[a-z_]+\.h$/) next
+      if (!foreign_allowed(FILENAME, header))
+        fail("<" header "> is foreign here; it belongs in its one backend file")
+      next
+    }
+    if (part[1] == "include") { fail("a public header includes private \"" header "\""); next }
+    if (header !~ /\.h$/) { fail("\"" header "\" is not a header"); next }
+    layer = part[2]
+    split(header, target, "/")
+    if (!(layer in below)) { fail("layer " layer " is not in the list"); next }
+    if (!(target[1] in below)) {
+      fail("\"" header "\": write the path from src, as in \"mechanism/mechanism.h\"")
+      next
+    }
+    if (target[1] != layer && (" " below[layer] " ") !~ (" " target[1] " "))
+      fail(layer " must not include " target[1] " (\"" header "\")")
+  }
+
+  END {
+    printf "%d includes read, %d against the order of layers\n", includes, failures
+    exit failures > 0 || includes == 0
+  }'

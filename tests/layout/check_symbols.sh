@@ -1,0 +1,46 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: check_symbols.sh SHARED STATIC HEADERS
+# What the libraries define is ours by name and, if exported, declared in a public header. What
+# they call neither prints, opens files nor ends the process, and memory comes from base/alloc.
+set -eu
+shared=$1
+static=$2
+headers=$3
+failures=0
+
+# complain WHY NAMES
+complain() {
+  [ -z "$2" ] && return
+  printf '%s:\n%s\n' "$1" "$2"
+  failures=$((failures + 1))
+}
+
+exported=$(nm -D --defined-only "$shared" | awk '{ print $NF }')
+global=$(nm -g --defined-only "$static" | awk 'NF >= 3 { print $NF }')
+# One line per call out of the library: object symbol.
+called=$(nm -g --undefined-only "$static" | awk '
+  /:$/ { object = $1; sub(/:$/, "", object); next }
+  NF == 2 { print object, $2 }')
+# Counters and checks that compilers add to their own builds.
+added='^(__asan|__ubsan|__tsan|__gcov|__llvm|_GLOBAL_)'
+
+[ -n "$exported" ] && [ -n "$global" ] || { echo "nm read nothing"; exit 1; }
+
+complain "exported without the prefix baum_" \
+  "$(echo "$exported" | grep -Ev "^baum_|$added" || true)"
+complain "exported although private" "$(echo "$exported" | grep '^baum_i_' || true)"
+complain "exported but in no public header" "$(for name in $exported; do
+  grep -qw -- "$name" "$headers"/*.h || echo "$name"
+done)"
+complain "in the static library without the prefix baum_" \
+  "$(echo "$global" | grep -Ev "^baum_|$added" || true)"
+
+quiet=' (printf|__printf_chk|fprintf|__fprintf_chk|vprintf|vfprintf|puts|putchar|fputs|fputc|fwrite|perror|fopen|freopen|open|system|exit|_exit|_Exit|quick_exit|abort|signal|sigaction)$'
+complain "prints, opens a file, or ends the process" "$(echo "$called" | grep -E "$quiet" || true)"
+complain "allocates outside base/alloc" "$(echo "$called" |
+  grep -E ' (malloc|calloc|realloc|free|aligned_alloc|posix_memalign|strdup|strndup)$' |
+  grep -v '^alloc\.c\.o ' || true)"
+
+echo "$(echo "$exported" | wc -l) exported, $(echo "$global" | wc -l) global, $failures complaints"
+[ "$failures" -eq 0 ]

@@ -1,0 +1,165 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: sh tests/run.sh [STAGE...]
+#
+# Sets up what is missing and runs the stages named, or all of the first row, until one fails.
+#   format build test asan minimal install python tidy coverage
+#   valgrind thread analyzer                                        longer or rarer, by name only
+# BAUM_COVERAGE=90 is the least line coverage of src in percent.
+set -eu
+cd "$(dirname "$0")/.."
+. tests/setup.sh
+
+usual="format build test asan minimal install python tidy coverage"
+named="valgrind thread analyzer"
+prefix=$PWD/build/install-prefix
+
+stage_format() {
+  find include src examples tests -name '*.[ch]' | sort |
+    xargs clang-format --dry-run --Werror --style=file || {
+    echo "to mend: find include src examples tests -name '*.[ch]' | xargs clang-format -i"
+    return 1
+  }
+}
+
+stage_build() {
+  build_dev
+  build_clang
+}
+
+build_dev() {
+  need_venv
+  build dev dev -DBAUM_WERROR=ON
+}
+
+build_clang() {
+  need_venv
+  build dev clang -DBAUM_WERROR=ON -DCMAKE_C_COMPILER=clang -DCMAKE_BUILD_TYPE=Debug
+}
+
+# run_tests FOLDER [CTEST ARGUMENT...]
+run_tests() {
+  tested=build/$1
+  shift
+  ctest --test-dir "$tested" -j "$jobs" --output-on-failure --no-tests=error "$@"
+}
+
+stage_test() {
+  build_dev
+  run_tests dev
+}
+
+stage_asan() {
+  need_venv
+  build asan asan -DBAUM_WERROR=ON
+  ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1 \
+    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan -LE layout
+}
+
+stage_minimal() {
+  need_venv
+  build minimal minimal -DBAUM_WERROR=ON
+  run_tests minimal
+}
+
+# The library as a user installs it, then moved, so that nothing may depend on where it was.
+install_release() {
+  need_venv
+  build release release -DBAUM_WERROR=ON -DBAUM_TESTS=OFF
+  rm -rf "$prefix" "$prefix-before"
+  quietly cmake --install build/release --prefix "$prefix-before"
+  mv "$prefix-before" "$prefix"
+}
+
+stage_install() {
+  install_release
+  sh tests/install/check.sh "$prefix" "$PWD"
+}
+
+stage_python() {
+  if [ ! -d bindings/python ]; then
+    echo "skipped: there is no bindings/python yet"
+    return
+  fi
+  need_venv
+  [ -d "$prefix" ] || install_release
+  # From a copy, because building a package writes into its source.
+  rm -rf build/python-source
+  cp -R bindings/python build/python-source
+  quietly "$venv/bin/python" -m pip install --force-reinstall --no-deps build/python-source
+  library=$(find "$prefix" -name libbaum.so)
+  python=$PWD/$venv/bin/python
+  tests=$PWD/tests/python
+  (cd build && BAUM_LIBRARY=$library "$python" -W error::ResourceWarning -m unittest discover -s "$tests")
+}
+
+stage_tidy() {
+  need_venv
+  build_clang
+  echo "clang-tidy"
+  find src examples -name '*.c' | sort |
+    xargs -P "$jobs" -n 4 clang-tidy -p build/clang --quiet 2>build/tidy.log || {
+    cat build/tidy.log
+    return 1
+  }
+  echo "limits"
+  sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
+}
+
+stage_coverage() {
+  need_venv
+  build coverage coverage
+  find build/coverage -name '*.gcda' -delete
+  run_tests coverage -LE 'layout|python'
+  gcovr --root . --filter src/ --object-directory build/coverage \
+    --fail-under-line "${BAUM_COVERAGE:-90}" --print-summary
+}
+
+stage_valgrind() {
+  need_venv
+  build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;--quiet;--error-exitcode=99;--leak-check=full"
+  run_tests valgrind -LE 'layout|python'
+}
+
+stage_thread() {
+  need_venv
+  build dev thread -DBAUM_SANITIZE=thread
+  run_tests thread -R thread
+}
+
+stage_analyzer() {
+  need_venv
+  build release analyzer -DBAUM_WERROR=ON -DBAUM_TESTS=OFF -DCMAKE_C_FLAGS=-fanalyzer
+}
+
+for stage in "$@"; do
+  case " $usual $named " in
+    *" $stage "*) ;;
+    *) echo "no stage $stage; there are: $usual $named" >&2; exit 2 ;;
+  esac
+done
+[ $# -gt 0 ] || set -- $usual
+
+# shellcheck disable=SC2086
+need_packages $build_packages g++ clang clang-format clang-tidy gcovr valgrind
+
+summary=
+for stage in "$@"; do
+  heading "$stage"
+  begun=$(date +%s)
+  set +e
+  (set -e; "stage_$stage")
+  code=$?
+  set -e
+  seconds=$(($(date +%s) - begun))
+  verdict=ok
+  [ "$code" -eq 0 ] || verdict=FAILED
+  echo "---- $stage: $verdict, $seconds s"
+  summary="$summary$(printf '%-10s %-6s %5d s' "$stage" "$verdict" "$seconds")
+"
+  [ "$code" -eq 0 ] || break
+done
+
+heading "summary"
+printf '%s' "$summary"
+exit "$code"

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: BSD-3-Clause
+# What tests/run.sh and examples/run.sh share; sourced from the top folder of the project.
+# Installs what a fresh Debian 12 lacks, as root or through sudo, and builds under build/.
+
+jobs=$(nproc)
+build_packages="gcc libc6-dev cmake ninja-build pkg-config libsundials-dev libsuitesparse-dev
+  libgsl-dev libcmocka-dev python3 python3-venv"
+venv=build/venv
+venv_packages="numpy matplotlib lizard"
+
+heading() {
+  printf '\n==== %s\n' "$*"
+}
+
+as_root() {
+  if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+}
+
+# need_packages NAME...: install those that are missing.
+need_packages() {
+  command -v dpkg-query >/dev/null || { echo "no Debian here; wanted: $*"; return 0; }
+  missing=
+  for package in "$@"; do
+    dpkg-query -W -f '${Status}\n' "$package" 2>/dev/null | grep -q '^install ok installed$' ||
+      missing="$missing $package"
+  done
+  [ -n "$missing" ] || return 0
+  heading "installing$missing"
+  as_root apt-get update -q
+  # shellcheck disable=SC2086
+  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+}
+
+# A Python of our own with what the tests and examples import; Debian's, because of its python3-venv.
+need_venv() {
+  [ "$(cat "$venv/installed" 2>/dev/null)" = "$venv_packages" ] && return
+  heading "Python environment with $venv_packages"
+  python=/usr/bin/python3
+  [ -x "$python" ] || python=python3
+  "$python" -m venv --clear "$venv"
+  # shellcheck disable=SC2086
+  "$venv/bin/python" -m pip install --quiet $venv_packages
+  echo "$venv_packages" >"$venv/installed"
+}
+
+# quietly COMMAND...: its output only when it fails.
+quietly() {
+  mkdir -p build
+  "$@" >build/last.log 2>&1 || { cat build/last.log; echo "failed: $*"; return 1; }
+}
+
+# build PRESET FOLDER [CMAKE ARGUMENT...]: configure and build in build/FOLDER.
+build() {
+  preset=$1
+  folder=build/$2
+  shift 2
+  echo "building $folder $*"
+  quietly cmake --preset "$preset" -B "$folder" "-DPython3_EXECUTABLE=$PWD/$venv/bin/python" \
+    --no-warn-unused-cli "$@"
+  quietly cmake --build "$folder"
+}
