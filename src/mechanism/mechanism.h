@@ -1,0 +1,323 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A mechanism from the inside: elements (bodies, joints, forces), their types, and the frozen structure.
+ *
+ * An element type is one const struct of functions; adding a joint is one file in joints/ with such a struct and
+ * its four public functions (definition.h). Functions work on groups: all elements of one type in one call.
+ * Structure and numbers are apart: after freeze the structure is constant, and every mass, length and
+ * stiffness lives in one parameter array.
+ *
+ * Body 0 is ground. A body id's index1 is the index here; BAUM_GROUND's is -1.
+ */
+#ifndef BAUM_I_MECHANISM_MECHANISM_H
+#define BAUM_I_MECHANISM_MECHANISM_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <baum/mechanism.h>
+
+/* ---- elements ---- */
+
+/* How a definition struct is filled, checked and owned. */
+typedef struct baum_i_definition {
+  const char *kind;     /* "planar body", for messages */
+  size_t size;          /* of the struct */
+  const void *defaults; /* one with the defaults; its struct_size is `size` */
+  /* Check every field; the sentence starts with label, such as: joint 2 "B". NULL members and ids too. */
+  baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
+  /* Replace what the copy points to (not its name) by own copies: BAUM_OK or BAUM_ERR_MEMORY, then nothing is
+   * owned. NULL when there is nothing. */
+  baum_status (*own)(void *def);
+  void (*release)(void *def); /* free what own() made. NULL likewise. */
+} baum_i_definition;
+
+/* Every definition struct begins with these two. */
+typedef struct baum_i_def_head {
+  size_t struct_size;
+  const char *name;
+} baum_i_def_head;
+
+/* What all elements have; first member of each. */
+typedef struct baum_i_element {
+  const baum_i_definition *definition;
+  void *def;       /* own copy; its name points to `name` or is NULL */
+  char *name;      /* given, or "body<k>", "joint<k>", "force<k>" */
+  int index;       /* in its family; bodies from 1 */
+  int parameter;   /* start of its numbers in the parameter array; set at freeze */
+} baum_i_element;
+
+/* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its bodies one after
+ * the other, ground left out. Set at freeze but for bodies and body_count. */
+typedef struct baum_i_span {
+  int body_count;
+  int *bodies;  /* (body_count) indices, 0 = ground */
+  int nl;       /* number of local columns */
+  int *columns; /* (nl) columns in v (and, all bodies having nq = nv so far, in q) */
+} baum_i_span;
+
+/* Where a body's frame comes from. */
+typedef enum baum_i_frame_kind {
+  BAUM_I_FRAME_NONE,     /* user coordinates: no place in the plane */
+  BAUM_I_FRAME_PARTICLE, /* x, y */
+  BAUM_I_FRAME_BODY,     /* x, y, angle */
+  BAUM_I_FRAME_GROUND
+} baum_i_frame_kind;
+
+typedef struct baum_i_body_type baum_i_body_type;
+typedef struct baum_i_joint_type baum_i_joint_type;
+typedef struct baum_i_force_type baum_i_force_type;
+
+typedef struct baum_i_body {
+  baum_i_element element;
+  const baum_i_body_type *type;
+  int q;      /* first position */
+  int v;      /* first velocity */
+  int nv;     /* number of both */
+  int mass;   /* start of its nv x nv values in the mass blocks */
+} baum_i_body;
+
+typedef struct baum_i_joint {
+  baum_i_element element;
+  const baum_i_joint_type *type;
+  baum_i_span span;
+  int row;
+  int rows;
+  int jacobian; /* start of its rows x nl values */
+  int square;   /* start of its nl x nl values, for second derivatives */
+} baum_i_joint;
+
+typedef struct baum_i_force {
+  baum_i_element element;
+  const baum_i_force_type *type;
+  baum_i_span span;
+  int square; /* start of its nl x nl values */
+} baum_i_force;
+
+typedef struct baum_i_body_group {
+  const baum_i_body_type *type;
+  int count;
+  const baum_i_body **bodies; /* (count) */
+} baum_i_body_group;
+
+typedef struct baum_i_joint_group {
+  const baum_i_joint_type *type;
+  int count;
+  const baum_i_joint **joints; /* (count) */
+} baum_i_joint_group;
+
+typedef struct baum_i_force_group {
+  const baum_i_force_type *type;
+  int count;
+  const baum_i_force **forces; /* (count) */
+} baum_i_force_group;
+
+/* ---- a point in state space ---- */
+
+/* Place of a body's axes: every planar element reads this instead of q. */
+typedef struct baum_i_frame {
+  double x, y;     /* origin */
+  double c, s;     /* cos, sin of the angle */
+  double angle;    /* continuous */
+  double vx, vy, w; /* velocities; zero until baum_i_point_set_velocity() */
+} baum_i_frame;
+
+/* Where functions are evaluated. Belongs to a workspace; one thread at a time. */
+typedef struct baum_i_point {
+  const baum_mechanism *mechanism;
+  const double *parameters; /* of the mechanism, or a caller's own copy */
+  double t;
+  const double *q;
+  const double *v;      /* NULL at position level */
+  baum_i_frame *frames; /* (body_count + 1), ground first */
+  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
+  bool retry;           /* set when the last failure may vanish with a smaller step */
+} baum_i_point;
+
+/* Set t, q (and v, may be NULL) and the frames. q and v are referred to, not copied. */
+void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v);
+
+/* ---- types ---- */
+
+/* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the joint's `jacobian`
+ * (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted. Set, not added. */
+typedef struct baum_i_joint_blocks {
+  double *jw_q;    /* (J w)_q, rows x nl */
+  double *jtl_q;   /* (J^T lambda)_q, nl x nl */
+  double *gamma_q; /* rows x nl */
+  double *gamma_v; /* rows x nl */
+  double *nu_q;    /* rows x nl */
+} baum_i_joint_blocks;
+
+/* Blocks of a body, nv x nv at its `mass`. Set, not added. */
+typedef struct baum_i_body_blocks {
+  double *ma_q;    /* (M a)_q */
+  double *force_q;
+  double *force_v;
+} baum_i_body_blocks;
+
+/* Blocks of a force, nl x nl at its `square`. Set, not added. */
+typedef struct baum_i_force_blocks {
+  double *force_q;
+  double *force_v;
+} baum_i_force_blocks;
+
+struct baum_i_body_type {
+  baum_i_definition definition;
+  baum_i_frame_kind frame;
+  int parameter_count;
+  bool scleronomic; /* mass and force of the type never depend on t */
+  int (*size)(const void *def);                                 /* nv */
+  bool (*constant_mass)(const void *def);
+  void (*lower)(const baum_i_body *body, double *parameters);   /* numbers of this body; NULL: none */
+  void (*drawn)(const void *def, double *q, double *v, bool *held); /* start pose, given velocities or NaN */
+  void (*scale)(const void *def, double length, double *scale); /* (nv) relevant change of each coordinate */
+  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);   /* sets blocks */
+  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force); /* adds to (nv) */
+  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum); /* adds; NULL: 0 */
+  /* NULL: all blocks are zero. a (nv). */
+  baum_status (*linearize)(const baum_i_body_group *group, baum_i_point *point, const double *a,
+                           const baum_i_body_blocks *blocks);
+  /* Compare given derivatives with differences; NULL: nothing given. */
+  baum_status (*check)(const baum_i_body *body, baum_i_point *point);
+};
+
+/* A joint's coordinate for drivers and channels: over its six columns x_a y_a angle_a x_b y_b angle_b. */
+typedef struct baum_i_coordinate {
+  double value;
+  double rate;
+  double gradient[6];
+  double gamma;          /* so that gradient a = (coordinate)'' + gamma */
+} baum_i_coordinate;
+
+/* Second derivatives of a coordinate: for w and a multiplier l, as in baum_i_joint_blocks. */
+typedef struct baum_i_coordinate_blocks {
+  double jw_q[6];
+  double jtl_q[36];
+  double gamma_q[6];
+  double gamma_v[6];
+} baum_i_coordinate_blocks;
+
+struct baum_i_joint_type {
+  baum_i_definition definition;
+  int parameter_count;
+  bool planar;      /* two planar bodies: reaction is force and moment */
+  bool scleronomic; /* Phi never depends on t */
+  int (*rows)(const void *def);
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span); /* fills count; and bodies if
+                                                                                          not NULL */
+  /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the sentence. */
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint, double *parameters);
+  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point, double *phi);           /* sets (nc) */
+  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point, double *jacobian); /* sets blocks */
+  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point, double *nu); /* sets; NULL: zeros */
+  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point, double *gamma);       /* sets (nc) */
+  /* w (nv), lambda (nc); blocks arrive zeroed. */
+  baum_status (*linearize)(const baum_i_joint_group *group, baum_i_point *point, const double *w,
+                           const double *lambda, const baum_i_joint_blocks *blocks);
+  /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
+  void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+  /* Only joints with a coordinate, else NULL. */
+  void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
+  void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point, const double w[6],
+                               double lambda, baum_i_coordinate_blocks *out);
+  baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
+};
+
+struct baum_i_force_type {
+  baum_i_definition definition;
+  int parameter_count;
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force, double *parameters);
+  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);    /* adds to (nv) */
+  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);  /* adds; NULL: 0 */
+  baum_status (*linearize)(const baum_i_force_group *group, baum_i_point *point,
+                           const baum_i_force_blocks *blocks); /* blocks arrive zeroed */
+  baum_status (*check)(const baum_i_force *force, baum_i_point *point);
+};
+
+/* ---- the mechanism ---- */
+
+struct baum_mechanism {
+  atomic_int references;
+  uint32_t tag; /* shared by copies */
+  bool frozen;
+  double gravity[3];
+  double given_scale; /* NaN: not set */
+
+  int body_count; /* without ground */
+  baum_i_body **bodies; /* (body_count + 1), [0] is ground */
+  int joint_count;
+  baum_i_joint **joints;
+  int force_count;
+  baum_i_force **forces;
+
+  /* Set at freeze. */
+  int nq, nv, nc;
+  int mass_size;     /* values in all mass blocks */
+  int jacobian_size; /* values in all row blocks */
+  int joint_square_size;
+  int force_square_size;
+  int scratch_size;
+  bool constant_mass;
+  double length;      /* scale L */
+  double *parameters;
+  double *drawn_q;    /* (nq) */
+  double *drawn_v;    /* (nv) NaN where free */
+  bool *held;         /* (nq) */
+  double *scale;      /* (nv) relevant change of each coordinate */
+  int body_group_count;
+  baum_i_body_group *body_groups;
+  int joint_group_count;
+  baum_i_joint_group *joint_groups;
+  int force_group_count;
+  baum_i_force_group *force_groups;
+};
+
+/* Share and release; destroying is releasing. */
+const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
+
+/* Free everything that freeze made; keeps the elements. */
+void baum_i_mechanism_thaw(baum_mechanism *mechanism);
+
+/* Index of an id's element, or -1: none, foreign or out of range. Ground gives 0 for bodies. */
+int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
+int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
+int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* from 0 */
+
+/* Check an id used in a definition. The sentence says whether it is none, or of another mechanism. */
+baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
+                              const char *field);
+baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
+                               const char *field);
+
+/* Joint that owns a row; frozen only. */
+int baum_i_row_joint(const baum_mechanism *mechanism, int row);
+baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
+
+/* `joint 2 "B"` into text; returns text. Number from 1. */
+enum { BAUM_I_LABEL_SIZE = 128 };
+const char *baum_i_label(const baum_i_element *element, const char *family,
+                         char text[BAUM_I_LABEL_SIZE]);
+const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
+                               char text[BAUM_I_LABEL_SIZE]);
+
+/* ---- evaluation of the whole: runs over all groups; arrays as in the types above ---- */
+
+baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi);           /* (nc) */
+baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian); /* (jacobian_size) */
+baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /* (nc) */
+baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma);       /* (nc) */
+baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass);         /* (mass_size) */
+baum_status baum_i_mechanism_force(baum_i_point *point, double *force);       /* (nv) */
+baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential);
+baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
+                                              const baum_i_body_blocks *blocks);
+baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double *w,
+                                              const double *lambda,
+                                              const baum_i_joint_blocks *blocks);
+baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
+                                              const baum_i_force_blocks *blocks);
+
+#endif

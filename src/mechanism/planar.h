@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What planar joints and forces share: placing, markers, and packing of their two bodies' columns.
+ *
+ * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
+ * p' = k x p = (-p_y, p_x):
+ *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
+ * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b; packing leaves out what a particle (angle)
+ * or ground (all) does not have.
+ */
+#ifndef BAUM_I_MECHANISM_PLANAR_H
+#define BAUM_I_MECHANISM_PLANAR_H
+
+#include <baum/planar.h>
+
+#include "mechanism/mechanism.h"
+
+/* The fields that every planar joint and spring definition begins with. */
+typedef struct baum_i_planar_head {
+  size_t struct_size;
+  const char *name;
+  baum_body_id body_a;
+  baum_body_id body_b;
+  double point[2];
+  double point_a[2];
+  double point_b[2];
+} baum_i_planar_head;
+
+typedef struct baum_i_marker {
+  double arm[2]; /* p */
+  double r[2];
+  double dr[2]; /* r' */
+  double w;     /* angular velocity of the body */
+} baum_i_marker;
+
+static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body, const double *s)
+{
+  const baum_i_frame *f = &point->frames[body];
+  baum_i_marker m;
+  m.arm[0] = f->c * s[0] - f->s * s[1];
+  m.arm[1] = f->s * s[0] + f->c * s[1];
+  m.r[0] = f->x + m.arm[0];
+  m.r[1] = f->y + m.arm[1];
+  m.dr[0] = f->vx - f->w * m.arm[1];
+  m.dr[1] = f->vy + f->w * m.arm[0];
+  m.w = f->w;
+  return m;
+}
+
+/* Check bodies (exist, differ, have a place in the plane, not both ground) and that the points are given in exactly
+ * one way (point_needed false refuses `point`: for elements of non-zero length). */
+baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
+                                bool point_allowed);
+
+/* Both bodies must have an angle (ground does). */
+baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
+                                       const char *label);
+
+/* Bodies of a planar definition; for the `bodies` function of types. */
+void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+
+/* Points on both bodies from the definition, s[0..1] on a, s[2..3] on b. A particle with a point away from it:
+ * BAUM_ERR_ARGUMENT. */
+baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
+                                 const char *label, double s[4]);
+
+/* Drawn frame of a body, from its definition; valid before freeze. Ground: zeros. */
+baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
+
+/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where absent. */
+void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
+                          double six[6]);
+
+/* Rows of six to rows of nl. */
+void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                        const double *six, double *packed);
+
+/* 6 x 6 to nl x nl. */
+void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *packed);
+
+#endif
