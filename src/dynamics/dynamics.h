@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Dynamics from the inside: a workspace joins a mechanism's functions with a solver of the saddle-point system.
+ *
+ * Stages, each named by what it depends on:
+ *   position   (t, q):     frames, Phi, J, nu, M
+ *   velocity   (t, q, v):  Phi' = J v - nu, gamma, g
+ *   solution:              a, lambda of (5) or (7)
+ * A later stage includes the earlier ones. Results stay in the workspace until the next evaluation.
+ * Nothing here allocates but create functions, assembly and the search for redundancy.
+ *
+ * All functions return BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, and what is said beside them. After these two,
+ * workspace->point.retry tells whether a smaller step may help.
+ */
+#ifndef BAUM_I_DYNAMICS_DYNAMICS_H
+#define BAUM_I_DYNAMICS_DYNAMICS_H
+
+#include <baum/dynamics.h>
+
+#include "linear/kkt.h"
+#include "mechanism/mechanism.h"
+
+/* Dependent rows: found once, at the assembled start pose and its neighbours. */
+typedef struct baum_i_redundancy {
+  int rank;                /* of J at the neighbours */
+  int rank_at_start;       /* at the start pose itself; less: it is singular */
+  int count;               /* dropped rows, nc - rank */
+  unsigned char *dropped;  /* (nc) 1 where a row is left out */
+  double *combination;     /* (count x nc) orthonormal null vectors of J^T in scaled rows; rows of the array */
+  double *row_scale;       /* (nc) length of row i of J M^-1/2 at the start pose */
+} baum_i_redundancy;
+
+struct baum_workspace {
+  const baum_mechanism *mechanism;
+  baum_i_point point;
+  baum_i_kkt_structure structure;
+  baum_i_kkt *kkt;
+  baum_i_redundancy redundancy;
+  bool mass_ready; /* a constant M has been evaluated */
+
+  double *mass;     /* block values */
+  double *jacobian; /* block values */
+  double *phi;      /* (nc) */
+  double *phi_rate; /* (nc) */
+  double *nu;       /* (nc) */
+  double *gamma;    /* (nc) */
+  double *force;    /* (nv) */
+  double *rhs;      /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
+  double *a;        /* (nv) last solution */
+  double *lambda;   /* (nc) last solution */
+  double *work_v;   /* (2 nv) */
+  double *work_c;   /* (2 nc) */
+  double *shift;    /* (nc) regularization of assembly */
+
+  double *mass_q;   /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
+  double *body_force_q;
+  double *body_force_v;
+  double *jw_q;     /* (jacobian_size) */
+  double *gamma_q;
+  double *gamma_v;
+  double *nu_q;
+  double *jtl_q;    /* (joint_square_size) */
+  double *force_q;  /* (force_square_size) */
+  double *force_v;
+
+  int64_t evaluations;   /* solutions and residuals */
+  int64_t near_singular; /* solutions in which the matrix was close to singular */
+};
+
+baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
+                                    baum_workspace **out);
+
+/* ---- evaluate.c ---- */
+
+baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);
+baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const double *q,
+                                  const double *v);
+/* Phi and Phi' only: cheaper than the velocity stage. */
+baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
+
+/* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be negative (backward in
+ * time). Also BAUM_ERR_SINGULAR (the sentence names the joints), BAUM_ERR_MEMORY. */
+baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
+                                const double *v, double alpha, double beta);
+/* As reported: (5), multipliers of least norm where they are not unique. */
+baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
+                                         const double *v);
+
+/* ---- energy.c, reaction.c ---- */
+
+baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, const double *v,
+                          double *kinetic, double *potential);
+/* After a position stage. Number of values of a joint's reaction, and the values. */
+int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
+void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
+
+/* ---- residual.c: F(t, y, y'), y = (q, v, lambda), and dF/dy + c dF/dy' ---- */
+
+typedef struct baum_i_dae {
+  baum_residual index;
+  double alpha; /* signed */
+  double beta;
+} baum_i_dae;
+
+baum_status baum_i_residual(baum_workspace *workspace, const baum_i_dae *dae, double t,
+                            const double *y, const double *dy, double *residual);
+
+/* Fixed sparsity of the Jacobian: compressed columns, sorted rows; made once, filled without allocation. */
+typedef struct baum_i_residual_matrix baum_i_residual_matrix;
+baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
+                                          baum_i_residual_matrix **out);
+void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix);
+int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix);
+const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix); /* (n + 1) */
+const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix);
+baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
+                                        baum_workspace *workspace, const baum_i_dae *dae, double c,
+                                        double t, const double *y, const double *dy,
+                                        double *values);
+
+/* ---- project.c, assemble.c, redundancy.c ---- */
+
+/* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of M. Also
+ * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
+baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
+
+/* As baum_workspace_assemble(); held (nv) flags or NULL. change receives the largest |dq_i| / scale_i and its
+ * coordinate; may be NULL. */
+typedef struct baum_i_assembly {
+  double change;
+  int worst_coordinate;
+} baum_i_assembly;
+baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
+                            const bool *held, baum_i_assembly *out);
+
+/* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
+baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
+
+/* Names of the joints whose rows the dropped ones depend on, into text. */
+void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size);
+
+/* ---- scales ---- */
+
+/* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| / scale_i). */
+double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
+
+/* Row of largest magnitude, or -1; largest may be NULL. */
+int baum_i_largest(const double *values, int count, double *largest);
+
+#endif

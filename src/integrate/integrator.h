@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Integrators behind one ops table. Each lives in a file of its own, so that a program links only those it calls.
+ *
+ * A fixed-step method moves a state by h; grid, projection, monitors and output are the caller's. A variable-step
+ * method takes one step of its own length and interpolates inside its last one.
+ * Integrators reach the equations only through a problem, whose functions carry the formulation and the gains.
+ */
+#ifndef BAUM_I_INTEGRATE_INTEGRATOR_H
+#define BAUM_I_INTEGRATE_INTEGRATOR_H
+
+#include <baum/simulation.h>
+
+#include "dynamics/dynamics.h"
+#include "stabilization/amplification.h"
+
+/* What is integrated, and how exactly. Constant but for direction. */
+typedef struct baum_i_problem {
+  baum_workspace *workspace;
+  baum_formulation formulation;
+  double alpha;     /* [1/s] >= 0 */
+  double beta;      /* [1/s] >= 0 */
+  double direction; /* +1 forward, -1 backward in time: alpha carries it */
+  double rtol;      /* NaN for fixed step */
+  double atol;      /* >= 0 */
+  double rate;      /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
+  int64_t max_steps;
+} baum_i_problem;
+
+/* Time, positions, velocities. */
+typedef struct baum_i_state {
+  double t;
+  double *q; /* (nq) */
+  double *v; /* (nv) */
+} baum_i_state;
+
+/* What a variable-step method has done, since it was created. */
+typedef struct baum_i_statistics {
+  int64_t rejected;
+  int64_t factorizations; /* of its own matrix */
+  int64_t nonlinear_iterations;
+} baum_i_statistics;
+
+struct baum_integrator {
+  const char *name;
+  int order; /* 0: variable */
+  const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
+  baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
+  baum_i_method method;                 /* amplification */
+  bool predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
+
+  /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
+  baum_status (*create)(const baum_i_problem *problem, const baum_i_state *start, void **out);
+  void (*destroy)(void *self); /* NULL is fine */
+
+  /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by
+   * the caller through baum_i_problem_acceleration(). state->t is set by the caller. NULL for variable step. */
+  baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
+                      const double *a);
+
+  /* Variable step; NULL for fixed step. */
+  /* One step of its own length in problem->direction; state receives its end. On failure the state is that of the
+   * last good step and the method can only be restarted. */
+  baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
+  /* Positions and velocities inside the last step. */
+  baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
+                             double *v);
+  /* Begin anew from a state, in problem->direction. Allocates nothing. */
+  baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
+  void (*statistics)(const void *self, baum_i_statistics *out);
+};
+
+/* a and lambda at a state as the formulation says, into workspace->a, ->lambda. */
+baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
+                                        const double *v);
+
+/* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
+ * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i. */
+void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
+                               double *tolerance_v);
+
+/* Formulation offered? */
+bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
+
+#endif
