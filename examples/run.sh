@@ -21,17 +21,17 @@ mkdir -p "$out"
 summary=
 failures=0
 
-# run NAME COMMAND...: run one example, keep and show what it prints, note how it went.
+# run TITLE COMMAND...: run one example, keep and show what it prints, note how it went.
 run() {
-  name=$1
+  title=$1
   shift
-  heading "$name"
+  heading "$title"
   begun=$(date +%s)
   verdict=ok
-  "$@" >"$out/$name.txt" 2>&1 || verdict=FAILED
-  cat "$out/$name.txt"
+  "$@" >"$out/$title.txt" 2>&1 || verdict=FAILED
+  cat "$out/$title.txt"
   [ "$verdict" = ok ] || failures=$((failures + 1))
-  summary="$summary$(printf '%-28s %-6s %5d s' "$name" "$verdict" "$(($(date +%s) - begun))")
+  summary="$summary$(printf '%-28s %-6s %5d s' "$title" "$verdict" "$(($(date +%s) - begun))")
 "
 }
 

@@ -97,9 +97,9 @@ stage_tidy() {
   need_venv
   build_clang
   echo "clang-tidy"
-  find src examples -name '*.c' | sort |
-    xargs -P "$jobs" -n 4 clang-tidy -p build/clang --quiet 2>build/tidy.log || {
-    cat build/tidy.log
+  find src -name '*.c' | sort |
+    xargs -P "$jobs" -n 1 clang-tidy -p build/clang --quiet 2>build/tidy.log || {
+    grep -v 'warnings\{0,1\} generated' build/tidy.log || true
     return 1
   }
   echo "limits"

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # usage: check_symbols.sh SHARED STATIC HEADERS
 # What the libraries define is ours by name and, if exported, declared in a public header. What
-# they call neither prints, opens files nor ends the process, and memory comes from base/alloc.
+# they call neither prints, opens files nor ends the process, memory comes from base/alloc, and
+# nothing that can change is shared between threads.
 set -eu
 shared=$1
 static=$2
@@ -41,6 +42,9 @@ complain "prints, opens a file, or ends the process" "$(echo "$called" | grep -E
 complain "allocates outside base/alloc" "$(echo "$called" |
   grep -E ' (malloc|calloc|realloc|free|aligned_alloc|posix_memalign|strdup|strndup)$' |
   grep -v '^alloc\.c\.o ' || true)"
+complain "has variables that all threads share" "$(size -A "$static" | awk '
+  / \(ex / { object = $1 }
+  /^\.(data|bss) / && $2 > 0 { print object, $1, $2 " bytes" }')"
 
 echo "$(echo "$exported" | wc -l) exported, $(echo "$global" | wc -l) global, $failures complaints"
 [ "$failures" -eq 0 ]
