@@ -6,9 +6,9 @@
 #include <baum/status.h>
 
 #if defined(__GNUC__)
-#define BAUM_I_PRINTF(format, first) __attribute__((format(printf, format, first)))
+#define BAUM_I_PRINTF(text, first) __attribute__((format(printf, text, first)))
 #else
-#define BAUM_I_PRINTF(format, first)
+#define BAUM_I_PRINTF(text, first)
 #endif
 
 /* Length of the longest sentence kept, with its terminating zero. */

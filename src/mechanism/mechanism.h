@@ -72,6 +72,7 @@ typedef struct baum_i_force_type baum_i_force_type;
 typedef struct baum_i_body {
   baum_i_element element;
   const baum_i_body_type *type;
+  baum_i_span span; /* itself; columns set at freeze */
   int q;      /* first position */
   int v;      /* first velocity */
   int nv;     /* number of both */
@@ -219,6 +220,7 @@ struct baum_i_joint_type {
   /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
   /* Only joints with a coordinate, else NULL. */
+  const char *coordinate_unit; /* "rad", "m" */
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point, const double w[6],
                                double lambda, baum_i_coordinate_blocks *out);
@@ -281,6 +283,17 @@ const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
 /* Free everything that freeze made; keeps the elements. */
 void baum_i_mechanism_thaw(baum_mechanism *mechanism);
 
+/* Elements from checked definitions, for add and copy; NULL when out of memory, with the sentence. Free takes NULL. */
+void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *type,
+                      const void *def, int number);
+void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type *type,
+                       const void *def, int number);
+void *baum_i_force_new(const baum_mechanism *mechanism, const baum_i_force_type *type,
+                       const void *def, int number);
+void baum_i_body_free(baum_i_body *body);
+void baum_i_joint_free(baum_i_joint *joint);
+void baum_i_force_free(baum_i_force *force);
+
 /* Index of an id's element, or -1: none, foreign or out of range. Ground gives 0 for bodies. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
@@ -290,6 +303,8 @@ int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* fr
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
                               const char *field);
 baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
+                               const char *field);
+baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
                                const char *field);
 
 /* Joint that owns a row; frozen only. */

@@ -1,0 +1,505 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The life of a definition: defaults, check, copy into an element, read back, replace.
+ *
+ * Every add and set works on the side and changes the mechanism only when nothing can fail any more.
+ */
+#include "mechanism/definition.h"
+
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+
+/* ---- checks ---- */
+
+baum_status baum_i_check_finite(const char *label, const char *field, const char *unit,
+                                double value)
+{
+  if (isfinite(value)) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite", label, field, value,
+                     unit);
+}
+
+baum_status baum_i_check_positive(const char *label, const char *field, const char *unit,
+                                  double value)
+{
+  if (isfinite(value) && value > 0.0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and > 0", label, field,
+                     value, unit);
+}
+
+baum_status baum_i_check_not_negative(const char *label, const char *field, const char *unit,
+                                      double value)
+{
+  if (isfinite(value) && value >= 0.0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and >= 0", label, field,
+                     value, unit);
+}
+
+baum_status baum_i_check_optional(const char *label, const char *field, const char *unit,
+                                  double value)
+{
+  if (isfinite(value) || isnan(value)) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite, or NaN for not given",
+                     label, field, value, unit);
+}
+
+static const void *defined(const void *def, const baum_i_definition *definition)
+{
+  const baum_i_def_head *head = def;
+  if (!def) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the definition is NULL", definition->kind);
+    return NULL;
+  }
+  if (head->struct_size != definition->size) {
+    (void)baum_i_fail(BAUM_ERR_STRUCT,
+                      "%s: struct_size is %zu, must be %zu; start from the default definition",
+                      definition->kind, head->struct_size, definition->size);
+    return NULL;
+  }
+  return def;
+}
+
+/* ---- the element's own copy ---- */
+
+static void release(baum_i_element *element)
+{
+  if (element->def && element->definition->release) {
+    element->definition->release(element->def);
+  }
+  baum_i_free(element->def);
+  baum_i_free(element->name);
+  element->def = NULL;
+  element->name = NULL;
+}
+
+/* Fill an element from a definition whose fields are already checked; on failure it owns nothing. */
+static baum_status fill(baum_i_element *element, const void *def, const char *default_name)
+{
+  const baum_i_definition *definition = element->definition;
+  const char *given = ((const baum_i_def_head *)def)->name;
+  element->name = baum_i_copy_text(given ? given : default_name);
+  element->def = baum_i_copy(def, 1, definition->size);
+  if (!element->name || !element->def) {
+    baum_i_free(element->def);
+    element->def = NULL;
+    release(element);
+    return baum_i_fail_memory();
+  }
+  if (definition->own && definition->own(element->def) != BAUM_OK) {
+    baum_i_free(element->def);
+    element->def = NULL;
+    release(element);
+    return baum_i_fail_memory();
+  }
+  ((baum_i_def_head *)element->def)->name = given ? element->name : NULL;
+  return BAUM_OK;
+}
+
+/* ---- one element of any family ---- */
+
+/* What the three families differ in, drawn from a type. */
+typedef struct kind {
+  const char *family; /* "body", "joint", "force" */
+  size_t size;        /* of the element's struct, which begins with its baum_i_element */
+  size_t span;        /* offset of its baum_i_span */
+  const baum_i_definition *definition;
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span); /* or NULL */
+  int (*count)(const void *def); /* velocities or rows; or NULL */
+} kind;
+
+static kind body_kind(const baum_i_body_type *type)
+{
+  return (kind){"body", sizeof(baum_i_body), offsetof(baum_i_body, span), &type->definition, NULL,
+                type->size};
+}
+
+static kind joint_kind(const baum_i_joint_type *type)
+{
+  return (kind){"joint",           sizeof(baum_i_joint), offsetof(baum_i_joint, span),
+                &type->definition, type->bodies,         type->rows};
+}
+
+static kind force_kind(const baum_i_force_type *type)
+{
+  return (kind){"force",           sizeof(baum_i_force), offsetof(baum_i_force, span),
+                &type->definition, type->bodies,         NULL};
+}
+
+static baum_i_span *span_of(const kind *k, void *item)
+{
+  return (baum_i_span *)((char *)item + k->span);
+}
+
+/* Check a definition for the number-th element of its family. */
+static baum_status check(const baum_mechanism *mechanism, const kind *k, const void *def,
+                         int number)
+{
+  const baum_i_definition *definition = k->definition;
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", definition->kind);
+  }
+  if (mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
+                       definition->kind);
+  }
+  if (!defined(def, definition)) {
+    return def ? BAUM_ERR_STRUCT : BAUM_ERR_ARGUMENT;
+  }
+  const char *name = ((const baum_i_def_head *)def)->name;
+  char label[BAUM_I_LABEL_SIZE];
+  if (name) {
+    (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", k->family, number, name);
+  } else {
+    (void)snprintf(label, sizeof label, "%s %d \"%s%d\"", k->family, number, k->family, number);
+  }
+  return definition->check(mechanism, def, label);
+}
+
+static void free_span(baum_i_span *span)
+{
+  baum_i_free(span->bodies);
+  baum_i_free(span->columns);
+}
+
+static baum_status make_span(const baum_mechanism *mechanism, const kind *k, const void *def,
+                             baum_i_span *span)
+{
+  *span = (baum_i_span){0};
+  if (!k->bodies) {
+    return BAUM_OK;
+  }
+  k->bodies(mechanism, def, span);
+  span->bodies = baum_i_alloc((size_t)span->body_count, sizeof *span->bodies);
+  if (!span->bodies) {
+    return baum_i_fail_memory();
+  }
+  k->bodies(mechanism, def, span);
+  return BAUM_OK;
+}
+
+static void item_free(void *item, size_t span)
+{
+  if (item) {
+    free_span((baum_i_span *)((char *)item + span));
+    release(item);
+    baum_i_free(item);
+  }
+}
+
+/* A new element from a checked definition; NULL when out of memory, with the sentence. */
+static void *item_new(const baum_mechanism *mechanism, const kind *k, const void *def, int number)
+{
+  baum_i_element *element = baum_i_alloc(1, k->size);
+  if (!element) {
+    (void)baum_i_fail_memory();
+    return NULL;
+  }
+  element->definition = k->definition;
+  element->index = number;
+  char name[BAUM_I_LABEL_SIZE];
+  (void)snprintf(name, sizeof name, "%s%d", k->family, number);
+  if (fill(element, def, name) != BAUM_OK ||
+      make_span(mechanism, k, element->def, span_of(k, element)) != BAUM_OK) {
+    item_free(element, k->span);
+    return NULL;
+  }
+  return element;
+}
+
+/* Grow an array of pointers to hold count; NULL when out of memory, with the sentence. */
+static void *grow(void *list, int count)
+{
+  void *grown = baum_i_grow(list, (size_t)count, sizeof(void *));
+  if (!grown) {
+    (void)baum_i_fail_memory();
+  }
+  return grown;
+}
+
+/* Whether a new definition keeps what the element is tied to: kind, number of velocities or rows, bodies. */
+static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, const void *def,
+                              baum_i_element *element)
+{
+  if (element->definition != k->definition) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", k->family,
+                       element->index, element->name, element->definition->kind,
+                       k->definition->kind);
+  }
+  if (k->count && k->count(def) != k->count(element->def)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its size is %d and must stay", k->family,
+                       element->index, element->name, k->count(element->def));
+  }
+  baum_i_span next;
+  baum_i_span *span = span_of(k, element);
+  if (make_span(mechanism, k, def, &next) != BAUM_OK) {
+    return BAUM_ERR_MEMORY;
+  }
+  bool same = next.body_count == span->body_count;
+  for (int i = 0; same && i < span->body_count; i++) {
+    same = next.bodies[i] == span->bodies[i];
+  }
+  free_span(&next);
+  return same ? BAUM_OK
+              : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its bodies must stay", k->family,
+                            element->index, element->name);
+}
+
+static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element *element,
+                       const void *def)
+{
+  baum_status status = check(mechanism, k, def, element->index);
+  if (status == BAUM_OK) {
+    status = check_ties(mechanism, k, def, element);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_element next = *element;
+  char name[BAUM_I_LABEL_SIZE];
+  (void)snprintf(name, sizeof name, "%s%d", k->family, element->index);
+  status = fill(&next, def, name);
+  if (status == BAUM_OK) {
+    release(element);
+    *element = next;
+  }
+  return status;
+}
+
+static baum_status get(const kind *k, const baum_i_element *element, void *out, size_t caller_size)
+{
+  const baum_i_definition *definition = k->definition;
+  if (!out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL or its size is 0", definition->kind);
+  }
+  if (element->definition != definition) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", k->family,
+                       element->index, element->name, element->definition->kind, definition->kind);
+  }
+  size_t bytes = caller_size < definition->size ? caller_size : definition->size;
+  memcpy(out, element->def, bytes);
+  ((baum_i_def_head *)out)->struct_size = bytes;
+  return BAUM_OK;
+}
+
+void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
+{
+  if (!def || caller_size < sizeof(size_t)) {
+    return;
+  }
+  size_t bytes = caller_size < definition->size ? caller_size : definition->size;
+  memcpy(def, definition->defaults, bytes);
+  ((baum_i_def_head *)def)->struct_size = bytes;
+}
+
+/* ---- bodies ---- */
+
+void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *type,
+                      const void *def, int number)
+{
+  kind k = body_kind(type);
+  baum_i_body *body = item_new(mechanism, &k, def, number);
+  if (body) {
+    body->type = type;
+    body->nv = type->size(body->element.def);
+  }
+  return body;
+}
+
+void baum_i_body_free(baum_i_body *body)
+{
+  item_free(body, offsetof(baum_i_body, span));
+}
+
+baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *type,
+                            const void *def, baum_body_id *id)
+{
+  kind k = body_kind(type);
+  int number = mechanism ? mechanism->body_count + 1 : 0;
+  baum_status status = check(mechanism, &k, def, number);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_body **list = grow(mechanism->bodies, number + 1);
+  if (!list) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->bodies = list;
+  list[number] = baum_i_body_new(mechanism, type, def, number);
+  if (!list[number]) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->body_count = number;
+  if (id) {
+    *id = (baum_body_id){number, mechanism->tag};
+  }
+  return BAUM_OK;
+}
+
+/* The element of an id, or NULL with the sentence. */
+static baum_i_element *body_element(const baum_mechanism *mechanism, const char *what,
+                                    baum_body_id id)
+{
+  if (baum_i_check_body(mechanism, id, what, "id") != BAUM_OK) {
+    return NULL;
+  }
+  if (id.index1 == BAUM_GROUND.index1) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "%s: ground has no definition", what);
+    return NULL;
+  }
+  return &mechanism->bodies[id.index1]->element;
+}
+
+baum_status baum_i_get_body(const baum_mechanism *mechanism, const baum_i_body_type *type,
+                            baum_body_id id, void *out, size_t caller_size)
+{
+  kind k = body_kind(type);
+  baum_i_element *element = body_element(mechanism, type->definition.kind, id);
+  return element ? get(&k, element, out, caller_size) : BAUM_ERR_ARGUMENT;
+}
+
+baum_status baum_i_set_body(baum_mechanism *mechanism, const baum_i_body_type *type,
+                            baum_body_id id, const void *def)
+{
+  kind k = body_kind(type);
+  baum_i_element *element = body_element(mechanism, type->definition.kind, id);
+  return element ? set(mechanism, &k, element, def) : BAUM_ERR_ARGUMENT;
+}
+
+/* ---- joints ---- */
+
+void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type *type,
+                       const void *def, int number)
+{
+  kind k = joint_kind(type);
+  baum_i_joint *joint = item_new(mechanism, &k, def, number);
+  if (joint) {
+    joint->type = type;
+    joint->rows = type->rows(joint->element.def);
+  }
+  return joint;
+}
+
+void baum_i_joint_free(baum_i_joint *joint)
+{
+  item_free(joint, offsetof(baum_i_joint, span));
+}
+
+baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type *type,
+                             const void *def, baum_joint_id *id)
+{
+  kind k = joint_kind(type);
+  int number = mechanism ? mechanism->joint_count + 1 : 0;
+  baum_status status = check(mechanism, &k, def, number);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_joint **list = grow(mechanism->joints, number);
+  if (!list) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->joints = list;
+  list[number - 1] = baum_i_joint_new(mechanism, type, def, number);
+  if (!list[number - 1]) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->joint_count = number;
+  if (id) {
+    *id = (baum_joint_id){number, mechanism->tag};
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_get_joint(const baum_mechanism *mechanism, const baum_i_joint_type *type,
+                             baum_joint_id id, void *out, size_t caller_size)
+{
+  kind k = joint_kind(type);
+  baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
+  return status == BAUM_OK
+           ? get(&k, &mechanism->joints[id.index1 - 1]->element, out, caller_size)
+           : status;
+}
+
+baum_status baum_i_set_joint(baum_mechanism *mechanism, const baum_i_joint_type *type,
+                             baum_joint_id id, const void *def)
+{
+  kind k = joint_kind(type);
+  baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
+  return status == BAUM_OK
+           ? set(mechanism, &k, &mechanism->joints[id.index1 - 1]->element, def)
+           : status;
+}
+
+/* ---- forces ---- */
+
+void *baum_i_force_new(const baum_mechanism *mechanism, const baum_i_force_type *type,
+                       const void *def, int number)
+{
+  kind k = force_kind(type);
+  baum_i_force *force = item_new(mechanism, &k, def, number);
+  if (force) {
+    force->type = type;
+  }
+  return force;
+}
+
+void baum_i_force_free(baum_i_force *force)
+{
+  item_free(force, offsetof(baum_i_force, span));
+}
+
+baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type *type,
+                             const void *def, baum_force_id *id)
+{
+  kind k = force_kind(type);
+  int number = mechanism ? mechanism->force_count + 1 : 0;
+  baum_status status = check(mechanism, &k, def, number);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_force **list = grow(mechanism->forces, number);
+  if (!list) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->forces = list;
+  list[number - 1] = baum_i_force_new(mechanism, type, def, number);
+  if (!list[number - 1]) {
+    return BAUM_ERR_MEMORY;
+  }
+  mechanism->force_count = number;
+  if (id) {
+    *id = (baum_force_id){number, mechanism->tag};
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_get_force(const baum_mechanism *mechanism, const baum_i_force_type *type,
+                             baum_force_id id, void *out, size_t caller_size)
+{
+  kind k = force_kind(type);
+  baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
+  return status == BAUM_OK
+           ? get(&k, &mechanism->forces[id.index1 - 1]->element, out, caller_size)
+           : status;
+}
+
+baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type *type,
+                             baum_force_id id, const void *def)
+{
+  kind k = force_kind(type);
+  baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
+  return status == BAUM_OK
+           ? set(mechanism, &k, &mechanism->forces[id.index1 - 1]->element, def)
+           : status;
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Evaluation of a whole mechanism: one call per group. */
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/mechanism.h"
+
+/* ---- frames ---- */
+
+static void set_body_frame(baum_i_frame *frame, const double *q, const double *v)
+{
+  frame->x = q[0];
+  frame->y = q[1];
+  frame->angle = q[2];
+  frame->c = cos(q[2]);
+  frame->s = sin(q[2]);
+  frame->vx = v ? v[0] : 0.0;
+  frame->vy = v ? v[1] : 0.0;
+  frame->w = v ? v[2] : 0.0;
+}
+
+static void set_particle_frame(baum_i_frame *frame, const double *q, const double *v)
+{
+  *frame = (baum_i_frame){.x = q[0], .y = q[1], .c = 1.0};
+  frame->vx = v ? v[0] : 0.0;
+  frame->vy = v ? v[1] : 0.0;
+}
+
+void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  point->t = t;
+  point->q = q;
+  point->v = v;
+  point->retry = false;
+  point->frames[0] = (baum_i_frame){.c = 1.0};
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    const baum_i_body *body = mechanism->bodies[i];
+    const double *body_v = v ? v + body->v : NULL;
+    if (body->type->frame == BAUM_I_FRAME_BODY) {
+      set_body_frame(&point->frames[i], q + body->q, body_v);
+    } else if (body->type->frame == BAUM_I_FRAME_PARTICLE) {
+      set_particle_frame(&point->frames[i], q + body->q, body_v);
+    }
+  }
+}
+
+/* ---- joints ---- */
+
+baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+    status = group->type->phi(group, point, phi);
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+    status = group->type->jacobian(group, point, jacobian);
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  memset(nu, 0, (size_t)mechanism->nc * sizeof *nu);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+    if (group->type->nu) {
+      status = group->type->nu(group, point, nu);
+    }
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+    status = group->type->gamma(group, point, gamma);
+  }
+  return status;
+}
+
+static void clear(double *values, int count)
+{
+  if (values) {
+    memset(values, 0, (size_t)count * sizeof *values);
+  }
+}
+
+baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double *w,
+                                              const double *lambda,
+                                              const baum_i_joint_blocks *blocks)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  clear(blocks->jw_q, mechanism->jacobian_size);
+  clear(blocks->gamma_q, mechanism->jacobian_size);
+  clear(blocks->gamma_v, mechanism->jacobian_size);
+  clear(blocks->nu_q, mechanism->jacobian_size);
+  clear(blocks->jtl_q, mechanism->joint_square_size);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+    status = group->type->linearize(group, point, w, lambda, blocks);
+  }
+  return status;
+}
+
+/* ---- bodies and forces ---- */
+
+baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+    const baum_i_body_group *group = &mechanism->body_groups[k];
+    status = group->type->mass(group, point, mass);
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_force(baum_i_point *point, double *force)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  clear(force, mechanism->nv);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+    const baum_i_body_group *group = &mechanism->body_groups[k];
+    status = group->type->force(group, point, force);
+  }
+  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+    const baum_i_force_group *group = &mechanism->force_groups[k];
+    status = group->type->force(group, point, force);
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  *potential = 0.0;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+    const baum_i_body_group *group = &mechanism->body_groups[k];
+    if (group->type->potential) {
+      status = group->type->potential(group, point, potential);
+    }
+  }
+  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+    const baum_i_force_group *group = &mechanism->force_groups[k];
+    if (group->type->potential) {
+      status = group->type->potential(group, point, potential);
+    }
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
+                                              const baum_i_body_blocks *blocks)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  clear(blocks->ma_q, mechanism->mass_size);
+  clear(blocks->force_q, mechanism->mass_size);
+  clear(blocks->force_v, mechanism->mass_size);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+    const baum_i_body_group *group = &mechanism->body_groups[k];
+    if (group->type->linearize) {
+      status = group->type->linearize(group, point, a, blocks);
+    }
+  }
+  return status;
+}
+
+baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
+                                              const baum_i_force_blocks *blocks)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  clear(blocks->force_q, mechanism->force_square_size);
+  clear(blocks->force_v, mechanism->force_square_size);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+    const baum_i_force_group *group = &mechanism->force_groups[k];
+    status = group->type->linearize(group, point, blocks);
+  }
+  return status;
+}

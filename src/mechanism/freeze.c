@@ -1,0 +1,409 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Freezing: from definitions to the constant structure.
+ *
+ * Columns and rows are numbered in the order of adding; elements of one type are gathered into groups; every number goes
+ * into the parameter array. On failure everything is undone and the mechanism stays open.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "mechanism/mechanism.h"
+#include "mechanism/planar.h"
+#include "mechanism/user_function.h"
+
+/* ---- undo ---- */
+
+static void drop_columns(baum_i_span *span)
+{
+  baum_i_free(span->columns);
+  span->columns = NULL;
+  span->nl = 0;
+}
+
+void baum_i_mechanism_thaw(baum_mechanism *mechanism)
+{
+  for (int i = 1; mechanism->bodies && i <= mechanism->body_count; i++) {
+    drop_columns(&mechanism->bodies[i]->span);
+  }
+  for (int i = 0; i < mechanism->joint_count; i++) {
+    drop_columns(&mechanism->joints[i]->span);
+  }
+  for (int i = 0; i < mechanism->force_count; i++) {
+    drop_columns(&mechanism->forces[i]->span);
+  }
+  for (int k = 0; k < mechanism->body_group_count; k++) {
+    baum_i_free(mechanism->body_groups[k].bodies);
+  }
+  for (int k = 0; k < mechanism->joint_group_count; k++) {
+    baum_i_free(mechanism->joint_groups[k].joints);
+  }
+  for (int k = 0; k < mechanism->force_group_count; k++) {
+    baum_i_free(mechanism->force_groups[k].forces);
+  }
+  baum_i_free(mechanism->body_groups);
+  baum_i_free(mechanism->joint_groups);
+  baum_i_free(mechanism->force_groups);
+  baum_i_free(mechanism->parameters);
+  baum_i_free(mechanism->drawn_q);
+  baum_i_free(mechanism->drawn_v);
+  baum_i_free(mechanism->held);
+  baum_i_free(mechanism->scale);
+  mechanism->body_groups = NULL;
+  mechanism->joint_groups = NULL;
+  mechanism->force_groups = NULL;
+  mechanism->body_group_count = 0;
+  mechanism->joint_group_count = 0;
+  mechanism->force_group_count = 0;
+  mechanism->parameters = NULL;
+  mechanism->drawn_q = NULL;
+  mechanism->drawn_v = NULL;
+  mechanism->held = NULL;
+  mechanism->scale = NULL;
+  mechanism->frozen = false;
+}
+
+/* ---- numbering ---- */
+
+static void widen(int *largest, int candidate)
+{
+  if (candidate > *largest) {
+    *largest = candidate;
+  }
+}
+
+static void number_bodies(baum_mechanism *mechanism, int *parameters)
+{
+  mechanism->nv = 0;
+  mechanism->mass_size = 0;
+  mechanism->constant_mass = true;
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    baum_i_body *body = mechanism->bodies[i];
+    body->q = mechanism->nv;
+    body->v = mechanism->nv;
+    body->mass = mechanism->mass_size;
+    body->element.parameter = *parameters;
+    *parameters += body->type->parameter_count;
+    mechanism->nv += body->nv;
+    mechanism->mass_size += body->nv * body->nv;
+    mechanism->constant_mass &= body->type->constant_mass(body->element.def);
+    widen(&mechanism->scratch_size, baum_i_scratch_size(body->nv, body->nv));
+  }
+  mechanism->nq = mechanism->nv;
+}
+
+static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *span)
+{
+  int nl = 0;
+  for (int i = 0; i < span->body_count; i++) {
+    nl += mechanism->bodies[span->bodies[i]]->nv;
+  }
+  span->columns = baum_i_alloc((size_t)nl, sizeof *span->columns);
+  if (!span->columns) {
+    return baum_i_fail_memory();
+  }
+  span->nl = 0;
+  for (int i = 0; i < span->body_count; i++) {
+    const baum_i_body *body = mechanism->bodies[span->bodies[i]];
+    for (int j = 0; j < body->nv; j++) {
+      span->columns[span->nl++] = body->v + j;
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status number_body_spans(baum_mechanism *mechanism)
+{
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    baum_i_body *body = mechanism->bodies[i];
+    body->span.columns = baum_i_alloc((size_t)body->nv, sizeof *body->span.columns);
+    if (!body->span.columns) {
+      return baum_i_fail_memory();
+    }
+    body->span.nl = body->nv;
+    for (int j = 0; j < body->nv; j++) {
+      body->span.columns[j] = body->v + j;
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
+{
+  mechanism->nc = 0;
+  mechanism->jacobian_size = 0;
+  mechanism->joint_square_size = 0;
+  for (int i = 0; i < mechanism->joint_count; i++) {
+    baum_i_joint *joint = mechanism->joints[i];
+    baum_status status = number_span(mechanism, &joint->span);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    int nl = joint->span.nl;
+    joint->row = mechanism->nc;
+    joint->jacobian = mechanism->jacobian_size;
+    joint->square = mechanism->joint_square_size;
+    joint->element.parameter = *parameters;
+    *parameters += joint->type->parameter_count;
+    mechanism->nc += joint->rows;
+    mechanism->jacobian_size += joint->rows * nl;
+    mechanism->joint_square_size += nl * nl;
+    widen(&mechanism->scratch_size, baum_i_scratch_size(nl, joint->rows));
+  }
+  return BAUM_OK;
+}
+
+static baum_status number_forces(baum_mechanism *mechanism, int *parameters)
+{
+  mechanism->force_square_size = 0;
+  for (int i = 0; i < mechanism->force_count; i++) {
+    baum_i_force *force = mechanism->forces[i];
+    baum_status status = number_span(mechanism, &force->span);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    int nl = force->span.nl;
+    force->square = mechanism->force_square_size;
+    force->element.parameter = *parameters;
+    *parameters += force->type->parameter_count;
+    mechanism->force_square_size += nl * nl;
+    widen(&mechanism->scratch_size, baum_i_scratch_size(nl, nl));
+  }
+  return BAUM_OK;
+}
+
+/* ---- groups ---- */
+
+static baum_i_body_group *body_group(baum_mechanism *mechanism, const baum_i_body_type *type)
+{
+  int k = 0;
+  while (k < mechanism->body_group_count && mechanism->body_groups[k].type != type) {
+    k++;
+  }
+  if (k == mechanism->body_group_count) {
+    mechanism->body_groups[k].type = type;
+    mechanism->body_groups[k].bodies =
+      baum_i_alloc((size_t)mechanism->body_count, sizeof(baum_i_body *));
+    mechanism->body_group_count += mechanism->body_groups[k].bodies ? 1 : 0;
+  }
+  return mechanism->body_groups[k].bodies ? &mechanism->body_groups[k] : NULL;
+}
+
+static baum_i_joint_group *joint_group(baum_mechanism *mechanism, const baum_i_joint_type *type)
+{
+  int k = 0;
+  while (k < mechanism->joint_group_count && mechanism->joint_groups[k].type != type) {
+    k++;
+  }
+  if (k == mechanism->joint_group_count) {
+    mechanism->joint_groups[k].type = type;
+    mechanism->joint_groups[k].joints =
+      baum_i_alloc((size_t)mechanism->joint_count, sizeof(baum_i_joint *));
+    mechanism->joint_group_count += mechanism->joint_groups[k].joints ? 1 : 0;
+  }
+  return mechanism->joint_groups[k].joints ? &mechanism->joint_groups[k] : NULL;
+}
+
+static baum_i_force_group *force_group(baum_mechanism *mechanism, const baum_i_force_type *type)
+{
+  int k = 0;
+  while (k < mechanism->force_group_count && mechanism->force_groups[k].type != type) {
+    k++;
+  }
+  if (k == mechanism->force_group_count) {
+    mechanism->force_groups[k].type = type;
+    mechanism->force_groups[k].forces =
+      baum_i_alloc((size_t)mechanism->force_count, sizeof(baum_i_force *));
+    mechanism->force_group_count += mechanism->force_groups[k].forces ? 1 : 0;
+  }
+  return mechanism->force_groups[k].forces ? &mechanism->force_groups[k] : NULL;
+}
+
+static baum_status make_groups(baum_mechanism *mechanism)
+{
+  mechanism->body_groups =
+    baum_i_alloc((size_t)mechanism->body_count, sizeof *mechanism->body_groups);
+  mechanism->joint_groups =
+    baum_i_alloc((size_t)mechanism->joint_count, sizeof *mechanism->joint_groups);
+  mechanism->force_groups =
+    baum_i_alloc((size_t)mechanism->force_count, sizeof *mechanism->force_groups);
+  if (!mechanism->body_groups || !mechanism->joint_groups || !mechanism->force_groups) {
+    return baum_i_fail_memory();
+  }
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    baum_i_body_group *group = body_group(mechanism, mechanism->bodies[i]->type);
+    if (!group) {
+      return baum_i_fail_memory();
+    }
+    group->bodies[group->count++] = mechanism->bodies[i];
+  }
+  for (int i = 0; i < mechanism->joint_count; i++) {
+    baum_i_joint_group *group = joint_group(mechanism, mechanism->joints[i]->type);
+    if (!group) {
+      return baum_i_fail_memory();
+    }
+    group->joints[group->count++] = mechanism->joints[i];
+  }
+  for (int i = 0; i < mechanism->force_count; i++) {
+    baum_i_force_group *group = force_group(mechanism, mechanism->forces[i]->type);
+    if (!group) {
+      return baum_i_fail_memory();
+    }
+    group->forces[group->count++] = mechanism->forces[i];
+  }
+  return BAUM_OK;
+}
+
+/* ---- length scale ---- */
+
+typedef struct box {
+  double low[2];
+  double high[2];
+} box;
+
+static void include_point(box *b, double x, double y)
+{
+  b->low[0] = fmin(b->low[0], x);
+  b->low[1] = fmin(b->low[1], y);
+  b->high[0] = fmax(b->high[0], x);
+  b->high[1] = fmax(b->high[1], y);
+}
+
+static void include_marker(box *b, const baum_i_frame *f, const double s[2])
+{
+  if (isfinite(s[0]) && isfinite(s[1])) {
+    include_point(b, f->x + f->c * s[0] - f->s * s[1], f->y + f->s * s[0] + f->c * s[1]);
+  }
+}
+
+/* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1 when it has none, as
+ * with user coordinates only. */
+static double drawing_size(const baum_mechanism *mechanism)
+{
+  box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    if (mechanism->bodies[i]->type->frame != BAUM_I_FRAME_NONE) {
+      baum_i_frame f = baum_i_drawn_frame(mechanism, i);
+      include_point(&b, f.x, f.y);
+    }
+  }
+  for (int i = 0; i < mechanism->joint_count; i++) {
+    const baum_i_joint *joint = mechanism->joints[i];
+    if (joint->type->planar && joint->type->place) {
+      const baum_i_planar_head *head = joint->element.def;
+      baum_i_frame fa = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
+      baum_i_frame fb = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
+      include_marker(&b, &(baum_i_frame){.c = 1.0}, head->point);
+      include_marker(&b, &fa, head->point_a);
+      include_marker(&b, &fb, head->point_b);
+    }
+  }
+  double diagonal = hypot(b.high[0] - b.low[0], b.high[1] - b.low[1]);
+  if (isfinite(diagonal) && diagonal > 0.0) {
+    return diagonal;
+  }
+  double offset = hypot(b.low[0], b.low[1]); /* one particle: its distance from the origin */
+  return isfinite(offset) && offset > 0.0 ? offset : 1.0;
+}
+
+/* ---- numbers ---- */
+
+static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
+{
+  size_t nv = (size_t)mechanism->nv;
+  mechanism->parameters = baum_i_alloc((size_t)parameters, sizeof(double));
+  mechanism->drawn_q = baum_i_alloc(nv, sizeof(double));
+  mechanism->drawn_v = baum_i_alloc(nv, sizeof(double));
+  mechanism->held = baum_i_alloc(nv, sizeof(bool));
+  mechanism->scale = baum_i_alloc(nv, sizeof(double));
+  bool complete = mechanism->parameters && mechanism->drawn_q && mechanism->drawn_v &&
+                  mechanism->held && mechanism->scale;
+  return complete ? BAUM_OK : baum_i_fail_memory();
+}
+
+static void draw_bodies(baum_mechanism *mechanism)
+{
+  mechanism->length =
+    isnan(mechanism->given_scale) ? drawing_size(mechanism) : mechanism->given_scale;
+  for (int i = 1; i <= mechanism->body_count; i++) {
+    const baum_i_body *body = mechanism->bodies[i];
+    bool held = false;
+    if (body->type->lower) {
+      body->type->lower(body, mechanism->parameters + body->element.parameter);
+    }
+    body->type->drawn(body->element.def, mechanism->drawn_q + body->q,
+                      mechanism->drawn_v + body->v, &held);
+    body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);
+    for (int j = 0; j < body->nv; j++) {
+      mechanism->held[body->q + j] = held;
+    }
+  }
+}
+
+static baum_status lower(baum_mechanism *mechanism)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
+    const baum_i_joint *joint = mechanism->joints[i];
+    if (joint->type->lower) {
+      status = joint->type->lower(mechanism, joint,
+                                  mechanism->parameters + joint->element.parameter);
+    }
+  }
+  for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
+    const baum_i_force *force = mechanism->forces[i];
+    if (force->type->lower) {
+      status = force->type->lower(mechanism, force,
+                                  mechanism->parameters + force->element.parameter);
+    }
+  }
+  return status;
+}
+
+/* ---- the whole ---- */
+
+static baum_status build(baum_mechanism *mechanism)
+{
+  int parameters = 0;
+  mechanism->scratch_size = 0;
+  number_bodies(mechanism, &parameters);
+  baum_status status = number_body_spans(mechanism);
+  if (status == BAUM_OK) {
+    status = number_joints(mechanism, &parameters);
+  }
+  if (status == BAUM_OK) {
+    status = number_forces(mechanism, &parameters);
+  }
+  if (status == BAUM_OK) {
+    status = make_groups(mechanism);
+  }
+  if (status == BAUM_OK) {
+    status = make_arrays(mechanism, parameters);
+  }
+  if (status == BAUM_OK) {
+    draw_bodies(mechanism);
+    status = lower(mechanism);
+  }
+  return status;
+}
+
+baum_status baum_mechanism_freeze(baum_mechanism *mechanism)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_freeze: the mechanism is NULL");
+  }
+  if (mechanism->frozen) {
+    return BAUM_OK;
+  }
+  if (mechanism->body_count == 0) {
+    return baum_i_fail(BAUM_ERR_STATE, "baum_mechanism_freeze: the mechanism has no body");
+  }
+  baum_status status = build(mechanism);
+  if (status != BAUM_OK) {
+    baum_i_mechanism_thaw(mechanism);
+    return status;
+  }
+  mechanism->frozen = true;
+  return BAUM_OK;
+}

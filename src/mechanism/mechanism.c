@@ -1,0 +1,408 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A mechanism as an object: create, copy, share, destroy, ids, names, what is set on the whole. */
+#include "mechanism/mechanism.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "mechanism/definition.h"
+
+/* ---- life ---- */
+
+/* A tag that two mechanisms share by chance once in 2^32: address and time, well mixed (Stafford's mix 13). A counter
+ * would be global state. */
+static uint32_t make_tag(const void *address)
+{
+  struct timespec now = {0};
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  uint64_t x = (uint64_t)(uintptr_t)address;
+  x ^= (uint64_t)now.tv_sec * 1000000007u + (uint64_t)now.tv_nsec * 0x9e3779b97f4a7c15u;
+  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+  uint32_t tag = (uint32_t)(x ^ (x >> 31));
+  return tag != 0 ? tag : 1;
+}
+
+static baum_i_body *make_ground(void)
+{
+  baum_i_body *ground = baum_i_alloc(1, sizeof *ground);
+  if (!ground) {
+    return NULL;
+  }
+  ground->element.name = baum_i_copy_text("ground");
+  if (!ground->element.name) {
+    baum_i_free(ground);
+    return NULL;
+  }
+  return ground;
+}
+
+baum_status baum_mechanism_create(baum_mechanism **out)
+{
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_create: out is NULL");
+  }
+  *out = NULL;
+  baum_mechanism *mechanism = baum_i_alloc(1, sizeof *mechanism);
+  if (!mechanism) {
+    return baum_i_fail_memory();
+  }
+  atomic_init(&mechanism->references, 1);
+  mechanism->tag = make_tag(mechanism);
+  mechanism->gravity[1] = -9.81;
+  mechanism->given_scale = NAN;
+  mechanism->bodies = baum_i_alloc(1, sizeof(void *));
+  if (mechanism->bodies) {
+    mechanism->bodies[0] = make_ground();
+  }
+  if (!mechanism->bodies || !mechanism->bodies[0]) {
+    baum_mechanism_destroy(mechanism);
+    return baum_i_fail_memory();
+  }
+  *out = mechanism;
+  return BAUM_OK;
+}
+
+const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
+{
+  /* The count is the one member of a constant mechanism that changes. */
+  atomic_fetch_add(&((baum_mechanism *)(uintptr_t)mechanism)->references, 1);
+  return mechanism;
+}
+
+static void free_elements(baum_mechanism *mechanism)
+{
+  for (int i = 0; mechanism->bodies && i <= mechanism->body_count; i++) {
+    baum_i_body_free(mechanism->bodies[i]);
+  }
+  for (int i = 0; i < mechanism->joint_count; i++) {
+    baum_i_joint_free(mechanism->joints[i]);
+  }
+  for (int i = 0; i < mechanism->force_count; i++) {
+    baum_i_force_free(mechanism->forces[i]);
+  }
+  baum_i_free(mechanism->bodies);
+  baum_i_free(mechanism->joints);
+  baum_i_free(mechanism->forces);
+}
+
+void baum_mechanism_destroy(baum_mechanism *mechanism)
+{
+  if (!mechanism || atomic_fetch_sub(&mechanism->references, 1) > 1) {
+    return;
+  }
+  baum_i_mechanism_thaw(mechanism);
+  free_elements(mechanism);
+  baum_i_free(mechanism);
+}
+
+/* ---- copy ---- */
+
+static void *room(int count)
+{
+  return baum_i_alloc((size_t)count, sizeof(void *));
+}
+
+static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
+{
+  baum_i_body **bodies = baum_i_grow(to->bodies, (size_t)from->body_count + 1, sizeof *bodies);
+  if (!bodies) {
+    return baum_i_fail_memory();
+  }
+  to->bodies = bodies;
+  to->joints = room(from->joint_count);
+  to->forces = room(from->force_count);
+  if (!to->joints || !to->forces) {
+    return baum_i_fail_memory();
+  }
+  for (int i = 1; i <= from->body_count; i++) {
+    const baum_i_body *body = from->bodies[i];
+    to->bodies[i] = baum_i_body_new(to, body->type, body->element.def, i);
+    if (!to->bodies[i]) {
+      return BAUM_ERR_MEMORY;
+    }
+    to->body_count = i;
+  }
+  for (int i = 0; i < from->joint_count; i++) {
+    const baum_i_joint *joint = from->joints[i];
+    to->joints[i] = baum_i_joint_new(to, joint->type, joint->element.def, i + 1);
+    if (!to->joints[i]) {
+      return BAUM_ERR_MEMORY;
+    }
+    to->joint_count = i + 1;
+  }
+  for (int i = 0; i < from->force_count; i++) {
+    const baum_i_force *force = from->forces[i];
+    to->forces[i] = baum_i_force_new(to, force->type, force->element.def, i + 1);
+    if (!to->forces[i]) {
+      return BAUM_ERR_MEMORY;
+    }
+    to->force_count = i + 1;
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism **out)
+{
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: out is NULL");
+  }
+  *out = NULL;
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: the mechanism is NULL");
+  }
+  baum_mechanism *copy = NULL;
+  baum_status status = baum_mechanism_create(&copy);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  copy->tag = mechanism->tag;
+  copy->given_scale = mechanism->given_scale;
+  memcpy(copy->gravity, mechanism->gravity, sizeof copy->gravity);
+  status = copy_elements(copy, mechanism);
+  if (status != BAUM_OK) {
+    baum_mechanism_destroy(copy);
+    return status;
+  }
+  *out = copy;
+  return BAUM_OK;
+}
+
+/* ---- ids ---- */
+
+static int index_of(const baum_mechanism *mechanism, int32_t index1, uint32_t tag, int count)
+{
+  bool ours = mechanism && tag == mechanism->tag && index1 >= 1 && index1 <= count;
+  return ours ? index1 : -1;
+}
+
+int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id)
+{
+  if (mechanism && id.index1 == BAUM_GROUND.index1 && id.tag == BAUM_GROUND.tag) {
+    return 0;
+  }
+  return index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->body_count : 0);
+}
+
+int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id)
+{
+  int index1 = index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->joint_count : 0);
+  return index1 < 0 ? -1 : index1 - 1;
+}
+
+int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id)
+{
+  int index1 = index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->force_count : 0);
+  return index1 < 0 ? -1 : index1 - 1;
+}
+
+static baum_status check_id(const baum_mechanism *mechanism, int32_t index1, int found,
+                            const char *label, const char *field)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", label);
+  }
+  if (found >= 0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s", label, field,
+                     index1 == 0 ? "none, must be given" : "not of this mechanism");
+}
+
+baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
+                              const char *field)
+{
+  return check_id(mechanism, id.index1, baum_i_body_index(mechanism, id), label, field);
+}
+
+baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
+                               const char *field)
+{
+  return check_id(mechanism, id.index1, baum_i_joint_index(mechanism, id), label, field);
+}
+
+baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
+                               const char *field)
+{
+  return check_id(mechanism, id.index1, baum_i_force_index(mechanism, id), label, field);
+}
+
+baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint)
+{
+  return joint < 0 ? (baum_joint_id){0} : (baum_joint_id){joint + 1, mechanism->tag};
+}
+
+int baum_i_row_joint(const baum_mechanism *mechanism, int row)
+{
+  int low = 0;
+  int high = mechanism->joint_count - 1;
+  while (low < high) {
+    int middle = (low + high + 1) / 2;
+    if (mechanism->joints[middle]->row <= row) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
+  }
+  return low;
+}
+
+/* ---- names ---- */
+
+const char *baum_i_label(const baum_i_element *element, const char *family,
+                         char text[BAUM_I_LABEL_SIZE])
+{
+  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s %d \"%.80s\"", family, element->index, element->name);
+  return text;
+}
+
+const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
+                               char text[BAUM_I_LABEL_SIZE])
+{
+  return baum_i_label(&mechanism->joints[joint]->element, "joint", text);
+}
+
+const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body)
+{
+  int index = baum_i_body_index(mechanism, body);
+  return index < 0 ? NULL : mechanism->bodies[index]->element.name;
+}
+
+const char *baum_mechanism_joint_name(const baum_mechanism *mechanism, baum_joint_id joint)
+{
+  int index = baum_i_joint_index(mechanism, joint);
+  return index < 0 ? NULL : mechanism->joints[index]->element.name;
+}
+
+/* ---- the whole ---- */
+
+static baum_status check_open(const baum_mechanism *mechanism, const char *call)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
+  }
+  if (mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it", call);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
+{
+  baum_status status = check_open(mechanism, "baum_mechanism_set_gravity");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!isfinite(x) || !isfinite(y) || !isfinite(z)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "gravity is (%g, %g, %g) m/s^2, must be finite", x, y, z);
+  }
+  mechanism->gravity[0] = x;
+  mechanism->gravity[1] = y;
+  mechanism->gravity[2] = z;
+  return BAUM_OK;
+}
+
+baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double gravity[3])
+{
+  if (!mechanism || !gravity) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_get_gravity: %s is NULL",
+                       mechanism ? "gravity" : "the mechanism");
+  }
+  memcpy(gravity, mechanism->gravity, sizeof mechanism->gravity);
+  return BAUM_OK;
+}
+
+baum_status baum_mechanism_set_scale(baum_mechanism *mechanism, double length)
+{
+  baum_status status = check_open(mechanism, "baum_mechanism_set_scale");
+  if (status == BAUM_OK) {
+    status = baum_i_check_positive("mechanism", "length scale", "m", length);
+  }
+  if (status == BAUM_OK) {
+    mechanism->given_scale = length;
+  }
+  return status;
+}
+
+baum_status baum_mechanism_get_scale(const baum_mechanism *mechanism, double *length)
+{
+  if (!mechanism || !length) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_get_scale: %s is NULL",
+                       mechanism ? "length" : "the mechanism");
+  }
+  *length = mechanism->frozen ? mechanism->length : mechanism->given_scale;
+  return BAUM_OK;
+}
+
+bool baum_mechanism_is_frozen(const baum_mechanism *mechanism)
+{
+  return mechanism && mechanism->frozen;
+}
+
+static baum_status check_frozen(const baum_mechanism *mechanism, const char *call)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
+  }
+  if (!mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
+  }
+  return BAUM_OK;
+}
+
+static void put(int32_t *out, int value)
+{
+  if (out) {
+    *out = value;
+  }
+}
+
+baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, int32_t *nv,
+                                 int32_t *nc)
+{
+  baum_status status = check_frozen(mechanism, "baum_mechanism_sizes");
+  if (status == BAUM_OK) {
+    put(nq, mechanism->nq);
+    put(nv, mechanism->nv);
+    put(nc, mechanism->nc);
+  }
+  return status;
+}
+
+baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
+                                int32_t *first, int32_t *count)
+{
+  baum_status status = check_frozen(mechanism, "baum_mechanism_rows");
+  if (status == BAUM_OK) {
+    status = baum_i_check_joint(mechanism, joint, "baum_mechanism_rows", "joint");
+  }
+  if (status == BAUM_OK) {
+    const baum_i_joint *found = mechanism->joints[baum_i_joint_index(mechanism, joint)];
+    put(first, found->row);
+    put(count, found->rows);
+  }
+  return status;
+}
+
+baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
+                                   int32_t *first_q, int32_t *first_v)
+{
+  baum_status status = check_frozen(mechanism, "baum_mechanism_columns");
+  if (status == BAUM_OK) {
+    status = baum_i_check_body(mechanism, body, "baum_mechanism_columns", "body");
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int index = baum_i_body_index(mechanism, body);
+  if (index == 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_columns: ground has no coordinates");
+  }
+  put(first_q, mechanism->bodies[index]->q);
+  put(first_v, mechanism->bodies[index]->v);
+  return BAUM_OK;
+}
