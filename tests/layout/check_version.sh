@@ -6,8 +6,8 @@ set -eu
 version=$1
 cd "$2"
 
-header=$(sed -n 's/^#define BAUM_VERSION "\([^"]*\)".*/\1/p' include/baum/version.h)
-numbers=$(sed -n 's/^#define BAUM_VERSION_\(MAJOR\|MINOR\|PATCH\) \([0-9]*\).*/\2/p' \
+header=$(sed -n 's/^#define BAUM_VERSION  *"\([^"]*\)".*/\1/p' include/baum/version.h)
+numbers=$(sed -n 's/^#define BAUM_VERSION_\(MAJOR\|MINOR\|PATCH\)  *\([0-9]*\).*/\2/p' \
   include/baum/version.h | paste -s -d .)
 python=$version
 if [ -e bindings/python/pyproject.toml ]; then
