@@ -26,9 +26,10 @@ need_packages() {
   done
   [ -n "$missing" ] || return 0
   heading "installing$missing"
-  as_root apt-get update -q
+  quietly as_root apt-get update -q
   # shellcheck disable=SC2086
-  as_root env DEBIAN_FRONTEND=noninteractive apt-get install -q -y --no-install-recommends $missing
+  quietly as_root env DEBIAN_FRONTEND=noninteractive \
+    apt-get install -q -y --no-install-recommends $missing
 }
 
 # A Python of our own with what the tests and examples import; Debian's, because of its python3-venv.
