@@ -10,20 +10,20 @@
 /* What a rule may depend on. */
 typedef struct baum_i_gain_context {
   const baum_i_method *method;
-  const char *integrator;       /* name, for messages */
-  double step;                  /* [s] > 0, or NaN for variable step */
-  double rate;                  /* [1/s] >= 0 fastest angular rate of the start state */
-  baum_gain_rule rule_default;  /* what BAUM_GAINS_DEFAULT means for this integrator */
+  const char *integrator;      /* name, for messages */
+  double step;                 /* [s] > 0, or NaN for variable step */
+  double rate;                 /* [1/s] >= 0 fastest angular rate of the start state */
+  baum_gain_rule rule_default; /* what BAUM_GAINS_DEFAULT means for this integrator */
   bool allow_unstable;
 } baum_i_gain_context;
 
 /* What came of it. */
 typedef struct baum_i_gain_choice {
-  double alpha;                      /* [1/s] */
-  double beta;                       /* [1/s] */
-  baum_gain_rule rule;               /* the rule that was applied */
-  baum_amplification amplification;  /* at (alpha h, beta^2 h^2) */
-  char why[256];                     /* one sentence: rule, numbers, stability */
+  double alpha;                     /* [1/s] */
+  double beta;                      /* [1/s] */
+  baum_gain_rule rule;              /* the rule that was applied */
+  baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
+  char why[256];                    /* one sentence: rule, numbers, stability */
 } baum_i_gain_choice;
 
 /* Apply a rule and check its stability. BAUM_OK, BAUM_ERR_ARGUMENT (rule's numbers, or a rule that needs a fixed
