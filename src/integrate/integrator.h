@@ -42,11 +42,12 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  int order; /* 0: variable */
+  int order;                            /* 0: variable */
   const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
   baum_i_method method;                 /* amplification */
-  bool predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
+  bool
+    predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
 
   /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
   baum_status (*create)(const baum_i_problem *problem, const baum_i_state *start, void **out);

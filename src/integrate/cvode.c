@@ -1,0 +1,319 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* CVODE of SUNDIALS (S. Cohen, A. Hindmarsh, 1996; A. Hindmarsh et al., ACM TOMS 31, 2005): linear multistep
+ * methods of variable order and step for
+ *
+ *   y = (q, v)                                       (nq + nv)
+ *   y' = (N v, a(t, q, v))                           a from (5) or (7), N the identity so far
+ *
+ * Adams-Moulton, orders 1 to 12, with fixed-point iteration; BDF, orders 1 to 5, with Newton's iteration on a
+ * dense Jacobian from differences. Errors are measured in the weighted root mean square over y, with the
+ * tolerances of baum_i_problem_tolerances().
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include <cvode/cvode.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "integrate/sundials_common.h"
+
+/* Memory of a run. */
+typedef struct cvode_run {
+  baum_i_sundials sundials;
+  void *cvode;
+  N_Vector y;                     /* end of the last step */
+  N_Vector inside;                /* interpolated */
+  SUNNonlinearSolver fixed_point; /* Adams */
+  SUNMatrix matrix;               /* BDF */
+  SUNLinearSolver dense;          /* BDF */
+  baum_i_statistics before;       /* up to the last restart */
+} cvode_run;
+
+static const baum_i_sundials_flag FLAGS[] = {
+  {CV_TOO_MUCH_ACC, BAUM_ERR_STEP,
+   "rtol and atol ask for more digits than double precision has; raise rtol"},
+  {CV_ERR_FAILURE, BAUM_ERR_STEP,
+   "the error stays above the tolerance however small the step; a force may jump here, the "
+   "position may be "
+   "near singular, or rtol is too small"},
+  {CV_CONV_FAILURE, BAUM_ERR_CONVERGENCE,
+   "the iteration for the step does not converge however small the step; stiff forces need "
+   "cvode_bdf or ida, "
+   "and near a singular position a projection method"},
+  {CV_TOO_CLOSE, BAUM_ERR_STEP, "no first step can be found; the scales of time differ too much"},
+  {CV_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
+  {CV_RHSFUNC_FAIL, BAUM_OK, NULL},
+  {CV_FIRST_RHSFUNC_ERR, BAUM_OK, NULL},
+  {CV_REPTD_RHSFUNC_ERR, BAUM_OK, NULL},
+  {CV_UNREC_RHSFUNC_ERR, BAUM_OK, NULL},
+  {CV_LSETUP_FAIL, BAUM_OK, NULL},
+  {0, BAUM_OK, NULL},
+};
+
+/* ---- callbacks ---- */
+
+static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
+{
+  cvode_run *run = user;
+  const baum_i_problem *problem = run->sundials.problem;
+  const baum_workspace *workspace = problem->workspace;
+  int nq = workspace->mechanism->nq;
+  int nv = workspace->mechanism->nv;
+  const double *q = N_VGetArrayPointer(y);
+  double *dy = N_VGetArrayPointer(rate);
+  baum_status status = baum_i_problem_acceleration(problem, t, q, q + nq);
+  if (status == BAUM_OK) {
+    memcpy(dy, q + nq, (size_t)nq * sizeof *dy);
+    memcpy(dy + nq, workspace->a, (size_t)nv * sizeof *dy);
+  }
+  return baum_i_sundials_answer(&run->sundials, status);
+}
+
+static int weigh(N_Vector y, N_Vector weights, void *user)
+{
+  const cvode_run *run = user;
+  const baum_i_problem *problem = run->sundials.problem;
+  const double *v = N_VGetArrayPointer(y) + problem->workspace->mechanism->nq;
+  baum_i_sundials_weights(problem, v, N_VGetArrayPointer(weights));
+  return 0;
+}
+
+/* ---- one step ---- */
+
+static void load(cvode_run *run, const baum_i_problem *problem, const baum_i_state *state)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  double *y = N_VGetArrayPointer(run->y);
+  memcpy(y, state->q, (size_t)mechanism->nq * sizeof *y);
+  memcpy(y + mechanism->nq, state->v, (size_t)mechanism->nv * sizeof *y);
+}
+
+static void unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *y = N_VGetArrayPointer(from);
+  memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
+  memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
+}
+
+static baum_status fail(const cvode_run *run, int flag, double t)
+{
+  double step = 0;
+  (void)CVodeGetCurrentStep(run->cvode, &step);
+  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, t, step);
+}
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  cvode_run *run = self;
+  baum_i_sundials_begin(&run->sundials, problem);
+  double t = state->t;
+  double target = baum_i_sundials_target(problem, t);
+  int flag = CVode(run->cvode, target, run->y, &t, CV_ONE_STEP);
+  if (flag < 0) {
+    return fail(run, flag, state->t);
+  }
+  baum_status status = baum_i_sundials_check_progress(&run->sundials, state->t, t);
+  if (status == BAUM_OK) {
+    state->t = t;
+    unload(problem, run->y, state->q, state->v);
+  }
+  return status;
+}
+
+static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
+                               double *v)
+{
+  cvode_run *run = self;
+  baum_i_sundials_begin(&run->sundials, problem);
+  int flag = CVodeGetDky(run->cvode, t, 0, run->inside);
+  if (flag < 0) {
+    return fail(run, flag, t);
+  }
+  unload(problem, run->inside, q, v);
+  return BAUM_OK;
+}
+
+/* ---- statistics and restart ---- */
+
+static void count(const void *self, baum_i_statistics *out)
+{
+  const cvode_run *run = self;
+  long rejected[2] = {0, 0};
+  long setups = 0;
+  long iterations = 0;
+  (void)CVodeGetNumErrTestFails(run->cvode, &rejected[0]);
+  (void)CVodeGetNumStepSolveFails(run->cvode, &rejected[1]);
+  (void)CVodeGetNumLinSolvSetups(run->cvode, &setups);
+  (void)CVodeGetNumNonlinSolvIters(run->cvode, &iterations);
+  out->rejected = run->before.rejected + rejected[0] + rejected[1];
+  out->factorizations = run->before.factorizations + setups;
+  out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
+}
+
+static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  cvode_run *run = self;
+  baum_i_statistics present;
+  count(run, &present);
+  run->before = present;
+  baum_i_sundials_begin(&run->sundials, problem);
+  load(run, problem, state);
+  int flag = CVodeReInit(run->cvode, state->t, run->y);
+  return flag < 0 ? fail(run, flag, state->t) : BAUM_OK;
+}
+
+/* ---- life ---- */
+
+static void destroy(void *self)
+{
+  cvode_run *run = self;
+  if (!run) {
+    return;
+  }
+  CVodeFree(&run->cvode);
+  (void)SUNNonlinSolFree(run->fixed_point);
+  (void)SUNLinSolFree(run->dense);
+  SUNMatDestroy(run->matrix);
+  N_VDestroy(run->inside);
+  N_VDestroy(run->y);
+  baum_i_sundials_close(&run->sundials);
+  baum_i_free(run);
+}
+
+static int attach_fixed_point(cvode_run *run)
+{
+  run->fixed_point = SUNNonlinSol_FixedPoint(run->y, 0, run->sundials.context);
+  return run->fixed_point ? CVodeSetNonlinearSolver(run->cvode, run->fixed_point) : CV_MEM_FAIL;
+}
+
+static int attach_dense(cvode_run *run)
+{
+  sunindextype n = N_VGetLength(run->y);
+  run->matrix = SUNDenseMatrix(n, n, run->sundials.context);
+  if (!run->matrix) {
+    return CV_MEM_FAIL;
+  }
+  run->dense = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
+  return run->dense ? CVodeSetLinearSolver(run->cvode, run->dense, run->matrix) : CV_MEM_FAIL;
+}
+
+static int start_cvode(cvode_run *run, int method, double t)
+{
+  run->cvode = CVodeCreate(method, run->sundials.context);
+  if (!run->cvode) {
+    return CV_MEM_FAIL;
+  }
+  int flag = BAUM_I_SUNDIALS_SILENCE(CVodeSetErrHandlerFn, run->cvode, &run->sundials);
+  if (flag == CV_SUCCESS) {
+    flag = CVodeSetUserData(run->cvode, run);
+  }
+  if (flag == CV_SUCCESS) {
+    flag = CVodeInit(run->cvode, evaluate, t, run->y);
+  }
+  if (flag == CV_SUCCESS) {
+    flag = CVodeWFtolerances(run->cvode, weigh);
+  }
+  if (flag == CV_SUCCESS) {
+    flag = method == CV_ADAMS ? attach_fixed_point(run) : attach_dense(run);
+  }
+  return flag;
+}
+
+static baum_status set_up(cvode_run *run, int method, const char *name,
+                          const baum_i_problem *problem, const baum_i_state *start)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  baum_status status = baum_i_sundials_open(&run->sundials, name);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  run->y = N_VNew_Serial(mechanism->nq + mechanism->nv, run->sundials.context);
+  run->inside = run->y ? N_VClone(run->y) : NULL;
+  if (!run->inside) {
+    return baum_i_fail_memory();
+  }
+  baum_i_sundials_begin(&run->sundials, problem);
+  load(run, problem, start);
+  int flag = start_cvode(run, method, start->t);
+  return flag == CV_SUCCESS ? BAUM_OK
+                            : baum_i_sundials_fail(&run->sundials, FLAGS, flag, start->t, 0);
+}
+
+static baum_status create(int method, const char *name, const baum_i_problem *problem,
+                          const baum_i_state *start, void **out)
+{
+  *out = NULL;
+  cvode_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  baum_status status = set_up(run, method, name, problem, start);
+  if (status != BAUM_OK) {
+    destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+/* ---- the two integrators ---- */
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static baum_status create_adams(const baum_i_problem *problem, const baum_i_state *start,
+                                void **out)
+{
+  return create(CV_ADAMS, "cvode_adams", problem, start, out);
+}
+
+static baum_status create_bdf(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  return create(CV_BDF, "cvode_bdf", problem, start, out);
+}
+
+static const baum_integrator ADAMS = {
+  .name = "cvode_adams",
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_AUTO,
+  .create = create_adams,
+  .destroy = destroy,
+  .advance = advance,
+  .interpolate = interpolate,
+  .restart = restart,
+  .statistics = count,
+};
+
+static const baum_integrator BDF = {
+  .name = "cvode_bdf",
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_AUTO,
+  .create = create_bdf,
+  .destroy = destroy,
+  .advance = advance,
+  .interpolate = interpolate,
+  .restart = restart,
+  .statistics = count,
+};
+
+const baum_integrator *baum_cvode_adams(void)
+{
+  return &ADAMS;
+}
+
+const baum_integrator *baum_cvode_bdf(void)
+{
+  return &BDF;
+}
+
+#endif

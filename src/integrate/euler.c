@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Explicit Euler, order 1 (L. Euler, 1768; with Baumgarte's gains: Flores et al. 2008, equations 12 to 19):
+ *
+ *   q(t + h) = q + h v        (nq)   N the identity, old velocities
+ *   v(t + h) = v + h a        (nv)
+ *
+ * A violation obeys z^2 + (2A - 2) z + (B - 2A + 1) (19), that is z = R(mu) with R(mu) = 1 + mu.
+ */
+#include "integrate/integrator.h"
+
+static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
+                             double h, const double *a)
+{
+  (void)self;
+  int nv = problem->workspace->mechanism->nv;
+  for (int i = 0; i < nv; i++) {
+    state->q[i] += h * state->v[i];
+    state->v[i] += h * a[i];
+  }
+  return BAUM_OK;
+}
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_PROJECTION,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_integrator EULER = {
+  .name = "euler",
+  .order = 1,
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_DEADBEAT,
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1, 1}},
+  .predicts_violation = true,
+  .step = take_step,
+};
+
+const baum_integrator *baum_euler(void)
+{
+  return &EULER;
+}

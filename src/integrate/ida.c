@@ -1,0 +1,426 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* IDA of SUNDIALS (P. Brown, A. Hindmarsh, L. Petzold, 1994; A. Hindmarsh et al., ACM TOMS 31, 2005): BDF of
+ * orders 1 to 5, in fixed-leading-coefficient form, for
+ *
+ *   F(t, y, y') = 0,  y = (q, v, lambda)             (nq + nv + nc)
+ *   q' - N v,  M v' + J^T lambda - g,                and
+ *   index 1   J v' - gamma + 2 alpha Phi' + beta^2 Phi
+ *   index 3   Phi
+ *
+ * What it takes to make this work, all measured:
+ * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too; and out of the
+ *   norm in which Newton's iteration is judged, by a weight next to nothing.
+ * - The start is consistent: q and v are given, v' and lambda come from one solution of (5) or (7). IDA's own
+ *   search for a consistent start can succeed with wrong accelerations.
+ * - The first step is given. IDA's own is too large for index 3.
+ * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/ida.h"
+
+#include <math.h>
+#include <string.h>
+
+#include <ida/ida.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include "base/alloc.h"
+#include "integrate/sundials_common.h"
+
+/* Memory of a run. */
+typedef struct ida_run {
+  baum_i_sundials sundials;
+  void *ida;
+  N_Vector y; /* end of the last step */
+  N_Vector dy;
+  N_Vector inside; /* interpolated */
+  N_Vector tested; /* 1 where the error test looks, else 0 */
+  SUNMatrix matrix;
+  SUNLinearSolver solver;
+  baum_i_residual_matrix *jacobian; /* NULL: differences */
+  baum_i_dae dae;
+  baum_i_statistics before; /* up to the last restart */
+} ida_run;
+
+static const double MULTIPLIER_WEIGHT = 1e-10;
+
+static const baum_i_sundials_flag FLAGS[] = {
+  {IDA_TOO_MUCH_ACC, BAUM_ERR_STEP,
+   "rtol and atol ask for more digits than double precision has; raise rtol"},
+  {IDA_ERR_FAIL, BAUM_ERR_STEP,
+   "the error stays above the tolerance however small the step; a force may jump here, the "
+   "position may be "
+   "near singular, or rtol is too small"},
+  {IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE,
+   "the iteration for the step does not converge however small the step; the position may be near "
+   "singular, or "
+   "rtol is too small for index 3"},
+  {IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
+  {IDA_RES_FAIL, BAUM_OK, NULL},
+  {IDA_REP_RES_ERR, BAUM_OK, NULL},
+  {IDA_FIRST_RES_FAIL, BAUM_OK, NULL},
+  {IDA_LSETUP_FAIL, BAUM_OK, NULL},
+  {0, BAUM_OK, NULL},
+};
+
+/* ---- callbacks ---- */
+
+static int evaluate(sunrealtype t, N_Vector y, N_Vector dy, N_Vector residual, void *user)
+{
+  ida_run *run = user;
+  baum_status status =
+    baum_i_residual(run->sundials.problem->workspace, &run->dae, t, N_VGetArrayPointer(y),
+                    N_VGetArrayPointer(dy), N_VGetArrayPointer(residual));
+  return baum_i_sundials_answer(&run->sundials, status);
+}
+
+/* IDA wipes the pattern before each evaluation. */
+static void copy_pattern(const baum_i_residual_matrix *jacobian, SUNMatrix matrix)
+{
+  const int32_t *columns = baum_i_residual_matrix_columns(jacobian);
+  const int32_t *rows = baum_i_residual_matrix_rows(jacobian);
+  sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
+  sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
+  sunindextype n = SUNSparseMatrix_Columns(matrix);
+  for (sunindextype i = 0; i <= n; i++) {
+    starts[i] = columns[i];
+  }
+  for (sunindextype i = 0; i < columns[n]; i++) {
+    indices[i] = rows[i];
+  }
+}
+
+static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Vector residual,
+                     SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2, N_Vector work3)
+{
+  (void)residual;
+  (void)work1;
+  (void)work2;
+  (void)work3;
+  ida_run *run = user;
+  copy_pattern(run->jacobian, matrix);
+  baum_status status = baum_i_residual_matrix_fill(
+    run->jacobian, run->sundials.problem->workspace, &run->dae, c, t, N_VGetArrayPointer(y),
+    N_VGetArrayPointer(dy), SUNSparseMatrix_Data(matrix));
+  return baum_i_sundials_answer(&run->sundials, status);
+}
+
+static int weigh(N_Vector y, N_Vector weights, void *user)
+{
+  const ida_run *run = user;
+  const baum_i_problem *problem = run->sundials.problem;
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  double *w = N_VGetArrayPointer(weights);
+  baum_i_sundials_weights(problem, N_VGetArrayPointer(y) + mechanism->nq, w);
+  for (int i = 0; i < mechanism->nc; i++) {
+    w[mechanism->nq + mechanism->nv + i] = MULTIPLIER_WEIGHT;
+  }
+  return 0;
+}
+
+/* ---- one step ---- */
+
+static void begin(ida_run *run, const baum_i_problem *problem)
+{
+  baum_i_sundials_begin(&run->sundials, problem);
+  bool index3 = problem->formulation == BAUM_FORMULATION_INDEX3;
+  bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  run->dae.index = index3 ? BAUM_RESIDUAL_INDEX3 : BAUM_RESIDUAL_INDEX1;
+  run->dae.alpha = gains ? problem->direction * problem->alpha : 0;
+  run->dae.beta = gains ? problem->beta : 0;
+}
+
+static void unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *y = N_VGetArrayPointer(from);
+  memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
+  memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
+}
+
+static baum_status fail(const ida_run *run, int flag, double t)
+{
+  double step = 0;
+  (void)IDAGetCurrentStep(run->ida, &step);
+  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, t, step);
+}
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  ida_run *run = self;
+  begin(run, problem);
+  double t = state->t;
+  double target = baum_i_sundials_target(problem, t);
+  int flag = IDASolve(run->ida, target, &t, run->y, run->dy, IDA_ONE_STEP);
+  if (flag < 0) {
+    return fail(run, flag, state->t);
+  }
+  baum_status status = baum_i_sundials_check_progress(&run->sundials, state->t, t);
+  if (status == BAUM_OK) {
+    state->t = t;
+    unload(problem, run->y, state->q, state->v);
+  }
+  return status;
+}
+
+static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
+                               double *v)
+{
+  ida_run *run = self;
+  begin(run, problem);
+  int flag = IDAGetDky(run->ida, t, 0, run->inside);
+  if (flag < 0) {
+    return fail(run, flag, t);
+  }
+  unload(problem, run->inside, q, v);
+  return BAUM_OK;
+}
+
+/* ---- statistics and restart ---- */
+
+static void count(const void *self, baum_i_statistics *out)
+{
+  const ida_run *run = self;
+  long rejected[2] = {0, 0};
+  long setups = 0;
+  long iterations = 0;
+  (void)IDAGetNumErrTestFails(run->ida, &rejected[0]);
+  (void)IDAGetNumStepSolveFails(run->ida, &rejected[1]);
+  (void)IDAGetNumLinSolvSetups(run->ida, &setups);
+  (void)IDAGetNumNonlinSolvIters(run->ida, &iterations);
+  out->rejected = run->before.rejected + rejected[0] + rejected[1];
+  out->factorizations = run->before.factorizations + setups;
+  out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
+}
+
+/* y and y' that fulfil F = 0. */
+static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_i_state *state)
+{
+  const baum_workspace *workspace = problem->workspace;
+  size_t nq = (size_t)workspace->mechanism->nq;
+  size_t nv = (size_t)workspace->mechanism->nv;
+  size_t nc = (size_t)workspace->mechanism->nc;
+  double *y = N_VGetArrayPointer(run->y);
+  double *dy = N_VGetArrayPointer(run->dy);
+  baum_status status = baum_i_problem_acceleration(problem, state->t, state->q, state->v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memcpy(y, state->q, nq * sizeof *y);
+  memcpy(y + nq, state->v, nv * sizeof *y);
+  memcpy(y + nq + nv, workspace->lambda, nc * sizeof *y);
+  memcpy(dy, state->v, nq * sizeof *dy);
+  memcpy(dy + nq, workspace->a, nv * sizeof *dy);
+  memset(dy + nq + nv, 0, nc * sizeof *dy);
+  return BAUM_OK;
+}
+
+/* The first step is of order 1; its error h^2 |q''| / 2 with |q''| <= rate^2 scale is to be a quarter of the
+ * tolerance rtol scale. After a load(). */
+static int give_first_step(ida_run *run)
+{
+  const baum_i_problem *problem = run->sundials.problem;
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *v = N_VGetArrayPointer(run->y) + mechanism->nq;
+  const double *a = N_VGetArrayPointer(run->dy) + mechanism->nq;
+  double rate = fmax(problem->rate, baum_i_state_rate(mechanism, v, a));
+  return IDASetInitStep(run->ida, problem->direction * sqrt(problem->rtol / 2) / rate);
+}
+
+static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  ida_run *run = self;
+  baum_i_statistics present;
+  count(run, &present);
+  run->before = present;
+  begin(run, problem);
+  baum_status status = load(run, problem, state);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int flag = IDAReInit(run->ida, state->t, run->y, run->dy);
+  if (flag == IDA_SUCCESS) {
+    flag = give_first_step(run);
+  }
+  return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag, state->t);
+}
+
+/* ---- life ---- */
+
+static void destroy(void *self)
+{
+  ida_run *run = self;
+  if (!run) {
+    return;
+  }
+  IDAFree(&run->ida);
+  (void)SUNLinSolFree(run->solver);
+  SUNMatDestroy(run->matrix);
+  baum_i_residual_matrix_destroy(run->jacobian);
+  N_VDestroy(run->tested);
+  N_VDestroy(run->inside);
+  N_VDestroy(run->dy);
+  N_VDestroy(run->y);
+  baum_i_sundials_close(&run->sundials);
+  baum_i_free(run);
+}
+
+static int make_vectors(ida_run *run, const baum_mechanism *mechanism)
+{
+  sunindextype n = mechanism->nq + mechanism->nv + mechanism->nc;
+  run->y = N_VNew_Serial(n, run->sundials.context);
+  run->dy = run->y ? N_VClone(run->y) : NULL;
+  run->inside = run->dy ? N_VClone(run->y) : NULL;
+  run->tested = run->inside ? N_VClone(run->y) : NULL;
+  return run->tested ? IDA_SUCCESS : IDA_MEM_FAIL;
+}
+
+static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
+{
+  bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
+  int tested = index3 ? mechanism->nq : mechanism->nq + mechanism->nv;
+  double *id = N_VGetArrayPointer(run->tested);
+  int n = mechanism->nq + mechanism->nv + mechanism->nc;
+  for (int i = 0; i < n; i++) {
+    id[i] = i < tested ? 1 : 0;
+  }
+}
+
+static int attach_dense(ida_run *run)
+{
+  sunindextype n = N_VGetLength(run->y);
+  run->matrix = SUNDenseMatrix(n, n, run->sundials.context);
+  if (run->matrix) {
+    run->solver = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
+  }
+  return run->solver ? IDASetLinearSolver(run->ida, run->solver, run->matrix) : IDA_MEM_FAIL;
+}
+
+static int attach_klu(ida_run *run)
+{
+  sunindextype n = N_VGetLength(run->y);
+  sunindextype nonzeros = baum_i_residual_matrix_nonzeros(run->jacobian);
+  run->matrix = SUNSparseMatrix(n, n, nonzeros, CSC_MAT, run->sundials.context);
+  if (run->matrix) {
+    run->solver = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
+  }
+  if (!run->solver) {
+    return IDA_MEM_FAIL;
+  }
+  int flag = IDASetLinearSolver(run->ida, run->solver, run->matrix);
+  return flag == IDA_SUCCESS ? IDASetJacFn(run->ida, linearize) : flag;
+}
+
+static int start_ida(ida_run *run, double t)
+{
+  run->ida = IDACreate(run->sundials.context);
+  if (!run->ida) {
+    return IDA_MEM_FAIL;
+  }
+  int flag = BAUM_I_SUNDIALS_SILENCE(IDASetErrHandlerFn, run->ida, &run->sundials);
+  if (flag == IDA_SUCCESS) {
+    flag = IDASetUserData(run->ida, run);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = IDAInit(run->ida, evaluate, t, run->y, run->dy);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = IDAWFtolerances(run->ida, weigh);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = IDASetId(run->ida, run->tested);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = IDASetSuppressAlg(run->ida, SUNTRUE);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = run->jacobian ? attach_klu(run) : attach_dense(run);
+  }
+  return flag == IDA_SUCCESS ? give_first_step(run) : flag;
+}
+
+static baum_status set_up(ida_run *run, const baum_i_problem *problem, const baum_i_state *start,
+                          bool differences)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  baum_status status = baum_i_sundials_open(&run->sundials, "ida");
+  begin(run, problem);
+  if (status == BAUM_OK && make_vectors(run, mechanism) != IDA_SUCCESS) {
+    status = baum_i_fail_memory();
+  }
+  if (status == BAUM_OK) {
+    status = load(run, problem, start);
+  }
+  if (status == BAUM_OK && !differences) {
+    status = baum_i_residual_matrix_create(problem->workspace, run->dae.index, &run->jacobian);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  choose_tested(run, mechanism);
+  int flag = start_ida(run, start->t);
+  return flag == IDA_SUCCESS ? BAUM_OK
+                             : baum_i_sundials_fail(&run->sundials, FLAGS, flag, start->t, 0);
+}
+
+static baum_status create_run(const baum_i_problem *problem, const baum_i_state *start,
+                              bool differences, void **out)
+{
+  *out = NULL;
+  ida_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  baum_status status = set_up(run, problem, start, differences);
+  if (status != BAUM_OK) {
+    destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  return create_run(problem, start, false, out);
+}
+
+baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
+                                               const baum_i_state *start, void **out)
+{
+  return create_run(problem, start, true, out);
+}
+
+/* ---- the integrator ---- */
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_INDEX3,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_integrator IDA = {
+  .name = "ida",
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_AUTO,
+  .create = create,
+  .destroy = destroy,
+  .advance = advance,
+  .interpolate = interpolate,
+  .restart = restart,
+  .statistics = count,
+};
+
+const baum_integrator *baum_ida(void)
+{
+  return &IDA;
+}
+
+#endif

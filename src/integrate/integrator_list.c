@@ -1,0 +1,16 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The one file that names all integrators; who links it links every backend. */
+#include "integrate/integrator.h"
+
+typedef const baum_integrator *integrator_fn(void);
+
+static integrator_fn *const INTEGRATORS[] = {
+  baum_euler, baum_semi_implicit_euler, baum_rk2,       baum_rk3,
+  baum_rk4,   baum_cvode_adams,         baum_cvode_bdf, baum_ida,
+};
+
+const baum_integrator *baum_integrator_at(int32_t k)
+{
+  int32_t count = (int32_t)(sizeof INTEGRATORS / sizeof INTEGRATORS[0]);
+  return k >= 0 && k < count ? INTEGRATORS[k]() : NULL;
+}

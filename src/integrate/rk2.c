@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Explicit midpoint rule, order 2 (C. Runge, 1895).
+ *
+ *   0   |
+ *   1/2 | 1/2
+ *       | 0    1
+ *
+ * A violation obeys z = R(mu), R(mu) = 1 + mu + mu^2/2.
+ */
+#include "integrate/rk.h"
+
+static const double C[] = {0, 1.0 / 2};
+static const double A[] = {1.0 / 2};
+static const double B[] = {0, 1};
+
+static const baum_i_rk_table TABLE = {.stages = 2, .c = C, .a = A, .b = B};
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  (void)start;
+  return baum_i_rk_create(&TABLE, problem, out);
+}
+
+static const baum_integrator INTEGRATOR = {
+  .name = "rk2",
+  .order = 2,
+  .formulations = baum_i_rk_formulations,
+  .gains = BAUM_GAINS_AUTO,
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 2, .coefficients = {1, 1, 1.0 / 2}},
+  .create = create,
+  .destroy = baum_i_rk_destroy,
+  .step = baum_i_rk_step,
+};
+
+const baum_integrator *baum_rk2(void)
+{
+  return &INTEGRATOR;
+}

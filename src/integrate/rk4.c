@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The classical method of order 4 (W. Kutta, 1901).
+ *
+ *   0   |
+ *   1/2 | 1/2
+ *   1/2 | 0    1/2
+ *   1   | 0    0    1
+ *       | 1/6  1/3  1/3  1/6
+ *
+ * A violation obeys z = R(mu), R(mu) = 1 + mu + mu^2/2 + mu^3/6 + mu^4/24.
+ */
+#include "integrate/rk.h"
+
+static const double C[] = {0, 1.0 / 2, 1.0 / 2, 1};
+static const double A[] = {1.0 / 2, 0, 1.0 / 2, 0, 0, 1};
+static const double B[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+
+static const baum_i_rk_table TABLE = {.stages = 4, .c = C, .a = A, .b = B};
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  (void)start;
+  return baum_i_rk_create(&TABLE, problem, out);
+}
+
+static const baum_integrator INTEGRATOR = {
+  .name = "rk4",
+  .order = 4,
+  .formulations = baum_i_rk_formulations,
+  .gains = BAUM_GAINS_AUTO,
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP,
+             .degree = 4,
+             .coefficients = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24}},
+  .create = create,
+  .destroy = baum_i_rk_destroy,
+  .step = baum_i_rk_step,
+};
+
+const baum_integrator *baum_rk4(void)
+{
+  return &INTEGRATOR;
+}

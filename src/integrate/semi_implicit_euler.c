@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Semi-implicit Euler, order 1, symplectic without constraints (R. de Vogelaere, 1956):
+ *
+ *   v(t + h) = v + h a        (nv)
+ *   q(t + h) = q + h v(t + h) (nq)   N the identity, new velocities
+ *
+ * A violation obeys z^2 + (B + 2A - 2) z + (1 - 2A), which is not the polynomial (19) of explicit Euler: its
+ * dead-beat point is alpha = 1/(2h), beta = 1/h, and that of explicit Euler is unstable here.
+ */
+#include "integrate/integrator.h"
+
+static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
+                             double h, const double *a)
+{
+  (void)self;
+  int nv = problem->workspace->mechanism->nv;
+  for (int i = 0; i < nv; i++) {
+    state->v[i] += h * a[i];
+    state->q[i] += h * state->v[i];
+  }
+  return BAUM_OK;
+}
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_PROJECTION,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_integrator SEMI_IMPLICIT_EULER = {
+  .name = "semi_implicit_euler",
+  .order = 1,
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_DEADBEAT,
+  .method = {.kind = BAUM_I_METHOD_SEMI_IMPLICIT},
+  .predicts_violation = true,
+  .step = take_step,
+};
+
+const baum_integrator *baum_semi_implicit_euler(void)
+{
+  return &SEMI_IMPLICIT_EULER;
+}

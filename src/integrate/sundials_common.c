@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What runs of CVODE and IDA have in common: context, complaints, failing evaluations, weights. */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/sundials_common.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- 6.4 and 7 ---- */
+
+static void keep_complaint(baum_i_sundials *sundials, const char *text)
+{
+  (void)snprintf(sundials->complaint, sizeof sundials->complaint, "%s", text ? text : "");
+}
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+
+static void handle_error(int line, const char *function, const char *file, const char *text,
+                         SUNErrCode flag, void *user, SUNContext context)
+{
+  (void)line;
+  (void)function;
+  (void)file;
+  (void)flag;
+  (void)context;
+  keep_complaint(user, text);
+}
+
+static int create_context(baum_i_sundials *sundials)
+{
+  if (SUNContext_Create(SUN_COMM_NULL, &sundials->context) != 0) {
+    return -1;
+  }
+  int cleared = SUNContext_ClearErrHandlers(sundials->context);
+  return cleared != 0 ? cleared
+                      : SUNContext_PushErrHandler(sundials->context, handle_error, sundials);
+}
+
+#else
+
+void baum_i_sundials_handle_error(int flag, const char *module, const char *function, char *text,
+                                  void *user)
+{
+  (void)flag;
+  (void)module;
+  (void)function;
+  keep_complaint(user, text);
+}
+
+static int create_context(baum_i_sundials *sundials)
+{
+  return SUNContext_Create(NULL, &sundials->context);
+}
+
+#endif
+
+/* ---- life ---- */
+
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator)
+{
+  sundials->integrator = integrator;
+  return create_context(sundials) == 0 ? BAUM_OK : baum_i_fail_memory();
+}
+
+void baum_i_sundials_close(baum_i_sundials *sundials)
+{
+  if (sundials->context) {
+    (void)SUNContext_Free(&sundials->context);
+  }
+}
+
+/* ---- evaluations ---- */
+
+void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem)
+{
+  sundials->problem = problem;
+  sundials->evaluation = BAUM_OK;
+  sundials->complaint[0] = '\0';
+}
+
+/* The flag `retry` says something after these two failures only. */
+static bool may_retry(const baum_i_sundials *sundials, baum_status status)
+{
+  return (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) &&
+         sundials->problem->workspace->point.retry;
+}
+
+int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
+{
+  if (status == BAUM_OK) {
+    return 0;
+  }
+  sundials->evaluation = status;
+  (void)snprintf(sundials->sentence, sizeof sundials->sentence, "%s", baum_message());
+  return may_retry(sundials, status) ? 1 : -1;
+}
+
+baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
+                                 int flag, double t, double step)
+{
+  while (flags->flag != 0 && flags->flag != flag) {
+    flags++;
+  }
+  if (flags->flag != 0 && flags->status != BAUM_OK) {
+    return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", t,
+                       sundials->integrator, flags->meaning, step, sundials->complaint);
+  }
+  if (flags->flag != 0 && sundials->evaluation != BAUM_OK) {
+    return baum_i_fail(sundials->evaluation, "t = %.9g s: %s, step %.3g s: %s", t,
+                       sundials->integrator, step, sundials->sentence);
+  }
+  return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)", t,
+                     sundials->integrator, flag, step, sundials->complaint);
+}
+
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t0, double t)
+{
+  if (t != t0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_STEP,
+                     "t = %.9g s: %s: the step became too small to change the time; the motion may "
+                     "be singular here, or rtol = %g is too small",
+                     t, sundials->integrator, sundials->problem->rtol);
+}
+
+/* ---- numbers ---- */
+
+double baum_i_sundials_target(const baum_i_problem *problem, double t)
+{
+  return t + problem->direction * 10 / problem->rate;
+}
+
+void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  baum_i_problem_tolerances(problem, v, weights, weights + mechanism->nq);
+  for (int i = 0; i < mechanism->nq + mechanism->nv; i++) {
+    weights[i] = 1 / weights[i];
+  }
+}
+
+#endif

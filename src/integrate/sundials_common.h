@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What runs of CVODE and IDA have in common, and the differences between SUNDIALS 6.4 and 7. Only cvode.c, ida.c
+ * and sundials_common.c include it, and only when the build has SUNDIALS.
+ *
+ * SUNDIALS never prints: each run has a context of its own, and its complaints are kept here.
+ */
+#ifndef BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
+#define BAUM_I_INTEGRATE_SUNDIALS_COMMON_H
+
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_config.h>
+#include <sundials/sundials_context.h>
+#include <sundials/sundials_types.h>
+
+#include "base/message.h"
+#include "integrate/integrator.h"
+
+enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256 };
+
+/* First member of a run. */
+typedef struct baum_i_sundials {
+  const char *integrator; /* name in messages */
+  SUNContext context;
+  const baum_i_problem *problem; /* of the call under way */
+  baum_status
+    evaluation; /* how the last failing evaluation of this call failed; BAUM_OK: none did */
+  char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
+  char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
+} baum_i_sundials;
+
+/* What a flag of CVODE or IDA means. */
+typedef struct baum_i_sundials_flag {
+  int flag;
+  baum_status status;  /* BAUM_OK: that of the evaluation that failed */
+  const char *meaning; /* a sentence that begins in lower case, and advice; NULL with BAUM_OK */
+} baum_i_sundials_flag;
+
+/* Context with a silent error handler; close it after everything made with it. Closing accepts zeroes. */
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator);
+void baum_i_sundials_close(baum_i_sundials *sundials);
+
+/* Before each call of CVODE or IDA. */
+void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem);
+
+/* What a callback answers: 0, +1 where a smaller step may help, else -1. Remembers a failure. */
+int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
+
+/* From a flag to a status with its sentence. flags end with flag 0. */
+baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
+                                 int flag, double t, double step);
+
+/* After a step from t0 to t: BAUM_ERR_STEP when it did not move. */
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t0, double t);
+
+/* A target beyond the first step, in problem->direction: CVODE and IDA take the direction from it, and its distance
+ * bounds the first step to a tenth of 10 T. */
+double baum_i_sundials_target(const baum_i_problem *problem, double t);
+
+/* Weights of q and v in error norms, 1 / tolerance; one after the other. */
+void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights);
+
+/* ---- 6.4 and 7 ---- */
+
+#if SUNDIALS_VERSION_MAJOR >= 7
+/* The context's handler serves all. */
+#define BAUM_I_SUNDIALS_SILENCE(set_handler, memory, sundials) 0
+#else
+/* Each integrator has its own. */
+#define BAUM_I_SUNDIALS_SILENCE(set_handler, memory, sundials) \
+  set_handler(memory, baum_i_sundials_handle_error, sundials)
+
+void baum_i_sundials_handle_error(int flag, const char *module, const char *function, char *text,
+                                  void *user);
+#endif
+
+#endif
