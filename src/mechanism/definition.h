@@ -5,7 +5,12 @@
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H
 
+#include <math.h>
+
 #include "mechanism/mechanism.h"
+
+/* What an optional number is by default; NAN itself is a float. */
+#define BAUM_I_NOT_GIVEN ((double)NAN)
 
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size);
 

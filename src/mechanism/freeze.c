@@ -290,7 +290,8 @@ static double drawing_size(const baum_mechanism *mechanism)
   }
   for (int i = 0; i < mechanism->joint_count; i++) {
     const baum_i_joint *joint = mechanism->joints[i];
-    if (joint->type->planar && joint->type->place) {
+    /* Not a driver's, whose definition has no points. */
+    if (joint->type->bodies == baum_i_planar_bodies) {
       const baum_i_planar_head *head = joint->element.def;
       baum_i_frame fa = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
       baum_i_frame fb = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);

@@ -32,9 +32,8 @@ typedef struct baum_i_marker {
   double w;     /* angular velocity of the body */
 } baum_i_marker;
 
-static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body, const double *s)
+static inline baum_i_marker baum_i_marker_on(const baum_i_frame *f, const double *s)
 {
-  const baum_i_frame *f = &point->frames[body];
   baum_i_marker m;
   m.arm[0] = f->c * s[0] - f->s * s[1];
   m.arm[1] = f->s * s[0] + f->c * s[1];
@@ -46,8 +45,17 @@ static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body
   return m;
 }
 
-/* Check bodies (exist, differ, have a place in the plane, not both ground) and that the points are given in exactly
- * one way (point_needed false refuses `point`: for elements of non-zero length). */
+static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body, const double *s)
+{
+  return baum_i_marker_on(&point->frames[body], s);
+}
+
+/* Check that a body exists and has a place in the plane. */
+baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
+                                     const char *label, const char *field);
+
+/* Check bodies (as above, and that they differ) and that the points are given in exactly one way;
+ * point_allowed false refuses `point`: for elements of non-zero length. */
 baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
                                 bool point_allowed);
 
@@ -58,17 +66,23 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 /* Bodies of a planar definition; for the `bodies` function of types. */
 void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
 
-/* Points on both bodies from the definition, s[0..1] on a, s[2..3] on b. A particle with a point away from it:
- * BAUM_ERR_ARGUMENT. */
+/* Points on both bodies from the definition and the drawn pose, s[0..1] on a, s[2..3] on b. A particle with `point`
+ * away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by baum_i_planar_check()). */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
                                  const char *label, double s[4]);
 
-/* Drawn frame of a body, from its definition; valid before freeze. Ground: zeros. */
+/* Drawn frame of a body, from its definition, at rest; valid before freeze. */
 baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
+
+/* What is said below of six columns holds for the three of a span of one body as well. */
 
 /* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where absent. */
 void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
-                          double six[6]);
+                          double *six);
+
+/* Add six numbers to the bodies' places in a vector over v. */
+void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
+                           const double *six, double *x);
 
 /* Rows of six to rows of nl. */
 void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,

@@ -1,0 +1,204 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Spring and damper in parallel between two points, planar. With d from body_a's point to body_b's, l = |d|, stiffness k,
+ * damping c, free length l_0, and F = l^2 / 2, G of separation.h:
+ *
+ *   T   = k (l - l_0) + c l'                       tension
+ *   h   = l_q = G^T d / l                          (6)
+ *   g   = -T h                                     (6)
+ *   V   = k (l - l_0)^2 / 2
+ *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
+ *   g_v = -c h h^T                                                            (6 x 6)
+ *
+ * At l = 0 there is no direction; force and derivatives are zero there.
+ */
+#include <float.h>
+#include <math.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/separation.h"
+
+/* Parameters; s_a and s_b come first. */
+enum { STIFFNESS = 4, DAMPING, FREE_LENGTH, PARAMETER_COUNT };
+
+static const baum_planar_spring_def defaults = {
+  .struct_size = sizeof(baum_planar_spring_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .free_length = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_spring_def *def = given;
+  baum_status status = baum_i_planar_check(mechanism, def, label, false);
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "stiffness", "N/m", def->stiffness);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "damping", "N s/m", def->damping);
+  }
+  if (status == BAUM_OK && !isnan(def->free_length)) {
+    status = baum_i_check_not_negative(label, "free_length", "m", def->free_length);
+  }
+  return status;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  const baum_planar_spring_def *def = force->element.def;
+  char label[BAUM_I_LABEL_SIZE];
+  baum_status status =
+    baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label), parameters);
+  parameters[STIFFNESS] = def->stiffness;
+  parameters[DAMPING] = def->damping;
+  parameters[FREE_LENGTH] = def->free_length;
+  if (isnan(def->free_length)) {
+    parameters[FREE_LENGTH] = baum_i_separation_drawn(mechanism, &force->span, parameters);
+  }
+  return status;
+}
+
+/* ---- one spring ---- */
+
+typedef struct spring {
+  baum_i_separation line;
+  double length; /* l, 0 when there is no direction */
+  double h[6];
+  double tension;
+} spring;
+
+static spring spring_at(const baum_i_force *force, const baum_i_point *point)
+{
+  const double *numbers = point->parameters + force->element.parameter;
+  baum_i_marker a = baum_i_marker_at(point, force->span.bodies[0], numbers);
+  baum_i_marker b = baum_i_marker_at(point, force->span.bodies[1], numbers + 2);
+  spring s = {.line = baum_i_separation_of(&a, &b)};
+  s.length = hypot(s.line.d[0], s.line.d[1]);
+  if (s.length < DBL_MIN) {
+    /* Of a denormal length the reciprocal is not finite. */
+    s.length = 0.0;
+    return s;
+  }
+  const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
+  baum_i_separation_spread(&s.line, e, s.h);
+  double rate = e[0] * s.line.rate[0] + e[1] * s.line.rate[1];
+  s.tension = numbers[STIFFNESS] * (s.length - numbers[FREE_LENGTH]) + numbers[DAMPING] * rate;
+  return s;
+}
+
+/* l_qq */
+static void bend_of(const spring *s, double bend[36])
+{
+  baum_i_separation_hessian(&s->line, bend);
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      bend[6 * i + j] = (bend[6 * i + j] - s->h[i] * s->h[j]) / s->length;
+    }
+  }
+}
+
+static void set_force_q(const spring *s, double stiffness, double damping, const double v[6],
+                        double out[36])
+{
+  double bend[36];
+  bend_of(s, bend);
+  double tension_q[6];
+  for (int j = 0; j < 6; j++) {
+    double rate_q = 0.0;
+    for (int k = 0; k < 6; k++) {
+      rate_q += bend[6 * j + k] * v[k];
+    }
+    tension_q[j] = stiffness * s->h[j] + damping * rate_q;
+  }
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      out[6 * i + j] = -s->h[i] * tension_q[j] - s->tension * bend[6 * i + j];
+    }
+  }
+}
+
+static void set_force_v(const spring *s, double damping, double out[36])
+{
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      out[6 * i + j] = -damping * s->h[i] * s->h[j];
+    }
+  }
+}
+
+/* ---- type ---- */
+
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_force *element = group->forces[i];
+    spring s = spring_at(element, point);
+    for (int k = 0; k < 6; k++) {
+      s.h[k] *= -s.tension;
+    }
+    baum_i_planar_scatter(point->mechanism, &element->span, s.h, out);
+  }
+  return BAUM_OK;
+}
+
+static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_force *element = group->forces[i];
+    const double *numbers = point->parameters + element->element.parameter;
+    double stretch = spring_at(element, point).length - numbers[FREE_LENGTH];
+    *sum += 0.5 * numbers[STIFFNESS] * stretch * stretch;
+  }
+  return BAUM_OK;
+}
+
+static void linearize_one(const baum_i_force *element, const baum_i_point *point,
+                          const baum_i_force_blocks *blocks)
+{
+  spring s = spring_at(element, point);
+  if (s.length == 0.0) {
+    return;
+  }
+  const double *numbers = point->parameters + element->element.parameter;
+  const baum_i_span *span = &element->span;
+  double six[36];
+  if (blocks->force_q) {
+    const baum_i_frame *a = &point->frames[span->bodies[0]];
+    const baum_i_frame *b = &point->frames[span->bodies[1]];
+    const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+    set_force_q(&s, numbers[STIFFNESS], numbers[DAMPING], v, six);
+    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
+  }
+  if (blocks->force_v) {
+    set_force_v(&s, numbers[DAMPING], six);
+    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
+  }
+}
+
+static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  for (int i = 0; i < group->count; i++) {
+    linearize_one(group->forces[i], point, blocks);
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "planar spring",
+                 .size = sizeof(baum_planar_spring_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = PARAMETER_COUNT,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .force = force,
+  .potential = potential,
+  .linearize = linearize,
+};
+
+BAUM_I_DEFINE(force, planar_spring, type)

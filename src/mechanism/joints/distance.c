@@ -1,0 +1,182 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Distance joint, planar: a rod without mass keeps two points at length L. With d from body_a's point to body_b's and
+ * F, G of separation.h:
+ *
+ *   Phi   = (d . d - L^2) / (2 L)                    (1), the change of length to first order, smooth also at d = 0
+ *   J     = G^T d / L                                (6)
+ *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
+ *
+ *   (J w)_q = F_qq w / L,   (J^T lambda)_q = lambda F_qq / L,   gamma_v = -2 F_qq v / L
+ *   gamma_q = -(G^T (w_a^2 p_a - w_b^2 p_b)
+ *               + [ 0 0  2 w_a d' . p_a + w_a^2 d . (k x p_a)  0 0  -2 w_b d' . p_b - w_b^2 d . (k x p_b) ]) / L
+ */
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/joints/planar_rows.h"
+#include "mechanism/separation.h"
+
+/* Own numbers, after both points. */
+enum { LENGTH = 0, OWN_COUNT = 1 };
+
+static const baum_planar_distance_def defaults = {
+  .struct_size = sizeof(baum_planar_distance_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .length = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_planar_distance_def *given = def;
+  baum_status status = baum_i_planar_check(mechanism, def, label, false);
+  if (status != BAUM_OK || isnan(given->length)) {
+    return status;
+  }
+  return baum_i_check_positive(label, "length", "m", given->length);
+}
+
+static int rows(const void *def)
+{
+  (void)def;
+  return 1;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_planar_distance_def *def = joint->element.def;
+  double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
+  numbers[LENGTH] = def->length;
+  if (isnan(def->length)) {
+    numbers[LENGTH] = baum_i_separation_drawn(mechanism, &joint->span, parameters);
+  }
+  if (!(numbers[LENGTH] > 0.0)) {
+    char label[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: length is not given and is 0 m in the drawn pose, must be > 0",
+                       baum_i_label(&joint->element, "joint", label));
+  }
+  return BAUM_OK;
+}
+
+/* ---- one joint ---- */
+
+static double dot(const double x[2], const double y[2])
+{
+  return x[0] * y[0] + x[1] * y[1];
+}
+
+static void one_phi(const baum_i_planar_pair *pair, double *out)
+{
+  double length = pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  out[0] = 0.5 * (dot(s.d, s.d) / length - length);
+}
+
+static void one_jacobian(const baum_i_planar_pair *pair, double *six)
+{
+  double length = pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  const double along[2] = {s.d[0] / length, s.d[1] / length};
+  baum_i_separation_spread(&s, along, six);
+}
+
+static void one_gamma(const baum_i_planar_pair *pair, double *out)
+{
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  double w_a = pair->a.w;
+  double w_b = pair->b.w;
+  double bend = w_a * w_a * dot(s.d, pair->a.arm) - w_b * w_b * dot(s.d, pair->b.arm);
+  out[0] = -(dot(s.rate, s.rate) + bend) / pair->numbers[LENGTH];
+}
+
+static void set_gamma_q(const baum_i_planar_pair *pair, const baum_i_separation *s, double scale,
+                        double *out)
+{
+  const double *p_a = pair->a.arm;
+  const double *p_b = pair->b.arm;
+  double w_a = pair->a.w;
+  double w_b = pair->b.w;
+  const double pull[2] = {w_a * w_a * p_a[0] - w_b * w_b * p_b[0],
+                          w_a * w_a * p_a[1] - w_b * w_b * p_b[1]};
+  baum_i_separation_spread(s, pull, out);
+  /* d . (k x p) = d_y p_x - d_x p_y */
+  out[2] += 2.0 * w_a * dot(s->rate, p_a) + w_a * w_a * (s->d[1] * p_a[0] - s->d[0] * p_a[1]);
+  out[5] -= 2.0 * w_b * dot(s->rate, p_b) + w_b * w_b * (s->d[1] * p_b[0] - s->d[0] * p_b[1]);
+  for (int i = 0; i < 6; i++) {
+    out[i] *= scale;
+  }
+}
+
+static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                          baum_i_planar_blocks *out)
+{
+  const baum_i_frame *a = pair->frame_a;
+  const baum_i_frame *b = pair->frame_b;
+  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  double scale = 1.0 / pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  double hessian[36];
+  baum_i_separation_hessian(&s, hessian);
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      double h = scale * hessian[6 * i + j];
+      out->jw_q[i] += h * w[j];
+      out->jtl_q[6 * i + j] = h * lambda[0];
+      out->gamma_v[i] -= 2.0 * h * v[j];
+    }
+  }
+  set_gamma_q(pair, &s, -scale, out->gamma_q);
+}
+
+/* ---- type ---- */
+
+static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_values(group, point, one_phi, out);
+}
+
+static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_jacobian(group, point, one_jacobian, out);
+}
+
+static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_values(group, point, one_gamma, out);
+}
+
+static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  return baum_i_planar_linearize(group, point, w, lambda, one_linearize, blocks);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar distance joint",
+                 .size = sizeof(baum_planar_distance_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
+  .planar = true,
+  .scleronomic = true,
+  .rows = rows,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .phi = phi,
+  .jacobian = jacobian,
+  .gamma = gamma_rows,
+  .linearize = linearize,
+  .place = baum_i_planar_place,
+};
+
+BAUM_I_DEFINE(joint, planar_distance, type)

@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A planar joint as kernels: what one joint does, over six columns, seen by its two markers.
+ *
+ * The loops over a group and the packing are here once. They are inline so that a joint's own file, which knows its
+ * kernel, compiles to a loop without calls through pointers.
+ */
+#ifndef BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
+#define BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
+
+#include "mechanism/planar.h"
+
+enum {
+  BAUM_I_PLANAR_COLUMNS = 6,
+  BAUM_I_PLANAR_ROWS = 3,    /* most that a planar joint has */
+  BAUM_I_PLANAR_NUMBERS = 4, /* parameters begin with s_a and s_b */
+};
+
+/* One joint at a point. */
+typedef struct baum_i_planar_pair {
+  const double *s_a;
+  const double *s_b;
+  const double *numbers; /* of the joint, after both points */
+  const baum_i_frame *frame_a;
+  const baum_i_frame *frame_b;
+  baum_i_marker a;
+  baum_i_marker b;
+} baum_i_planar_pair;
+
+/* Second derivatives of up to three rows over six columns; jtl_q sums over the rows. */
+typedef struct baum_i_planar_blocks {
+  double jw_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  double jtl_q[BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS];
+  double gamma_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  double gamma_v[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+} baum_i_planar_blocks;
+
+/* Sets rows values, or rows x 6. */
+typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
+
+/* w (6), lambda (rows); out arrives zeroed. */
+typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
+                                         const double *lambda, baum_i_planar_blocks *out);
+
+static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint,
+                                                       const baum_i_point *point)
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  int a = joint->span.bodies[0];
+  int b = joint->span.bodies[1];
+  return (baum_i_planar_pair){
+    .s_a = numbers,
+    .s_b = numbers + 2,
+    .numbers = numbers + BAUM_I_PLANAR_NUMBERS,
+    .frame_a = &point->frames[a],
+    .frame_b = &point->frames[b],
+    .a = baum_i_marker_at(point, a, numbers),
+    .b = baum_i_marker_at(point, b, numbers + 2),
+  };
+}
+
+/* Angle of body_b as seen from body_a, continuous over turns. */
+static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
+{
+  return pair->frame_b->angle - pair->frame_a->angle;
+}
+
+/* One value per row: phi, gamma. */
+static inline baum_status baum_i_planar_values(const baum_i_joint_group *group,
+                                               const baum_i_point *point,
+                                               baum_i_planar_kernel *kernel, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_joint *joint = group->joints[i];
+    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+    kernel(&pair, out + joint->row);
+  }
+  return BAUM_OK;
+}
+
+static inline baum_status baum_i_planar_jacobian(const baum_i_joint_group *group,
+                                                 const baum_i_point *point,
+                                                 baum_i_planar_kernel *kernel, double *jacobian)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_joint *joint = group->joints[i];
+    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+    double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS] = {0.0};
+    kernel(&pair, six);
+    baum_i_planar_pack(point->mechanism, &joint->span, joint->rows, six,
+                       jacobian + joint->jacobian);
+  }
+  return BAUM_OK;
+}
+
+/* Put one joint's second derivatives where the caller wants them; nu_q is zero for every planar joint. */
+void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanism,
+                       const baum_i_planar_blocks *six, const baum_i_joint_blocks *blocks);
+
+static inline baum_status baum_i_planar_linearize(const baum_i_joint_group *group,
+                                                  const baum_i_point *point, const double *w,
+                                                  const double *lambda,
+                                                  baum_i_planar_second_kernel *kernel,
+                                                  const baum_i_joint_blocks *blocks)
+{
+  static const double none[BAUM_I_PLANAR_ROWS] = {0.0};
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_joint *joint = group->joints[i];
+    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+    double w_six[BAUM_I_PLANAR_COLUMNS] = {0.0};
+    if (w) {
+      baum_i_planar_gather(point, &joint->span, w, w_six);
+    }
+    baum_i_planar_blocks six = {.jw_q = {0.0}};
+    kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
+    baum_i_planar_put(joint, point->mechanism, &six, blocks);
+  }
+  return BAUM_OK;
+}
+
+/* The members of the type struct that all planar joints share. */
+void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+
+/* Label of a joint and its points from the drawn pose; then the joint lowers its own numbers. */
+baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                       double *parameters);
+
+#endif

@@ -1,0 +1,196 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Translational joint (slider), planar: body_b slides along an axis fixed in body_a and does not turn against it.
+ * With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to body_b's:
+ *
+ *   Phi = [ n . d                           distance from the axis, a row of axis_row.c
+ *           angle_b - angle_a - angle ]     J = [ 0 0 -1 0 0 1 ], gamma = 0
+ *
+ *   coordinate = A_a e . d, again of axis_row.c
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/joints/axis_row.h"
+
+/* Own numbers, after both points. */
+enum { AXIS = 0, NORMAL = 2, ANGLE = 4, OWN_COUNT = 5 };
+
+static const baum_planar_translational_def defaults = {
+  .struct_size = sizeof(baum_planar_translational_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .axis = {1.0, 0.0},
+  .angle = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check_axis(const double axis[2], const char *label)
+{
+  baum_status status = baum_i_check_finite(label, "axis[0]", "[-]", axis[0]);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "axis[1]", "[-]", axis[1]);
+  }
+  if (status == BAUM_OK && axis[0] == 0.0 && axis[1] == 0.0) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis is (0, 0), must have a direction", label);
+  }
+  return status;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_planar_translational_def *given = def;
+  baum_status status = baum_i_planar_check(mechanism, def, label, true);
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angles(mechanism, def, label);
+  }
+  if (status == BAUM_OK) {
+    status = check_axis(given->axis, label);
+  }
+  return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
+}
+
+static int rows(const void *def)
+{
+  (void)def;
+  return 2;
+}
+
+/* The axis has those axes that the points have: with `point` it is drawn on the ground and turns into body_a's. */
+static void lower_axis(const baum_planar_translational_def *def, const baum_i_frame *a,
+                       double *numbers)
+{
+  /* Scaled first, so that the length of a very long or short axis neither overflows nor vanishes. */
+  double largest = fmax(fabs(def->axis[0]), fabs(def->axis[1]));
+  double x = def->axis[0] / largest;
+  double y = def->axis[1] / largest;
+  double length = hypot(x, y);
+  x /= length;
+  y /= length;
+  bool on_ground = !isnan(def->point[0]);
+  numbers[AXIS] = on_ground ? a->c * x + a->s * y : x;
+  numbers[AXIS + 1] = on_ground ? -a->s * x + a->c * y : y;
+  numbers[NORMAL] = -numbers[AXIS + 1];
+  numbers[NORMAL + 1] = numbers[AXIS];
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_planar_translational_def *def = joint->element.def;
+  baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
+  baum_i_frame b = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
+  double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
+  lower_axis(def, &a, numbers);
+  numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;
+  return BAUM_OK;
+}
+
+/* ---- one joint ---- */
+
+static void one_phi(const baum_i_planar_pair *pair, double *out)
+{
+  out[0] = baum_i_axis_value(pair, pair->numbers + NORMAL);
+  out[1] = baum_i_planar_angle(pair) - pair->numbers[ANGLE];
+}
+
+static void one_jacobian(const baum_i_planar_pair *pair, double *six)
+{
+  baum_i_axis_gradient(pair, pair->numbers + NORMAL, six);
+  six[8] = -1.0;
+  six[11] = 1.0;
+}
+
+static void one_gamma(const baum_i_planar_pair *pair, double *out)
+{
+  out[0] = baum_i_axis_gamma(pair, pair->numbers + NORMAL);
+  out[1] = 0.0;
+}
+
+static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                          baum_i_planar_blocks *out)
+{
+  /* The row of the angle is linear. */
+  baum_i_coordinate_blocks row;
+  baum_i_axis_linearize(pair, pair->numbers + NORMAL, w, lambda[0], &row);
+  memcpy(out->jw_q, row.jw_q, sizeof row.jw_q);
+  memcpy(out->jtl_q, row.jtl_q, sizeof row.jtl_q);
+  memcpy(out->gamma_q, row.gamma_q, sizeof row.gamma_q);
+  memcpy(out->gamma_v, row.gamma_v, sizeof row.gamma_v);
+}
+
+/* ---- type ---- */
+
+static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_values(group, point, one_phi, out);
+}
+
+static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_jacobian(group, point, one_jacobian, out);
+}
+
+static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
+{
+  return baum_i_planar_values(group, point, one_gamma, out);
+}
+
+static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  return baum_i_planar_linearize(group, point, w, lambda, one_linearize, blocks);
+}
+
+static void coordinate(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out)
+{
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  const double *axis = pair.numbers + AXIS;
+  const baum_i_frame *a = pair.frame_a;
+  const baum_i_frame *b = pair.frame_b;
+  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  out->value = baum_i_axis_value(&pair, axis);
+  out->gamma = baum_i_axis_gamma(&pair, axis);
+  baum_i_axis_gradient(&pair, axis, out->gradient);
+  out->rate = 0.0;
+  for (int i = 0; i < 6; i++) {
+    out->rate += out->gradient[i] * v[i];
+  }
+}
+
+static void coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+                                 const double w[6], double lambda, baum_i_coordinate_blocks *out)
+{
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  baum_i_axis_linearize(&pair, pair.numbers + AXIS, w, lambda, out);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar translational joint",
+                 .size = sizeof(baum_planar_translational_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
+  .planar = true,
+  .scleronomic = true,
+  .rows = rows,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .phi = phi,
+  .jacobian = jacobian,
+  .gamma = gamma_rows,
+  .linearize = linearize,
+  .place = baum_i_planar_place,
+  .coordinate_unit = "m",
+  .coordinate = coordinate,
+  .coordinate_linearize = coordinate_linearize,
+};
+
+BAUM_I_DEFINE(joint, planar_translational, type)
