@@ -26,7 +26,7 @@ typedef struct baum_i_redundancy {
   int count;               /* dropped rows, nc - rank */
   unsigned char *dropped;  /* (nc) 1 where a row is left out */
   double *combination;     /* (count x nc) orthonormal null vectors of J^T in scaled rows; rows of the array */
-  double *row_scale;       /* (nc) length of row i of J M^-1/2 at the start pose */
+  double *row_scale;       /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
 } baum_i_redundancy;
 
 struct baum_workspace {
@@ -69,7 +69,7 @@ struct baum_workspace {
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
                                     baum_workspace **out);
 
-/* ---- evaluate.c ---- */
+/* ---- stages.c, acceleration.c ---- */
 
 baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);
 baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const double *q,
@@ -93,7 +93,7 @@ baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, 
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
-/* ---- residual.c: F(t, y, y'), y = (q, v, lambda), and dF/dy + c dF/dy' ---- */
+/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), and dF/dy + c dF/dy' ---- */
 
 typedef struct baum_i_dae {
   baum_residual index;
@@ -134,6 +134,9 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
+
+/* Null vectors of J^T at the point of the last solution, into redundancy.combination. Also BAUM_ERR_SINGULAR. */
+baum_status baum_i_find_combinations(baum_workspace *workspace);
 
 /* Names of the joints whose rows the dropped ones depend on, into text. */
 void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size);

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Accelerations and multipliers
+ *
+ *   [ M  J^T ] [ a      ]   [ g                                   ]
+ *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]      Flores et al. 2008 (7); (5) with alpha = beta = 0
+ *
+ * Rows that permanently depend on others are left out. Their multipliers are then zero, which is one of many
+ * solutions; what is reported to users is the one of least norm: lambda minus its part in the null space of J^T,
+ * whose orthonormal basis, in rows scaled by s_i = |row i of J M^-1/2|, is in redundancy.combination.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+/* The joint whose multiplier is largest where the equations are singular is the most likely culprit; without multipliers
+ * the one with the largest residual. Only a hint for the sentence. */
+static baum_status fail_singular(const baum_workspace *w)
+{
+  int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
+  char label[BAUM_I_LABEL_SIZE] = "no joint";
+  if (row >= 0) {
+    (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
+  }
+  return baum_i_fail(BAUM_ERR_SINGULAR,
+                     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
+                     "matrix is not positive where the constraints leave freedom); largest right side in "
+                     "%s",
+                     w->point.t, label);
+}
+
+static baum_status fail_not_finite(baum_workspace *w)
+{
+  w->point.retry = true;
+  return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                     "t = %.9g s: the equations of motion have a coefficient that is not finite",
+                     w->point.t);
+}
+
+static baum_status translate(baum_workspace *w, baum_status status)
+{
+  switch ((int)status) {
+  case BAUM_ERR_SINGULAR: return fail_singular(w);
+  case BAUM_ERR_NOT_FINITE: return fail_not_finite(w);
+  default: return status;
+  }
+}
+
+static baum_status solve(baum_workspace *w)
+{
+  const baum_i_kkt_values values = {.mass = w->mass,
+                                    .jacobian = w->jacobian,
+                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+  baum_status status = baum_i_kkt_factor(w->kkt, &values);
+  if (status == BAUM_OK) {
+    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
+  }
+  w->evaluations++;
+  w->near_singular += baum_i_kkt_get_quality(w->kkt) != BAUM_I_KKT_GOOD ? 1 : 0;
+  return translate(w, status);
+}
+
+baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,
+                                double alpha, double beta)
+{
+  baum_status status = baum_i_velocity_stage(w, t, q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = w->gamma[i] - 2.0 * alpha * w->phi_rate[i] - beta * beta * w->phi[i];
+  }
+  return solve(w);
+}
+
+static void make_multipliers_least(baum_workspace *w)
+{
+  const baum_i_redundancy *r = &w->redundancy;
+  int nc = w->mechanism->nc;
+  for (int k = 0; k < r->count; k++) {
+    const double *null = r->combination + (size_t)k * (size_t)nc;
+    double part = 0.0;
+    for (int i = 0; i < nc; i++) {
+      part += null[i] * r->row_scale[i] * w->lambda[i];
+    }
+    for (int i = 0; i < nc; i++) {
+      if (r->row_scale[i] > 0.0) {
+        w->lambda[i] -= part * null[i] / r->row_scale[i];
+      }
+    }
+  }
+}
+
+baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const double *q,
+                                         const double *v)
+{
+  baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
+  if (status == BAUM_OK && w->redundancy.count > 0) {
+    status = translate(w, baum_i_find_combinations(w));
+    if (status == BAUM_OK) {
+      make_multipliers_least(w);
+    }
+  }
+  return status;
+}

@@ -1,0 +1,376 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Assembly: a pose and velocities that fulfil the constraints, changed the least in the metric of M.
+ *
+ *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
+ *   [ J  -S  ] [ lambda ] = [ -Phi ]
+ *
+ * Held coordinates have their columns of J and their coupling in M cleared, so that they do not move. The small S (Levenberg,
+ * Marquardt) lets redundant rows pass and turns contradicting ones into a least-squares problem, whose remaining violation lies
+ * in the conflicting rows only and so names them. Steps are limited, and halved until the violation falls.
+ * Violations are compared as displacements: |Phi_i| / d_i, d_i the norm of row i of J times the scales.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
+static const double MU = 1e-10;         /* S relative: slows Newton down by this factor only */
+static const double STEP_LIMIT = 0.25;  /* largest change of a coordinate in one step, of its scale */
+static const double CONVERGED = 1e-11;  /* a Newton step below this leaves its square */
+static const double ROUNDING = 1e-13;   /* violation, as a displacement, that counts as none */
+static const double CONSISTENT = 1e-9;  /* violation, likewise, above which rows contradict each other */
+
+/* Memory of one assembly. */
+typedef struct assembly {
+  baum_workspace *w;
+  const bool *held; /* (nv) or NULL */
+  double t;
+  double *q;        /* (nv) present pose */
+  double *trial;    /* (nv) */
+  double *distance; /* (nc) d_i */
+} assembly;
+
+static bool is_held(const bool *held, int i)
+{
+  return held && held[i];
+}
+
+/* ---- the matrix ---- */
+
+static void clear_held_columns(baum_workspace *w, const bool *held)
+{
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      for (int j = 0; j < block->cols; j++) {
+        if (is_held(held, block->col[j])) {
+          w->jacobian[block->value + i * block->cols + j] = 0.0;
+        }
+      }
+    }
+  }
+}
+
+static void decouple_held_masses(baum_workspace *w, const bool *held)
+{
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      for (int j = 0; j < block->size; j++) {
+        bool coupled = is_held(held, block->first + i) || is_held(held, block->first + j);
+        if (i != j && coupled) {
+          w->mass[block->value + i * block->size + j] = 0.0;
+        }
+      }
+    }
+  }
+}
+
+/* S, and the displacement sizes of rows, from the present J and M. */
+static void measure_rows(const baum_workspace *w, double *shift, double *distance)
+{
+  memset(shift, 0, (size_t)w->mechanism->nc * sizeof *shift);
+  memset(distance, 0, (size_t)w->mechanism->nc * sizeof *distance);
+  double *diagonal = w->work_v;
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      diagonal[block->first + i] = w->mass[block->value + i * block->size + i];
+    }
+  }
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      for (int j = 0; j < block->cols; j++) {
+        double value = w->jacobian[block->value + i * block->cols + j];
+        double mass = diagonal[block->col[j]];
+        double size = value * w->mechanism->scale[block->col[j]];
+        shift[block->row + i] += mass > 0.0 ? MU * value * value / mass : 0.0;
+        distance[block->row + i] += size * size;
+      }
+    }
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    distance[i] = sqrt(distance[i]);
+    shift[i] = shift[i] > 0.0 ? shift[i] : 1.0; /* a row without effect moves nothing */
+  }
+}
+
+/* Solve for the least change that makes the rows change by rhs; the result is in w->a. */
+static baum_status least_change(const assembly *s)
+{
+  baum_workspace *w = s->w;
+  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
+  w->mass_ready = false; /* held coordinates may have changed M */
+  decouple_held_masses(w, s->held);
+  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
+  baum_status status = baum_i_kkt_factor(w->kkt, &values);
+  if (status == BAUM_OK) {
+    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
+  }
+  if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_NOT_FINITE) {
+    return baum_i_fail(status, "t = %.9g s: assembly: the equations are %s", s->t,
+                       status == BAUM_ERR_SINGULAR ? "singular" : "not finite");
+  }
+  return status;
+}
+
+/* ---- naming what contradicts ---- */
+
+static double displacement(const assembly *s, const double *rows, int i)
+{
+  double d = s->distance[i];
+  return fabs(rows[i]) / (d > 0.0 ? d : 1.0);
+}
+
+static double worst_displacement(const assembly *s, const double *rows)
+{
+  double worst = 0.0;
+  for (int i = 0; i < s->w->mechanism->nc; i++) {
+    double size = displacement(s, rows, i);
+    worst = size > worst || isnan(size) ? size : worst;
+  }
+  return worst;
+}
+
+/* Names of joints whose rows keep at least a tenth of the worst violation. */
+static baum_status fail_inconsistent(const assembly *s, const double *rows, const char *what,
+                                     const char *unit)
+{
+  const baum_mechanism *m = s->w->mechanism;
+  double worst = worst_displacement(s, rows);
+  char text[BAUM_I_MESSAGE_SIZE] = "";
+  size_t used = 0;
+  int last = -1;
+  for (int i = 0; i < m->nc && used + BAUM_I_LABEL_SIZE + 64 < sizeof text; i++) {
+    int joint = baum_i_row_joint(m, i);
+    if (joint == last || displacement(s, rows, i) < 0.1 * worst) {
+      continue;
+    }
+    char label[BAUM_I_LABEL_SIZE];
+    used += (size_t)snprintf(text + used, sizeof text - used, "%s%s (%.3g %s)", used ? ", " : "",
+                             baum_i_joint_label(m, joint, label), rows[i], unit);
+    last = joint;
+  }
+  return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s", s->t,
+                     what, text);
+}
+
+/* ---- positions ---- */
+
+static double merit(const assembly *s, const double *phi)
+{
+  double sum = 0.0;
+  for (int i = 0; i < s->w->mechanism->nc; i++) {
+    double size = displacement(s, phi, i);
+    sum += size * size;
+  }
+  return sum;
+}
+
+/* Largest scaled change in w->a, cut to the limit. */
+static double limit_step(const assembly *s)
+{
+  const baum_mechanism *m = s->w->mechanism;
+  double size = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    size = fmax(size, fabs(s->w->a[i]) / m->scale[i]);
+  }
+  for (int i = 0; i < m->nv && size > STEP_LIMIT; i++) {
+    s->w->a[i] *= STEP_LIMIT / size;
+  }
+  return size;
+}
+
+/* Take the step in w->a, halved until the violation falls; false when it does not. */
+static baum_status search(assembly *s, double before, bool *fell)
+{
+  baum_workspace *w = s->w;
+  double fraction = 1.0;
+  *fell = false;
+  for (int k = 0; k < HALVINGS && !*fell; k++) {
+    for (int i = 0; i < w->mechanism->nv; i++) {
+      s->trial[i] = s->q[i] + fraction * w->a[i];
+    }
+    baum_i_point_set(&w->point, s->t, s->trial, NULL);
+    baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
+    if (status != BAUM_OK && !w->point.retry) {
+      return status;
+    }
+    *fell = status == BAUM_OK && merit(s, w->phi) < before;
+    fraction *= 0.5;
+  }
+  if (*fell) {
+    memcpy(s->q, s->trial, (size_t)w->mechanism->nv * sizeof *s->q);
+  }
+  return BAUM_OK;
+}
+
+static baum_status newton_step(assembly *s, double *size, bool *fell)
+{
+  baum_workspace *w = s->w;
+  baum_status status = baum_i_position_stage(w, s->t, s->q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  clear_held_columns(w, s->held);
+  measure_rows(w, w->shift, s->distance);
+  double before = merit(s, w->phi);
+  *fell = worst_displacement(s, w->phi) > ROUNDING;
+  *size = 0.0;
+  if (!*fell) {
+    return BAUM_OK;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -w->phi[i];
+  }
+  status = least_change(s);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  *size = limit_step(s);
+  return search(s, before, fell);
+}
+
+static baum_status assemble_positions(assembly *s)
+{
+  double size = INFINITY;
+  bool fell = true;
+  for (int k = 0; k < ITERATIONS && fell && size > CONVERGED; k++) {
+    baum_status status = newton_step(s, &size, &fell);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  baum_status status = baum_i_position_stage(s->w, s->t, s->q);
+  if (status == BAUM_OK && !(worst_displacement(s, s->w->phi) <= CONSISTENT)) {
+    return fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,", "left");
+  }
+  return status;
+}
+
+/* ---- velocities ---- */
+
+/* Held are the velocities that were given; free ones arrive as zero. */
+static baum_status assemble_velocities(assembly *s, double *v)
+{
+  baum_workspace *w = s->w;
+  const baum_mechanism *m = w->mechanism;
+  double last = INFINITY;
+  for (int k = 0; k < CORRECTIONS; k++) {
+    baum_status status = baum_i_violation(w, s->t, s->q, v);
+    if (status == BAUM_OK) {
+      status = baum_i_mechanism_mass(&w->point, w->mass);
+    }
+    if (status != BAUM_OK) {
+      return status;
+    }
+    clear_held_columns(w, s->held);
+    measure_rows(w, w->shift, s->distance);
+    for (int i = 0; i < m->nc; i++) {
+      w->rhs[i] = -w->phi_rate[i];
+    }
+    double worst = worst_displacement(s, w->phi_rate);
+    if (!(worst < 0.5 * last) || worst == 0.0) {
+      break;
+    }
+    last = worst;
+    status = least_change(s);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    for (int i = 0; i < m->nv; i++) {
+      v[i] += is_held(s->held, i) ? 0.0 : w->a[i];
+    }
+  }
+  return BAUM_OK;
+}
+
+static double velocity_size(const baum_mechanism *m, const double *v)
+{
+  double size = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    size = fmax(size, fabs(v[i]) / m->scale[i]);
+  }
+  return size;
+}
+
+static baum_status complete_velocities(assembly *s, double *v, bool *given)
+{
+  baum_workspace *w = s->w;
+  const baum_mechanism *m = w->mechanism;
+  for (int i = 0; i < m->nv; i++) {
+    given[i] = !isnan(v[i]);
+    v[i] = given[i] ? v[i] : 0.0;
+  }
+  s->held = given;
+  baum_status status = assemble_velocities(s, v);
+  if (status == BAUM_OK) {
+    status = baum_i_violation(w, s->t, s->q, v);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  measure_rows(w, w->shift, s->distance);
+  double size = fmax(velocity_size(m, v), worst_displacement(s, w->nu));
+  if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size)) {
+    return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints", "per s left");
+  }
+  return BAUM_OK;
+}
+
+/* ---- the whole ---- */
+
+static baum_status assemble(assembly *s, double *v, bool *given, baum_i_assembly *out,
+                            const double *start)
+{
+  const baum_mechanism *m = s->w->mechanism;
+  baum_status status = assemble_positions(s);
+  if (status == BAUM_OK && v) {
+    status = complete_velocities(s, v, given);
+  }
+  for (int i = 0; i < m->nv && out; i++) {
+    double change = fabs(s->q[i] - start[i]) / m->scale[i];
+    if (i == 0 || change > out->change) {
+      *out = (baum_i_assembly){.change = change, .worst_coordinate = i};
+    }
+  }
+  return status;
+}
+
+baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
+                            const bool *held, baum_i_assembly *out)
+{
+  size_t nv = (size_t)workspace->mechanism->nv;
+  size_t nc = (size_t)workspace->mechanism->nc;
+  double *memory = baum_i_alloc(3 * nv + nc, sizeof *memory);
+  bool *given = baum_i_alloc(nv, sizeof *given);
+  if (!memory || !given) {
+    baum_i_free(memory);
+    baum_i_free(given);
+    return baum_i_fail_memory();
+  }
+  assembly s = {.w = workspace, .held = held, .t = t, .q = memory};
+  s.trial = memory + nv;
+  s.distance = memory + 3 * nv;
+  double *velocity = memory + 2 * nv;
+  memcpy(s.q, q, nv * sizeof *q);
+  if (v) {
+    memcpy(velocity, v, nv * sizeof *v);
+  }
+  baum_status status = assemble(&s, v ? velocity : NULL, given, out, q);
+  if (status == BAUM_OK) {
+    memcpy(q, s.q, nv * sizeof *q);
+    if (v) {
+      memcpy(v, velocity, nv * sizeof *v);
+    }
+  }
+  workspace->mass_ready = false;
+  baum_i_free(memory);
+  baum_i_free(given);
+  return status;
+}

@@ -1,0 +1,326 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements:
+ *
+ *          q                                             v                       lambda
+ *   q      c I                                           -I
+ *   v      (M v')_q + (J^T lambda)_q - g_q               c M - g_v               J^T
+ *   lambda index 1: (J w)_q - gamma_q - 2 alpha nu_q     (c + 2 alpha) J         0
+ *                   + beta^2 J,  w = v' + 2 alpha v      - gamma_v
+ *          index 3: J                                    0                       0
+ *
+ * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later ones only add
+ * values to the slots found then. A dropped row reads 1 on its diagonal.
+ */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+struct baum_i_residual_matrix {
+  baum_residual index;
+  int size;
+  int entries;  /* emitted by one walk */
+  int nonzeros; /* different places among them */
+  int *slot;    /* (entries) */
+  int32_t *columns;
+  int32_t *rows;
+};
+
+/* Where a walk sends its entries. */
+typedef struct sink {
+  int count;
+  int *row; /* learning: NULL while only counting */
+  int *col;
+  const int *slot; /* filling: NULL while learning */
+  double *values;
+} sink;
+
+static void emit(sink *s, int row, int col, double value)
+{
+  if (s->slot) {
+    s->values[s->slot[s->count]] += value;
+  } else if (s->row) {
+    s->row[s->count] = row;
+    s->col[s->count] = col;
+  }
+  s->count++;
+}
+
+/* What a walk multiplies the blocks with. */
+typedef struct factors {
+  const baum_workspace *w;
+  const baum_i_dae *dae;
+  double c;
+} factors;
+
+/* ---- the walk ---- */
+
+static void walk_rates(const factors *f, sink *s)
+{
+  int nv = f->w->mechanism->nv;
+  for (int i = 0; i < nv; i++) {
+    emit(s, i, i, f->c);
+    emit(s, i, nv + i, -1.0);
+  }
+}
+
+static void walk_bodies(const factors *f, sink *s)
+{
+  const baum_workspace *w = f->w;
+  int nv = w->mechanism->nv;
+  for (int k = 1; k <= w->mechanism->body_count; k++) {
+    const baum_i_body *body = w->mechanism->bodies[k];
+    for (int i = 0; i < body->nv; i++) {
+      for (int j = 0; j < body->nv; j++) {
+        int at = body->mass + i * body->nv + j;
+        int row = nv + body->v + i;
+        emit(s, row, body->q + j, w->mass_q[at] - w->body_force_q[at]);
+        emit(s, row, nv + body->v + j, f->c * w->mass[at] - w->body_force_v[at]);
+      }
+    }
+  }
+}
+
+static void walk_forces(const factors *f, sink *s)
+{
+  const baum_workspace *w = f->w;
+  int nv = w->mechanism->nv;
+  for (int k = 0; k < w->mechanism->force_count; k++) {
+    const baum_i_force *force = w->mechanism->forces[k];
+    const baum_i_span *span = &force->span;
+    for (int i = 0; i < span->nl; i++) {
+      for (int j = 0; j < span->nl; j++) {
+        int at = force->square + i * span->nl + j;
+        emit(s, nv + span->columns[i], span->columns[j], -w->force_q[at]);
+        emit(s, nv + span->columns[i], nv + span->columns[j], -w->force_v[at]);
+      }
+    }
+  }
+}
+
+static void walk_multipliers(const factors *f, const baum_i_joint *joint, sink *s)
+{
+  const baum_workspace *w = f->w;
+  int nv = w->mechanism->nv;
+  const baum_i_span *span = &joint->span;
+  for (int i = 0; i < span->nl; i++) {
+    for (int j = 0; j < span->nl; j++) {
+      emit(s, nv + span->columns[i], span->columns[j], w->jtl_q[joint->square + i * span->nl + j]);
+    }
+    for (int r = 0; r < joint->rows; r++) {
+      emit(s, nv + span->columns[i], 2 * nv + joint->row + r,
+           w->jacobian[joint->jacobian + r * span->nl + i]);
+    }
+  }
+}
+
+static void walk_row(const factors *f, const baum_i_joint *joint, int r, sink *s)
+{
+  const baum_workspace *w = f->w;
+  const baum_i_dae *dae = f->dae;
+  int nv = w->mechanism->nv;
+  int row = 2 * nv + joint->row + r;
+  bool dropped = w->redundancy.count > 0 && w->redundancy.dropped[joint->row + r];
+  double keep = dropped ? 0.0 : 1.0;
+  emit(s, row, row, 1.0 - keep);
+  for (int j = 0; j < joint->span.nl; j++) {
+    int at = joint->jacobian + r * joint->span.nl + j;
+    int column = joint->span.columns[j];
+    if (dae->index == BAUM_RESIDUAL_INDEX3) {
+      emit(s, row, column, keep * w->jacobian[at]);
+      continue;
+    }
+    emit(s, row, column,
+         keep * (w->jw_q[at] - w->gamma_q[at] - 2.0 * dae->alpha * w->nu_q[at] +
+                 dae->beta * dae->beta * w->jacobian[at]));
+    emit(s, row, nv + column,
+         keep * ((f->c + 2.0 * dae->alpha) * w->jacobian[at] - w->gamma_v[at]));
+  }
+}
+
+static void walk(const factors *f, sink *s)
+{
+  walk_rates(f, s);
+  walk_bodies(f, s);
+  walk_forces(f, s);
+  for (int k = 0; k < f->w->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = f->w->mechanism->joints[k];
+    walk_multipliers(f, joint, s);
+    for (int r = 0; r < joint->rows; r++) {
+      walk_row(f, joint, r, s);
+    }
+  }
+}
+
+/* ---- the pattern ---- */
+
+/* Entries into buckets by column: start (size + 1), order (entries). */
+static void bucket(const sink *s, int size, int *start, int *order)
+{
+  memset(start, 0, (size_t)(size + 1) * sizeof *start);
+  for (int k = 0; k < s->count; k++) {
+    start[s->col[k] + 1]++;
+  }
+  for (int j = 0; j < size; j++) {
+    start[j + 1] += start[j];
+  }
+  for (int k = 0; k < s->count; k++) {
+    order[start[s->col[k]]++] = k;
+  }
+  for (int j = size; j > 0; j--) {
+    start[j] = start[j - 1];
+  }
+  start[0] = 0;
+}
+
+/* Sort one bucket by row; columns are short. */
+static void sort_by_row(const int *row, int *order, int count)
+{
+  for (int i = 1; i < count; i++) {
+    int item = order[i];
+    int j = i;
+    while (j > 0 && row[order[j - 1]] > row[item]) {
+      order[j] = order[j - 1];
+      j--;
+    }
+    order[j] = item;
+  }
+}
+
+static void compress(baum_i_residual_matrix *matrix, const sink *s, int *start, int *order)
+{
+  bucket(s, matrix->size, start, order);
+  int slots = 0;
+  for (int j = 0; j < matrix->size; j++) {
+    int first = start[j];
+    int count = start[j + 1] - first;
+    matrix->columns[j] = slots;
+    sort_by_row(s->row, order + first, count);
+    for (int k = 0; k < count; k++) {
+      int entry = order[first + k];
+      if (k == 0 || s->row[entry] != matrix->rows[slots - 1]) {
+        matrix->rows[slots++] = s->row[entry];
+      }
+      matrix->slot[entry] = slots - 1;
+    }
+  }
+  matrix->columns[matrix->size] = slots;
+  matrix->nonzeros = slots;
+}
+
+static baum_status learn(baum_i_residual_matrix *matrix, const factors *f)
+{
+  sink s = {0};
+  walk(f, &s);
+  matrix->entries = s.count;
+  matrix->slot = baum_i_alloc((size_t)s.count, sizeof(int));
+  matrix->rows = baum_i_alloc((size_t)s.count, sizeof(int32_t));
+  matrix->columns = baum_i_alloc((size_t)matrix->size + 1, sizeof(int32_t));
+  s.row = baum_i_alloc((size_t)s.count, sizeof(int));
+  s.col = baum_i_alloc((size_t)s.count, sizeof(int));
+  int *start = baum_i_alloc((size_t)matrix->size + 1, sizeof(int));
+  int *order = baum_i_alloc((size_t)s.count, sizeof(int));
+  bool complete =
+    matrix->slot && matrix->rows && matrix->columns && s.row && s.col && start && order;
+  if (complete) {
+    s.count = 0;
+    walk(f, &s);
+    compress(matrix, &s, start, order);
+  }
+  baum_i_free(s.row);
+  baum_i_free(s.col);
+  baum_i_free(start);
+  baum_i_free(order);
+  return complete ? BAUM_OK : baum_i_fail_memory();
+}
+
+baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
+                                          baum_i_residual_matrix **out)
+{
+  *out = NULL;
+  baum_i_residual_matrix *matrix = baum_i_alloc(1, sizeof *matrix);
+  if (!matrix) {
+    return baum_i_fail_memory();
+  }
+  const baum_i_dae dae = {.index = index};
+  const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
+  matrix->index = index;
+  matrix->size = 2 * workspace->mechanism->nv + workspace->mechanism->nc;
+  baum_status status = learn(matrix, &f);
+  if (status != BAUM_OK) {
+    baum_i_residual_matrix_destroy(matrix);
+    return status;
+  }
+  *out = matrix;
+  return BAUM_OK;
+}
+
+void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix)
+{
+  if (matrix) {
+    baum_i_free(matrix->slot);
+    baum_i_free(matrix->columns);
+    baum_i_free(matrix->rows);
+    baum_i_free(matrix);
+  }
+}
+
+int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix)
+{
+  return matrix->nonzeros;
+}
+
+const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix)
+{
+  return matrix->columns;
+}
+
+const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix)
+{
+  return matrix->rows;
+}
+
+/* ---- the values ---- */
+
+static baum_status linearize(baum_workspace *w, const baum_i_dae *dae, double t, const double *y,
+                             const double *dy)
+{
+  int nq = w->mechanism->nq;
+  int nv = w->mechanism->nv;
+  const double *v = y + nq;
+  const double *dv = dy + nq;
+  const baum_i_body_blocks bodies = {w->mass_q, w->body_force_q, w->body_force_v};
+  const baum_i_joint_blocks joints = {w->jw_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
+  const baum_i_force_blocks forces = {w->force_q, w->force_v};
+  double *direction = w->work_v;
+  for (int i = 0; i < nv; i++) {
+    direction[i] = dv[i] + 2.0 * dae->alpha * v[i];
+  }
+  baum_status status = baum_i_velocity_stage(w, t, y, v);
+  if (status == BAUM_OK) {
+    status = baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_mechanism_linearize_joints(&w->point, direction, v + nv, &joints);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_mechanism_linearize_forces(&w->point, &forces);
+  }
+  return status;
+}
+
+baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
+                                        baum_workspace *workspace, const baum_i_dae *dae, double c,
+                                        double t, const double *y, const double *dy, double *values)
+{
+  baum_status status = linearize(workspace, dae, t, y, dy);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memset(values, 0, (size_t)matrix->nonzeros * sizeof *values);
+  const factors f = {.w = workspace, .dae = dae, .c = c};
+  sink s = {.slot = matrix->slot, .values = values};
+  walk(&f, &s);
+  return BAUM_OK;
+}

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Energy: kinetic v^T M v / 2, potential as the elements say. */
+#include <string.h>
+
+#include "dynamics/dynamics.h"
+
+baum_status baum_i_energy(baum_workspace *w, double t, const double *q, const double *v,
+                          double *kinetic, double *potential)
+{
+  int nv = w->mechanism->nv;
+  baum_i_point_set(&w->point, t, q, v);
+  baum_status status = w->mass_ready ? BAUM_OK : baum_i_mechanism_mass(&w->point, w->mass);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double *momentum = w->work_v;
+  memset(momentum, 0, (size_t)nv * sizeof *momentum);
+  baum_i_mass_times(&w->structure, w->mass, v, momentum);
+  double sum = 0.0;
+  for (int i = 0; i < nv; i++) {
+    sum += momentum[i] * v[i];
+  }
+  *kinetic = 0.5 * sum;
+  return baum_i_mechanism_potential(&w->point, potential);
+}

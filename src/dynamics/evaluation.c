@@ -1,0 +1,419 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public functions of dynamics.h: arguments checked, then the stages, then block values spread out dense. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+/* ---- arguments ---- */
+
+static baum_status fail_null(const char *call, const char *what)
+{
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call, what);
+}
+
+static baum_status check_finite(const char *call, const char *what, const double *values, int count)
+{
+  if (!values && count > 0) {
+    return fail_null(call, what);
+  }
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(values[i])) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s[%d] is %g, must be finite", call, what, i,
+                         values[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_point(const char *call, const baum_workspace *w, double t, const double *q,
+                               const double *out)
+{
+  if (!w) {
+    return fail_null(call, "the workspace");
+  }
+  if (!out) {
+    return fail_null(call, "the output");
+  }
+  if (!isfinite(t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
+  }
+  return check_finite(call, "q", q, w->mechanism->nq);
+}
+
+static baum_status check_state(const char *call, const baum_workspace *w, double t, const double *q,
+                               const double *v, const double *out)
+{
+  baum_status status = check_point(call, w, t, q, out);
+  return status == BAUM_OK ? check_finite(call, "v", v, w->mechanism->nv) : status;
+}
+
+/* ---- life ---- */
+
+baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out)
+{
+  if (!out) {
+    return fail_null("baum_workspace_create", "out");
+  }
+  *out = NULL;
+  if (!mechanism) {
+    return fail_null("baum_workspace_create", "the mechanism");
+  }
+  if (!mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "baum_workspace_create: the mechanism is not frozen");
+  }
+  return baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out);
+}
+
+baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v)
+{
+  if (!workspace) {
+    return fail_null("baum_workspace_drawn", "the workspace");
+  }
+  const baum_mechanism *m = workspace->mechanism;
+  if (q) {
+    memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
+  }
+  if (v) {
+    memcpy(v, m->drawn_v, (size_t)m->nv * sizeof *v);
+  }
+  return BAUM_OK;
+}
+
+/* ---- position level ---- */
+
+baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q, double *phi)
+{
+  baum_status status = check_point("baum_workspace_phi", workspace, t, q, phi);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, NULL);
+  status = baum_i_mechanism_phi(&workspace->point, workspace->phi);
+  if (status == BAUM_OK) {
+    memcpy(phi, workspace->phi, (size_t)workspace->mechanism->nc * sizeof *phi);
+  }
+  return status;
+}
+
+baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
+                                    double *jacobian)
+{
+  baum_status status = check_point("baum_workspace_jacobian", workspace, t, q, jacobian);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, NULL);
+  status = baum_i_mechanism_jacobian(&workspace->point, workspace->jacobian);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  size_t nv = (size_t)workspace->mechanism->nv;
+  memset(jacobian, 0, (size_t)workspace->mechanism->nc * nv * sizeof *jacobian);
+  for (int k = 0; k < workspace->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &workspace->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      double *row = jacobian + (size_t)(block->row + i) * nv;
+      for (int j = 0; j < block->cols; j++) {
+        row[block->col[j]] = workspace->jacobian[block->value + i * block->cols + j];
+      }
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q, double *nu)
+{
+  baum_status status = check_point("baum_workspace_nu", workspace, t, q, nu);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, NULL);
+  status = baum_i_mechanism_nu(&workspace->point, workspace->nu);
+  if (status == BAUM_OK) {
+    memcpy(nu, workspace->nu, (size_t)workspace->mechanism->nc * sizeof *nu);
+  }
+  return status;
+}
+
+baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q, double *mass)
+{
+  baum_status status = check_point("baum_workspace_mass", workspace, t, q, mass);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, NULL);
+  status = baum_i_mechanism_mass(&workspace->point, workspace->mass);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  size_t nv = (size_t)workspace->mechanism->nv;
+  memset(mass, 0, nv * nv * sizeof *mass);
+  for (int k = 0; k < workspace->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      memcpy(mass + (size_t)(block->first + i) * nv + block->first,
+             workspace->mass + block->value + i * block->size,
+             (size_t)block->size * sizeof *mass);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* ---- velocity level ---- */
+
+baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const double *q,
+                                 const double *v, double *gamma)
+{
+  baum_status status = check_state("baum_workspace_gamma", workspace, t, q, v, gamma);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, v);
+  status = baum_i_mechanism_gamma(&workspace->point, workspace->gamma);
+  if (status == BAUM_OK) {
+    memcpy(gamma, workspace->gamma, (size_t)workspace->mechanism->nc * sizeof *gamma);
+  }
+  return status;
+}
+
+baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
+                                 const double *v, double *force)
+{
+  baum_status status = check_state("baum_workspace_force", workspace, t, q, v, force);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_point_set(&workspace->point, t, q, v);
+  status = baum_i_mechanism_force(&workspace->point, workspace->force);
+  if (status == BAUM_OK) {
+    memcpy(force, workspace->force, (size_t)workspace->mechanism->nv * sizeof *force);
+  }
+  return status;
+}
+
+baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
+                                  const double *v, double *kinetic, double *potential)
+{
+  double found[2] = {0.0, 0.0};
+  baum_status status = check_state("baum_workspace_energy", workspace, t, q, v, found);
+  if (status == BAUM_OK) {
+    status = baum_i_energy(workspace, t, q, v, &found[0], &found[1]);
+  }
+  if (status == BAUM_OK && kinetic) {
+    *kinetic = found[0];
+  }
+  if (status == BAUM_OK && potential) {
+    *potential = found[1];
+  }
+  return status;
+}
+
+/* ---- solutions ---- */
+
+baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, const double *q,
+                                        const double *v, double alpha, double beta, double *a,
+                                        double *lambda)
+{
+  const char *call = "baum_workspace_acceleration";
+  baum_status status = check_state(call, workspace, t, q, v, q);
+  if (status == BAUM_OK) {
+    status = check_finite(call, "alpha, beta", (const double[]){alpha, beta}, 2);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (alpha != 0.0 || beta != 0.0) {
+    status = baum_i_acceleration(workspace, t, q, v, alpha, beta);
+  } else {
+    status = baum_i_reported_acceleration(workspace, t, q, v);
+  }
+  if (status == BAUM_OK && a) {
+    memcpy(a, workspace->a, (size_t)workspace->mechanism->nv * sizeof *a);
+  }
+  if (status == BAUM_OK && lambda) {
+    memcpy(lambda, workspace->lambda, (size_t)workspace->mechanism->nc * sizeof *lambda);
+  }
+  return status;
+}
+
+baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
+                                    const double *lambda, baum_joint_id joint, double *reaction)
+{
+  const char *call = "baum_workspace_reaction";
+  baum_status status = check_point(call, workspace, t, q, reaction);
+  if (status == BAUM_OK) {
+    status = check_finite(call, "lambda", lambda, workspace->mechanism->nc);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_joint(workspace->mechanism, joint, call, "joint");
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_position_stage(workspace, t, q);
+  }
+  if (status == BAUM_OK) {
+    baum_i_reaction(workspace, baum_i_joint_index(workspace->mechanism, joint), lambda, reaction);
+  }
+  return status;
+}
+
+/* ---- residual forms ---- */
+
+static baum_status check_dae(const char *call, const baum_workspace *w, baum_residual index,
+                             const double numbers[4], const double *y, const double *dy)
+{
+  if (!w) {
+    return fail_null(call, "the workspace");
+  }
+  if (index != BAUM_RESIDUAL_INDEX1 && index != BAUM_RESIDUAL_INDEX3) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call, (int)index);
+  }
+  int size = 2 * w->mechanism->nv + w->mechanism->nc;
+  baum_status status = check_finite(call, "one of alpha, beta, c, t", numbers, 4);
+  if (status == BAUM_OK) {
+    status = check_finite(call, "y", y, size);
+  }
+  return status == BAUM_OK ? check_finite(call, "dy", dy, size) : status;
+}
+
+baum_status baum_workspace_residual(baum_workspace *workspace, baum_residual index, double alpha,
+                                    double beta, double t, const double *y, const double *dy,
+                                    double *residual)
+{
+  const char *call = "baum_workspace_residual";
+  const double numbers[4] = {alpha, beta, 0.0, t};
+  baum_status status = check_dae(call, workspace, index, numbers, y, dy);
+  if (status == BAUM_OK && !residual) {
+    status = fail_null(call, "the output");
+  }
+  const baum_i_dae dae = {index, alpha, beta};
+  return status == BAUM_OK ? baum_i_residual(workspace, &dae, t, y, dy, residual) : status;
+}
+
+static void copy_pattern(const baum_i_residual_matrix *matrix, int size, int32_t *columns,
+                         int32_t *rows, int32_t *nonzeros)
+{
+  int count = baum_i_residual_matrix_nonzeros(matrix);
+  if (columns) {
+    memcpy(columns, baum_i_residual_matrix_columns(matrix),
+           ((size_t)size + 1) * sizeof *columns);
+  }
+  if (rows) {
+    memcpy(rows, baum_i_residual_matrix_rows(matrix), (size_t)count * sizeof *rows);
+  }
+  if (nonzeros) {
+    *nonzeros = count;
+  }
+}
+
+baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, baum_residual index,
+                                             double alpha, double beta, double c, double t,
+                                             const double *y, const double *dy, int32_t *columns,
+                                             int32_t *rows, double *values, int32_t *nonzeros)
+{
+  const char *call = "baum_workspace_residual_jacobian";
+  const double numbers[4] = {alpha, beta, c, t};
+  baum_status status = check_dae(call, workspace, index, numbers, y, dy);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_i_dae dae = {index, alpha, beta};
+  baum_i_residual_matrix *matrix = NULL;
+  status = baum_i_residual_matrix_create(workspace, index, &matrix);
+  if (status == BAUM_OK && values) {
+    status = baum_i_residual_matrix_fill(matrix, workspace, &dae, c, t, y, dy, values);
+  }
+  if (status == BAUM_OK) {
+    copy_pattern(matrix, 2 * workspace->mechanism->nv + workspace->mechanism->nc, columns, rows,
+                 nonzeros);
+  }
+  baum_i_residual_matrix_destroy(matrix);
+  return status;
+}
+
+/* ---- assembly and projection ---- */
+
+static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, int32_t count,
+                             bool *flags)
+{
+  memcpy(flags, m->held, (size_t)m->nv * sizeof *flags);
+  for (int32_t k = 0; k < count; k++) {
+    baum_status status = baum_i_check_body(m, held[k], "baum_workspace_assemble", "held");
+    if (status != BAUM_OK) {
+      return status;
+    }
+    int index = baum_i_body_index(m, held[k]);
+    for (int j = 0; index > 0 && j < m->bodies[index]->nv; j++) {
+      flags[m->bodies[index]->v + j] = true;
+    }
+  }
+  return BAUM_OK;
+}
+
+/* Velocities may be NaN, positions not. */
+static baum_status check_guess(const char *call, const baum_workspace *w, double t, const double *q,
+                               const double *v)
+{
+  baum_status status = check_point(call, w, t, q, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!v) {
+    return fail_null(call, "v");
+  }
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    if (isinf(v[i])) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: v[%d] is %g, must be finite, or NaN for free",
+                         call, i, v[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q, double *v,
+                                    const baum_body_id *held, int32_t held_count)
+{
+  const char *call = "baum_workspace_assemble";
+  baum_status status = check_guess(call, workspace, t, q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (held_count < 0 || (held_count > 0 && !held)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: held is NULL or held_count (%d) negative", call,
+                       (int)held_count);
+  }
+  bool *flags = baum_i_alloc((size_t)workspace->mechanism->nv, sizeof *flags);
+  if (!flags) {
+    return baum_i_fail_memory();
+  }
+  status = mark_held(workspace->mechanism, held, held_count, flags);
+  if (status == BAUM_OK) {
+    status = baum_i_assemble(workspace, t, q, v, flags, NULL);
+  }
+  baum_i_free(flags);
+  return status;
+}
+
+baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)
+{
+  baum_status status = check_state("baum_workspace_project", workspace, t, q, v, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  size_t nv = (size_t)workspace->mechanism->nv;
+  double *copy = baum_i_alloc(2 * nv, sizeof *copy);
+  if (!copy) {
+    return baum_i_fail_memory();
+  }
+  memcpy(copy, q, nv * sizeof *q);
+  memcpy(copy + nv, v, nv * sizeof *v);
+  status = baum_i_project(workspace, t, copy, copy + nv);
+  if (status == BAUM_OK) {
+    memcpy(q, copy, nv * sizeof *q);
+    memcpy(v, copy + nv, nv * sizeof *v);
+  }
+  baum_i_free(copy);
+  return status;
+}

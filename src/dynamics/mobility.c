@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a mechanism can do at its assembled start pose: freedoms, redundant and conflicting rows, by name. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+/* Append to the report's text; what does not fit is cut. */
+static void BAUM_I_PRINTF(2, 3) say(baum_mobility *report, const char *format, ...)
+{
+  size_t used = strlen(report->text);
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(report->text + used, sizeof report->text - used, format, arguments);
+  va_end(arguments);
+}
+
+static bool has_joint(const baum_mechanism *m, int body)
+{
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_span *span = &m->joints[k]->span;
+    for (int i = 0; i < span->body_count; i++) {
+      if (span->bodies[i] == body) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+static void count_free_bodies(const baum_mechanism *m, baum_mobility *report)
+{
+  for (int i = 1; i <= m->body_count; i++) {
+    if (has_joint(m, i)) {
+      continue;
+    }
+    say(report, "%s\"%s\"", report->free_bodies == 0 ? " Bodies without a joint: " : ", ",
+        m->bodies[i]->element.name);
+    report->free_bodies++;
+  }
+  if (report->free_bodies > 0) {
+    say(report, ".");
+  }
+}
+
+static void find_worst(const baum_workspace *w, baum_mobility *report)
+{
+  int row = baum_i_largest(w->phi, w->mechanism->nc, &report->worst_phi);
+  if (row >= 0) {
+    report->worst_joint = baum_i_joint_id(w->mechanism, baum_i_row_joint(w->mechanism, row));
+  }
+}
+
+/* Rows that keep a violation after the least-squares assembly failed: those above a tenth of the worst. */
+static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
+{
+  char reason[BAUM_I_MESSAGE_SIZE];
+  (void)snprintf(reason, sizeof reason, "%s", baum_message());
+  find_worst(w, report);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    report->conflicting_rows += fabs(w->phi[i]) >= 0.1 * report->worst_phi ? 1 : 0;
+  }
+  report->freedoms = -1;
+  say(report, "Cannot be assembled: %s.", reason);
+  return BAUM_OK;
+}
+
+static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility *report)
+{
+  const baum_mechanism *m = w->mechanism;
+  const baum_i_redundancy *r = &w->redundancy;
+  baum_status status = baum_i_find_redundancy(w, 0.0, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  report->freedoms = m->nv - (m->nc > 0 ? r->rank : 0);
+  report->redundant_rows = r->count;
+  report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
+  say(report, "%d %s, %d coordinates, %d constraint rows.", report->freedoms,
+      report->freedoms == 1 ? "freedom" : "freedoms", m->nv, m->nc);
+  if (r->count > 0) {
+    char names[512] = "";
+    memset(w->work_v, 0, 2 * (size_t)m->nv * sizeof *w->work_v);
+    double *rest = w->work_v + m->nv;
+    status = baum_i_reported_acceleration(w, 0.0, q, rest);
+    baum_i_redundancy_text(w, names, sizeof names);
+    say(report, " %d redundant %s among %s.", r->count, r->count == 1 ? "row" : "rows", names);
+    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* of M, not of the rows */
+  }
+  if (report->near_singular) {
+    say(report, " The start pose is singular: %d independent rows, %d nearby.", r->rank_at_start,
+        r->rank);
+  }
+  return status;
+}
+
+static baum_status survey(baum_workspace *w, double *q, baum_mobility *report)
+{
+  const baum_mechanism *m = w->mechanism;
+  memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
+  baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held, NULL);
+  if (status == BAUM_ERR_INCONSISTENT) {
+    status = report_conflict(w, report);
+  } else if (status == BAUM_OK) {
+    status = baum_i_position_stage(w, 0.0, q);
+    find_worst(w, report);
+    status = status == BAUM_OK ? report_rank(w, q, report) : status;
+  }
+  count_free_bodies(m, report);
+  return status;
+}
+
+baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
+                                    size_t caller_size)
+{
+  if (!out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_mobility: out is NULL or its size is 0");
+  }
+  baum_workspace *w = NULL;
+  baum_status status = baum_workspace_create(mechanism, &w);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_mobility report = {.struct_size = sizeof report};
+  double *q = baum_i_alloc((size_t)mechanism->nq, sizeof *q);
+  status = q ? survey(w, q, &report) : baum_i_fail_memory();
+  if (status == BAUM_OK) {
+    report.struct_size = caller_size < sizeof report ? caller_size : sizeof report;
+    memcpy(out, &report, report.struct_size);
+  }
+  baum_i_free(q);
+  baum_workspace_destroy(w);
+  return status;
+}

@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Projection onto the constraints by the least change in the metric of M (Eich 1993; Lubich 1991).
+ *
+ *   positions:   [ M  J^T ] [ dq     ]   [  0   ]        velocities:   [ M  J^T ] [ dv     ]   [ 0        ]
+ *                [ J   0  ] [ lambda ] = [ -Phi ]                      [ J   0  ] [ lambda ] = [ nu - J v ]
+ *
+ * Newton on the positions until a step is so small that the next, being of its square, is below rounding.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+enum { ITERATIONS = 12 };
+/* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of curvature. */
+static const double CONVERGED = 1e-10;
+
+/* Solve with right side (0, w->rhs); the change is in w->a. */
+static baum_status least_change(baum_workspace *w)
+{
+  const baum_i_kkt_values values = {.mass = w->mass,
+                                    .jacobian = w->jacobian,
+                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
+  baum_status status = baum_i_kkt_factor(w->kkt, &values);
+  if (status == BAUM_OK) {
+    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
+  }
+  if (status == BAUM_ERR_SINGULAR) {
+    return baum_i_fail(status, "t = %.9g s: projection: the constraints are singular here",
+                       w->point.t);
+  }
+  if (status == BAUM_ERR_NOT_FINITE) {
+    return baum_i_fail(status, "t = %.9g s: projection: a constraint is not finite", w->point.t);
+  }
+  return status;
+}
+
+static double apply(const baum_mechanism *m, const double *change, double *q)
+{
+  double size = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    q[i] += change[i];
+    size = fmax(size, fabs(change[i]) / m->scale[i]);
+  }
+  return size;
+}
+
+static baum_status project_positions(baum_workspace *w, double t, double *q)
+{
+  const baum_mechanism *m = w->mechanism;
+  double last = INFINITY;
+  for (int k = 0; k < ITERATIONS; k++) {
+    baum_status status = baum_i_position_stage(w, t, q);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    for (int i = 0; i < m->nc; i++) {
+      w->rhs[i] = -w->phi[i];
+    }
+    status = least_change(w);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    double size = apply(m, w->a, q);
+    if (size <= CONVERGED) {
+      return BAUM_OK;
+    }
+    if (!(size < 2.0 * last)) {
+      break;
+    }
+    last = size;
+  }
+  return baum_i_fail(BAUM_ERR_CONVERGENCE,
+                     "t = %.9g s: projection of the positions does not converge (last change %.3g of "
+                     "the scale): the step is too large or the pose is near a singular one",
+                     t, last);
+}
+
+static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
+{
+  baum_status status = baum_i_position_stage(w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
+  baum_i_jacobian_times(&w->structure, w->jacobian, v, w->rhs);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = w->nu[i] - w->rhs[i];
+  }
+  status = least_change(w);
+  if (status == BAUM_OK) {
+    (void)apply(w->mechanism, w->a, v);
+  }
+  return status;
+}
+
+baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v)
+{
+  if (workspace->mechanism->nc == 0) {
+    return BAUM_OK;
+  }
+  baum_status status = project_positions(workspace, t, q);
+  return status == BAUM_OK ? project_velocities(workspace, t, q, v) : status;
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reaction of a joint: the generalized force -J^T lambda of its rows on its bodies.
+ *
+ * For a planar joint on body_b: force F = the entries at (x, y), and moment about the joint's point P on body_b, which
+ * follows from the entry at the angle, the moment about the centre of mass C: m_P = m_C - (P - C) x F.
+ * A joint whose body_b is ground (no columns) reacts on body_a with the opposite: F_b = -F_a, the moment about P likewise.
+ */
+#include <string.h>
+
+#include "dynamics/dynamics.h"
+#include "mechanism/planar.h"
+
+/* -J^T lambda over the joint's local columns. */
+static void generalized(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,
+                        double *out)
+{
+  const double *block = w->jacobian + joint->jacobian;
+  int nl = joint->span.nl;
+  memset(out, 0, (size_t)nl * sizeof *out);
+  for (int i = 0; i < joint->rows; i++) {
+    for (int j = 0; j < nl; j++) {
+      out[j] -= block[i * nl + j] * lambda[joint->row + i];
+    }
+  }
+}
+
+/* Force and moment about `at` of one side of a planar joint. */
+static void about_point(const baum_i_frame *frame, const double *side, int nv, const double at[2],
+                        double out[3])
+{
+  out[0] = side[0];
+  out[1] = side[1];
+  double moment = nv == 3 ? side[2] : 0.0;
+  out[2] = moment - ((at[0] - frame->x) * side[1] - (at[1] - frame->y) * side[0]);
+}
+
+static void planar(const baum_workspace *w, const baum_i_joint *joint, const double *local,
+                   double out[3])
+{
+  const baum_mechanism *m = w->mechanism;
+  int a = joint->span.bodies[0];
+  int b = joint->span.bodies[1];
+  double at[2];
+  joint->type->place(joint, &w->point, at);
+  if (b != 0) {
+    int offset = a != 0 ? m->bodies[a]->nv : 0;
+    about_point(&w->point.frames[b], local + offset, m->bodies[b]->nv, at, out);
+    return;
+  }
+  about_point(&w->point.frames[a], local, m->bodies[a]->nv, at, out);
+  for (int i = 0; i < 3; i++) {
+    out[i] = -out[i];
+  }
+}
+
+int baum_i_reaction_width(const baum_mechanism *mechanism, int joint)
+{
+  const baum_i_joint *j = mechanism->joints[joint];
+  return j->type->planar ? 3 : j->span.nl;
+}
+
+void baum_i_reaction(const baum_workspace *w, int joint, const double *lambda, double *out)
+{
+  const baum_i_joint *j = w->mechanism->joints[joint];
+  if (j->type->planar) {
+    double local[6];
+    generalized(w, j, lambda, local);
+    planar(w, j, local, out);
+  } else {
+    generalized(w, j, lambda, out);
+  }
+}

@@ -1,0 +1,339 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Permanent redundancy: rows that depend on others not just at the start pose but around it.
+ *
+ * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours on the constraint
+ * manifold. The largest of them is the rank that the mechanism has; the rows outside one largest independent
+ * set are redundant, and every solver leaves them out. A start pose of lower rank is a singular one.
+ *
+ * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it, and assembled there.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+enum { NEIGHBOURS = 4 };
+/* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that only come near
+ * dependence at a generic pose are told apart down to this. */
+static const double RANK_TOLERANCE = 1e-9;
+static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
+
+typedef struct search {
+  baum_workspace *w;
+  double *column_scale; /* (nv) M^-1/2 */
+  double *q;            /* (nv) neighbour */
+  double *x;            /* (nv) direction */
+  unsigned char *independent; /* (nc) of the pose last looked at */
+} search;
+
+static void find_column_scale(const search *s)
+{
+  const baum_workspace *w = s->w;
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      double mass = w->mass[block->value + i * block->size + i];
+      double scale = w->mechanism->scale[block->first + i];
+      s->column_scale[block->first + i] = mass > 0.0 ? 1.0 / sqrt(mass) : scale;
+    }
+  }
+}
+
+/* Rank at a pose; leaves J, M and nu there in the workspace. */
+static baum_status rank_at(const search *s, double t, const double *q, int *rank)
+{
+  baum_status status = baum_i_position_stage(s->w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  find_column_scale(s);
+  status = baum_i_jacobian_rank(&s->w->structure, s->w->jacobian, s->column_scale, RANK_TOLERANCE,
+                                rank, s->independent);
+  if (status == BAUM_ERR_NOT_FINITE) {
+    return baum_i_fail(status, "t = %.9g s: the constraint Jacobian is not finite", t);
+  }
+  return status;
+}
+
+static void keep_set(baum_i_redundancy *r, const search *s, int rank)
+{
+  int nc = s->w->mechanism->nc;
+  r->rank = rank;
+  r->count = nc - rank;
+  for (int i = 0; i < nc; i++) {
+    r->dropped[i] = s->independent[i] ? 0 : 1;
+  }
+}
+
+/* ---- neighbours ---- */
+
+/* Deterministic numbers in [-1, 1]: the fractional parts of multiples of the golden ratio. */
+static double scatter(int k)
+{
+  double x = 0.6180339887498949 * (double)(k + 1);
+  return 2.0 * (x - floor(x)) - 1.0;
+}
+
+static double scaled_size(const baum_mechanism *m, const double *x)
+{
+  double size = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    size = fmax(size, fabs(x[i]) / m->scale[i]);
+  }
+  return size;
+}
+
+/* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S, so that dependent rows do not matter. */
+static baum_status solve_direction(const search *s, const double *p, const double *r)
+{
+  baum_workspace *w = s->w;
+  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
+  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
+  baum_i_mass_times(&w->structure, w->mass, p, w->force);
+  baum_status status = baum_i_kkt_factor(w->kkt, &values);
+  return status == BAUM_OK ? baum_i_kkt_solve(w->kkt, w->force, r, s->x, w->lambda) : status;
+}
+
+static void small_shift(const search *s)
+{
+  baum_workspace *w = s->w;
+  memset(w->shift, 0, (size_t)w->mechanism->nc * sizeof *w->shift);
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      for (int j = 0; j < block->cols; j++) {
+        double c = w->jacobian[block->value + i * block->cols + j] * s->column_scale[block->col[j]];
+        w->shift[block->row + i] += 1e-10 * c * c;
+      }
+    }
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->shift[i] = w->shift[i] > 0.0 ? w->shift[i] : 1.0;
+  }
+}
+
+/* A direction of motion at the pose in the workspace, in s->x; its scaled size in *size, 0 when nothing moves. */
+static baum_status find_direction(const search *s, double *size)
+{
+  baum_workspace *w = s->w;
+  const baum_mechanism *m = w->mechanism;
+  double *p = w->work_v;
+  memset(p, 0, (size_t)m->nv * sizeof *p);
+  memcpy(w->rhs, w->nu, (size_t)m->nc * sizeof *w->rhs);
+  small_shift(s);
+  baum_status status = solve_direction(s, p, w->rhs);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double driven = scaled_size(m, s->x);
+  double push = driven > 0.0 ? driven : 1.0;
+  for (int i = 0; i < m->nv; i++) {
+    p[i] = push * scatter(i) * m->scale[i];
+  }
+  status = solve_direction(s, p, w->rhs);
+  *size = scaled_size(m, s->x);
+  *size = *size > 1e-6 * push ? *size : 0.0;
+  return status;
+}
+
+/* One neighbour; a pose that cannot be assembled is passed over. */
+static baum_status look_at_neighbour(const search *s, double t, const double *q, double step)
+{
+  baum_workspace *w = s->w;
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    s->q[i] = q[i] + step * s->x[i];
+  }
+  baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL, NULL);
+  int rank = 0;
+  if (status == BAUM_OK) {
+    status = rank_at(s, t + step, s->q, &rank);
+  }
+  if (status == BAUM_OK && rank > w->redundancy.rank) {
+    keep_set(&w->redundancy, s, rank);
+  }
+  return status == BAUM_ERR_MEMORY || (status == BAUM_ERR_CALLBACK && !w->point.retry) ? status
+                                                                                        : BAUM_OK;
+}
+
+static baum_status look_around(const search *s, double t, const double *q)
+{
+  double size = 0.0;
+  baum_status status = find_direction(s, &size);
+  if (status == BAUM_ERR_MEMORY) {
+    return status;
+  }
+  if (status != BAUM_OK || size == 0.0) {
+    return BAUM_OK;
+  }
+  for (int k = 0; k < NEIGHBOURS; k++) {
+    status = look_at_neighbour(s, t, q, DISTANCE[k] / size);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status find(const search *s, double t, const double *q)
+{
+  baum_i_redundancy *r = &s->w->redundancy;
+  int nc = s->w->mechanism->nc;
+  int rank = 0;
+  baum_status status = rank_at(s, t, q, &rank);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  keep_set(r, s, rank);
+  r->rank_at_start = rank;
+  if (rank == nc) {
+    return BAUM_OK; /* independent here means independent nearby */
+  }
+  status = look_around(s, t, q);
+  baum_i_free(r->combination);
+  r->combination = NULL;
+  if (status == BAUM_OK && r->count > 0) {
+    r->combination = baum_i_alloc((size_t)r->count * (size_t)nc, sizeof *r->combination);
+    status = r->combination ? BAUM_OK : baum_i_fail_memory();
+  }
+  return status;
+}
+
+baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q)
+{
+  size_t nv = (size_t)workspace->mechanism->nv;
+  size_t nc = (size_t)workspace->mechanism->nc;
+  workspace->redundancy.count = 0;
+  if (nc == 0) {
+    return BAUM_OK;
+  }
+  double *memory = baum_i_alloc(3 * nv, sizeof *memory);
+  unsigned char *independent = baum_i_alloc(nc, 1);
+  baum_status status = BAUM_ERR_MEMORY;
+  if (memory && independent) {
+    const search s = {workspace, memory, memory + nv, memory + 2 * nv, independent};
+    status = find(&s, t, q);
+  } else {
+    status = baum_i_fail_memory();
+  }
+  if (status != BAUM_OK) {
+    workspace->redundancy.count = 0;
+  }
+  baum_i_free(memory);
+  baum_i_free(independent);
+  return status;
+}
+
+/* ---- null space and names ---- */
+
+/* |row i of J M^-1/2| with the diagonal of M */
+static void find_row_scale(baum_workspace *w)
+{
+  double *s = w->redundancy.row_scale;
+  double *mass = w->work_v;
+  memset(s, 0, (size_t)w->mechanism->nc * sizeof *s);
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      mass[block->first + i] = w->mass[block->value + i * block->size + i];
+    }
+  }
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      for (int j = 0; j < block->cols; j++) {
+        double c = w->jacobian[block->value + i * block->cols + j];
+        double m = mass[block->col[j]];
+        s[block->row + i] += m > 0.0 ? c * c / m : 0.0;
+      }
+    }
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    s[i] = sqrt(s[i]);
+  }
+}
+
+/* Gram, Schmidt, twice for rounding. */
+static void orthonormalize(double *row, const double *before, int count, int nc)
+{
+  for (int pass = 0; pass < 2; pass++) {
+    for (int k = 0; k < count; k++) {
+      double part = 0.0;
+      for (int i = 0; i < nc; i++) {
+        part += before[(size_t)k * (size_t)nc + (size_t)i] * row[i];
+      }
+      for (int i = 0; i < nc; i++) {
+        row[i] -= part * before[(size_t)k * (size_t)nc + (size_t)i];
+      }
+    }
+  }
+  double norm = 0.0;
+  for (int i = 0; i < nc; i++) {
+    norm += row[i] * row[i];
+  }
+  for (int i = 0; i < nc && norm > 0.0; i++) {
+    row[i] /= sqrt(norm);
+  }
+}
+
+/* Row d of J as a vector over v. */
+static void expand_row(const baum_workspace *w, int d, double *out)
+{
+  const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, d)];
+  const double *row = w->jacobian + joint->jacobian + (d - joint->row) * joint->span.nl;
+  memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
+  for (int j = 0; j < joint->span.nl; j++) {
+    out[joint->span.columns[j]] += row[j];
+  }
+}
+
+baum_status baum_i_find_combinations(baum_workspace *w)
+{
+  baum_i_redundancy *r = &w->redundancy;
+  int nc = w->mechanism->nc;
+  int k = 0;
+  find_row_scale(w);
+  for (int d = 0; d < nc && k < r->count; d++) {
+    if (!r->dropped[d]) {
+      continue;
+    }
+    double *row = r->combination + (size_t)k * (size_t)nc;
+    double *f = w->work_v;
+    double *zero = w->work_c;
+    expand_row(w, d, f);
+    memset(zero, 0, (size_t)nc * sizeof *zero);
+    baum_status status = baum_i_kkt_solve(w->kkt, f, zero, f + w->mechanism->nv, row);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    for (int i = 0; i < nc; i++) {
+      row[i] = r->row_scale[i] * ((i == d ? 1.0 : 0.0) - row[i]);
+    }
+    orthonormalize(row, r->combination, k, nc);
+    k++;
+  }
+  return BAUM_OK;
+}
+
+void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size)
+{
+  const baum_i_redundancy *r = &workspace->redundancy;
+  const baum_mechanism *m = workspace->mechanism;
+  size_t used = 0;
+  text[0] = '\0';
+  for (int j = 0; j < m->joint_count && used + 1 < size; j++) {
+    double part = 0.0;
+    for (int k = 0; k < r->count; k++) {
+      for (int i = 0; i < m->joints[j]->rows; i++) {
+        part = fmax(part, fabs(r->combination[k * m->nc + m->joints[j]->row + i]));
+      }
+    }
+    if (part > 1e-6) {
+      int wrote = snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "",
+                           m->joints[j]->element.name);
+      used += wrote > 0 ? (size_t)wrote : 0;
+    }
+  }
+}

@@ -1,0 +1,146 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory for evaluating one mechanism: made once, then nothing is allocated. */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+/* One array of the workspace; the list below is the one place that knows them. */
+typedef struct array {
+  double **place;
+  int count;
+} array;
+
+enum { ARRAY_COUNT = 24 };
+
+static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
+{
+  const baum_mechanism *m = w->mechanism;
+  const array all[ARRAY_COUNT] = {
+    {&w->mass, m->mass_size},
+    {&w->jacobian, m->jacobian_size},
+    {&w->phi, m->nc},
+    {&w->phi_rate, m->nc},
+    {&w->nu, m->nc},
+    {&w->gamma, m->nc},
+    {&w->force, m->nv},
+    {&w->rhs, m->nc},
+    {&w->a, m->nv},
+    {&w->lambda, m->nc},
+    {&w->work_v, 2 * m->nv},
+    {&w->work_c, 2 * m->nc},
+    {&w->shift, m->nc},
+    {&w->mass_q, m->mass_size},
+    {&w->body_force_q, m->mass_size},
+    {&w->body_force_v, m->mass_size},
+    {&w->jw_q, m->jacobian_size},
+    {&w->gamma_q, m->jacobian_size},
+    {&w->gamma_v, m->jacobian_size},
+    {&w->nu_q, m->jacobian_size},
+    {&w->jtl_q, m->joint_square_size},
+    {&w->force_q, m->force_square_size},
+    {&w->force_v, m->force_square_size},
+    {&w->point.scratch, m->scratch_size},
+  };
+  memcpy(list, all, sizeof all);
+}
+
+static baum_status make_arrays(baum_workspace *w)
+{
+  array list[ARRAY_COUNT];
+  list_arrays(w, list);
+  for (int i = 0; i < ARRAY_COUNT; i++) {
+    *list[i].place = baum_i_alloc((size_t)list[i].count, sizeof(double));
+    if (!*list[i].place) {
+      return baum_i_fail_memory();
+    }
+  }
+  w->point.frames = baum_i_alloc((size_t)w->mechanism->body_count + 1, sizeof *w->point.frames);
+  w->redundancy.dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  w->redundancy.row_scale = baum_i_alloc((size_t)w->mechanism->nc, sizeof(double));
+  return w->point.frames && w->redundancy.dropped && w->redundancy.row_scale
+           ? BAUM_OK
+           : baum_i_fail_memory();
+}
+
+static baum_status make_structure(baum_workspace *w)
+{
+  const baum_mechanism *m = w->mechanism;
+  baum_i_mass_block *mass = baum_i_alloc((size_t)m->body_count, sizeof *mass);
+  baum_i_row_block *rows = baum_i_alloc((size_t)m->joint_count, sizeof *rows);
+  w->structure = (baum_i_kkt_structure){.nv = m->nv, .nc = m->nc};
+  w->structure.mass_blocks = mass;
+  w->structure.row_blocks = rows;
+  if (!mass || !rows) {
+    return baum_i_fail_memory();
+  }
+  w->structure.mass_block_count = m->body_count;
+  w->structure.row_block_count = m->joint_count;
+  for (int i = 0; i < m->body_count; i++) {
+    const baum_i_body *body = m->bodies[i + 1];
+    mass[i] = (baum_i_mass_block){.first = body->v, .size = body->nv, .value = body->mass};
+  }
+  for (int i = 0; i < m->joint_count; i++) {
+    const baum_i_joint *joint = m->joints[i];
+    rows[i] = (baum_i_row_block){.row = joint->row,
+                                 .rows = joint->rows,
+                                 .cols = joint->span.nl,
+                                 .col = joint->span.columns,
+                                 .value = joint->jacobian};
+  }
+  return BAUM_OK;
+}
+
+static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
+{
+  w->point.mechanism = w->mechanism;
+  w->point.parameters = w->mechanism->parameters;
+  baum_status status = make_arrays(w);
+  if (status == BAUM_OK) {
+    status = make_structure(w);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_kkt_create(&w->structure, choice, &w->kkt);
+  }
+  return status;
+}
+
+baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
+                                    baum_workspace **out)
+{
+  *out = NULL;
+  baum_workspace *w = baum_i_alloc(1, sizeof *w);
+  if (!w) {
+    return baum_i_fail_memory();
+  }
+  w->mechanism = baum_i_mechanism_share(mechanism);
+  baum_status status = fill(w, choice);
+  if (status != BAUM_OK) {
+    baum_workspace_destroy(w);
+    return status;
+  }
+  *out = w;
+  return BAUM_OK;
+}
+
+void baum_workspace_destroy(baum_workspace *workspace)
+{
+  if (!workspace) {
+    return;
+  }
+  array list[ARRAY_COUNT];
+  list_arrays(workspace, list);
+  for (int i = 0; i < ARRAY_COUNT; i++) {
+    baum_i_free(*list[i].place);
+  }
+  baum_i_free(workspace->point.frames);
+  baum_i_free(workspace->redundancy.dropped);
+  baum_i_free(workspace->redundancy.row_scale);
+  baum_i_free(workspace->redundancy.combination);
+  baum_i_kkt_destroy(workspace->kkt);
+  baum_i_free((void *)(uintptr_t)workspace->structure.mass_blocks);
+  baum_i_free((void *)(uintptr_t)workspace->structure.row_blocks);
+  baum_mechanism_destroy((baum_mechanism *)(uintptr_t)workspace->mechanism);
+  baum_i_free(workspace);
+}
