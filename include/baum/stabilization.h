@@ -30,7 +30,7 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_SCALED = 2,    /**< alpha h, beta^2 h^2 [-]; fixed step only. */
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
-  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero where the method has such a point, else least radius. */
+  BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero; fixed step only. */
   BAUM_GAINS_AUTO = 6       /**< alpha = beta = 2 x the fastest angular rate at start, capped to be stable. */
 } baum_gain_rule;
 
@@ -59,13 +59,14 @@ BAUM_API baum_gains baum_gains_taylor(void);
  */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Fastest decay per step: explicit Euler alpha = beta = 1/h, semi-implicit Euler alpha = 1/(2h), beta = 1/h; for
- *  other methods of fixed step the point of least spectral radius. It costs methods of order above 1 their
- *  order, because the gains grow as the step shrinks. */
+/** Both roots at zero, the fastest decay there is: explicit Euler alpha = beta = 1/h, semi-implicit Euler
+ *  alpha = 1/(2h), beta = 1/h; RK2 alpha = 1/h, beta = sqrt(2)/h; RK3 and RK4 a zero of their polynomial. Fixed
+ *  step only. It costs methods of order above 1 their order, because the gains grow as the step shrinks. */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
 /** alpha = beta = twice the fastest angular rate of the start state: |omega|, |v|/L, sqrt(|a|/L). With a fixed
- *  step capped at alpha h = 0.3. Keeps the order of the method. */
+ *  step capped at alpha h = 0.3. Keeps the order of the method. When nothing moves at start: 0.01/h, and 1 1/s
+ *  where the step varies, which suits machines with times of seconds only. */
 BAUM_API baum_gains baum_gains_auto(void);
 
 /** What becomes of a violation. */
@@ -98,7 +99,7 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 
 /** Largest alpha h for which alpha = damping_ratio x beta is stable.
  *  @param      damping_ratio  [-] > 0
- *  @param[out] alpha_h        receives the limit, 0 when nothing is stable
+ *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when nothing is stable
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
  */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
@@ -111,7 +112,8 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
 BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
                                              double *beta2_h2);
 
-/** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2 h^2).
+/** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2 h^2). Its distance
+ *  is within 1 % of the least; enough for advice, not for plotting the edge.
  *  @param      alpha_h,beta2_h2            [-] finite, the point asked for
  *  @param[out] good_alpha_h,good_beta2_h2  receive the nearest good point; the point itself when it is good
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)

@@ -14,9 +14,9 @@
  *                       which is explicit Euler at (A + B/2, B): the same triangle, sheared.
  *
  * Numbers: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1) keeps its digits
- * where gains are small and |z| is close to 1. A^2 - B is (A - sqrt B)(A + sqrt B); where it is zero up to the
- * rounding of alpha h and beta h it is taken as zero, else a double root on the circle, as explicit Euler has
- * at (2, 4), would be torn apart by 1e-8 and called unstable.
+ * where gains are small and |z| is close to 1. Where A^2 - B is zero up to the rounding of alpha h and beta h it is
+ * taken as zero, else a double root on the circle, as explicit Euler has at (2, 4), would be torn apart by 1e-8 and
+ * called unstable.
  */
 #include "stabilization/amplification.h"
 
@@ -26,6 +26,9 @@
 /* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times over. */
 static const double MARGIN = 1e-12;
 
+/* Of A^2 - B, relative to A^2: some roundings of alpha h and beta h, squared. */
+static const double ROUNDING = 16.0 * DBL_EPSILON;
+
 static const baum_i_method explicit_euler = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 1.0}};
 
 typedef struct number {
@@ -33,36 +36,22 @@ typedef struct number {
   double im;
 } number;
 
-/* sqrt(|A^2 - B|), zero within rounding of zero; *real tells the sign of A^2 - B. */
-static double half_difference(double A, double B, bool *real)
-{
-  double a = fabs(A);
-  *real = true;
-  if (B < 0.0) {
-    return hypot(a, sqrt(-B));
-  }
-  double b = sqrt(B);
-  if (fabs(a - b) <= 8.0 * DBL_EPSILON * a) {
-    return 0.0;
-  }
-  *real = a > b;
-  return sqrt(fabs(a - b)) * sqrt(a + b);
-}
-
 /* Roots of mu^2 + 2 A mu + B = 0; the smaller real one from the product, free of cancellation. */
 static void characteristic_roots(double A, double B, number mu[2])
 {
-  bool real;
-  double d = half_difference(A, B, &real);
-  if (!real) {
+  double square = A * A - B;
+  if (fabs(square) <= ROUNDING * A * A) {
+    square = 0.0;
+  }
+  double d = sqrt(fabs(square));
+  if (square < 0.0) {
     mu[0] = (number){-A, d};
     mu[1] = (number){-A, -d};
     return;
   }
   double larger = -(A + copysign(d, A));
-  double smaller = d == 0.0 ? larger : B / larger;
   mu[0] = (number){larger, 0.0};
-  mu[1] = (number){smaller, 0.0};
+  mu[1] = (number){d == 0.0 ? larger : B / larger, 0.0};
 }
 
 /* w = R(mu) - 1, by Horner's rule. */

@@ -262,16 +262,11 @@ static baum_status refuse(const baum_i_gain_context *context, const draft *gains
                      sqrt(good[1]) / h);
 }
 
-static const char *class_text(baum_stability stability)
-{
-  switch (stability) {
-  case BAUM_STABLE: return "stable";
-  case BAUM_MARGINAL: return "marginal: some violations stay";
-  case BAUM_UNSTABLE: return "UNSTABLE, violations grow";
-  case BAUM_VARIABLE_STEP: break;
-  }
-  return "variable step";
-}
+static const char *const class_text[] = {
+  [BAUM_STABLE] = "stable",
+  [BAUM_MARGINAL] = "marginal: some violations stay",
+  [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
+};
 
 static void print_fixed_step(const draft *gains, const baum_amplification *amplification,
                              char text[CLAUSE_SIZE])
@@ -279,7 +274,7 @@ static void print_fixed_step(const draft *gains, const baum_amplification *ampli
   char radius[RADIUS_SIZE];
   print_radius(amplification->spectral_radius, radius);
   (void)snprintf(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
-                 gains->alpha_h, gains->beta2_h2, radius, class_text(amplification->stability));
+                 gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
 }
 
 static void print_variable_step(const draft *gains, char text[CLAUSE_SIZE])

@@ -62,10 +62,13 @@ double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
   if (ray_is_unstable(method, damping_ratio, b)) {
     return 0.0;
   }
-  for (double end = SCAN_END / steepest; b < end; b *= SCAN_RATIO) {
-    if (ray_is_unstable(method, damping_ratio, b * SCAN_RATIO)) {
-      return damping_ratio * bisect_ray(method, damping_ratio, b, b * SCAN_RATIO);
+  double end = SCAN_END / steepest;
+  while (b < end) {
+    double next = b * SCAN_RATIO;
+    if (ray_is_unstable(method, damping_ratio, next)) {
+      return damping_ratio * bisect_ray(method, damping_ratio, b, next);
     }
+    b = next;
   }
   return HUGE_VAL;
 }

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The methods of fixed step, as src/stabilization sees them, and numbers that repeat from run to run. */
+#ifndef BAUM_TEST_METHODS_H
+#define BAUM_TEST_METHODS_H
+
+#include <stdint.h>
+
+#include "stabilization/amplification.h"
+
+enum { EULER, SEMI_IMPLICIT_EULER, RK2, RK3, RK4, METHOD_COUNT };
+
+static const baum_i_method methods[METHOD_COUNT] = {
+  [EULER] = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 1.0}},
+  [SEMI_IMPLICIT_EULER] = {BAUM_I_METHOD_SEMI_IMPLICIT, 0, {0.0}},
+  [RK2] = {BAUM_I_METHOD_ONE_STEP, 2, {1.0, 1.0, 1.0 / 2.0}},
+  [RK3] = {BAUM_I_METHOD_ONE_STEP, 3, {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0}},
+  [RK4] = {BAUM_I_METHOD_ONE_STEP, 4, {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}},
+};
+
+static inline baum_amplification amplification_at(int method, double alpha_h, double beta2_h2)
+{
+  baum_amplification out = {.struct_size = 77};
+  baum_i_amplification(&methods[method], alpha_h, beta2_h2, &out);
+  return out;
+}
+
+/* Uniform in [low, high); a linear congruential generator (Knuth, MMIX). */
+static inline double uniform(uint64_t *seed, double low, double high)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * ((double)(*seed >> 11) / 9007199254740992.0);
+}
+
+#endif

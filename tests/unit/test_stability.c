@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "methods.h"
+
+/* ---- Limits --------------------------------------------------------------- */
+
+static void limits_are_the_known_ones(void **state)
+{
+  (void)state;
+  double critical[METHOD_COUNT] = {
+    [EULER] = 2.0,
+    [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
+    [RK2] = 2.0,
+    [RK3] = 2.5127453266183286, /* these four by bisection of |R| - 1, in Python */
+    [RK4] = 2.785293563405282,
+  };
+  double taylor[METHOD_COUNT] = {
+    [EULER] = 1.0,
+    [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* 2 A^2 = 4 - 4 A */
+    [RK2] = 1.5436890126920764,              /* A^3 - 2 A^2 + 2 A - 2 = 0 */
+    [RK3] = 1.6791988470387638,
+    [RK4] = 1.9122666654063936,
+  };
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1.0), critical[m], 1e-12, 0.0);
+    ASSERT_NEAR(baum_i_stability_limit(&methods[m], sqrt(0.5)), taylor[m], 1e-12, 0.0);
+  }
+}
+
+/* B = 2 A for explicit Euler below zeta = 1, B = 4 A - 4 above; B = 4 - 4 A for semi-implicit Euler. */
+static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
+{
+  (void)state;
+  for (int k = -30; k <= 30; k++) {
+    double zeta = pow(10.0, 0.2 * k);
+    double z2 = zeta * zeta;
+    double euler = zeta <= 1.0 ? 2.0 * z2 : 2.0 / (1.0 + sqrt(1.0 - 1.0 / z2));
+    double semi_implicit = 2.0 * zeta / (zeta + sqrt(z2 + 1.0));
+    ASSERT_NEAR(baum_i_stability_limit(&methods[EULER], zeta), euler, 1e-11, 0.0);
+    ASSERT_NEAR(baum_i_stability_limit(&methods[SEMI_IMPLICIT_EULER], zeta), semi_implicit, 1e-11,
+                0.0);
+  }
+}
+
+static void everything_below_a_limit_is_stable_and_just_above_is_not(void **state)
+{
+  (void)state;
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    for (double zeta = 0.02; zeta < 40.0; zeta *= 1.3) {
+      double limit = baum_i_stability_limit(&methods[m], zeta);
+      for (int k = 1; k <= 1000; k++) {
+        double A = limit * k / 1000.0 * (1.0 - 1e-9);
+        assert_true(baum_i_amplification_growth(&methods[m], A, A * A / (zeta * zeta)) < 0.0);
+      }
+      double A = limit * (1.0 + 1e-9);
+      assert_true(baum_i_amplification_growth(&methods[m], A, A * A / (zeta * zeta)) > 0.0);
+    }
+  }
+}
+
+static void a_method_may_have_no_limit_or_no_stable_point(void **state)
+{
+  (void)state;
+  static const baum_i_method always = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
+  static const baum_i_method never = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, -1.0}};
+  assert_true(isinf(baum_i_stability_limit(&always, 1.0)));
+  assert_true(baum_i_stability_limit(&never, 1.0) == 0.0);
+}
+
+/* ---- Dead-beat ------------------------------------------------------------ */
+
+static void deadbeat_points_are_the_known_ones(void **state)
+{
+  (void)state;
+  static const double want[METHOD_COUNT][2] = {
+    [EULER] = {1.0, 1.0},
+    [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
+    [RK2] = {1.0, 2.0},
+    [RK3] = {0.701964181008339, 3.7592297596248}, /* zeros of R by Durand-Kerner, in Python */
+    [RK4] = {1.7294442310677054, 3.7812527897746273},
+  };
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    double A = 0.0;
+    double B = 0.0;
+    baum_i_stability_deadbeat(&methods[m], &A, &B);
+    ASSERT_NEAR(A, want[m][0], 1e-12, 0.0);
+    ASSERT_NEAR(B, want[m][1], 1e-12, 0.0);
+    ASSERT_NEAR(amplification_at(m, A, B).spectral_radius, 0.0, 0.0, 1e-14);
+  }
+}
+
+static void deadbeat_of_both_eulers_is_exact(void **state)
+{
+  (void)state;
+  for (int m = EULER; m <= SEMI_IMPLICIT_EULER; m++) {
+    double A = 0.0;
+    double B = 0.0;
+    baum_i_stability_deadbeat(&methods[m], &A, &B);
+    assert_true(A == (m == EULER ? 1.0 : 0.5) && B == 1.0);
+    assert_true(amplification_at(m, A, B).spectral_radius == 0.0);
+  }
+}
+
+/* The best points of the diagonal alpha = beta, published to two digits. */
+static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
+{
+  (void)state;
+  static const double want[METHOD_COUNT][2] = {
+    [EULER] = {1.0, 0.0}, [SEMI_IMPLICIT_EULER] = {0.73, 0.68},
+    [RK2] = {1.0, 0.5},   [RK3] = {1.60, 0.0},
+    [RK4] = {1.60, 0.27},
+  };
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    double best = 2.0;
+    double where = 0.0;
+    for (int k = 1; k < 3000; k++) {
+      double A = 1e-3 * k;
+      double radius = amplification_at(m, A, A * A).spectral_radius;
+      where = radius < best ? A : where;
+      best = fmin(best, radius);
+    }
+    ASSERT_NEAR(where, want[m][0], 0.0, 6e-3);
+    ASSERT_NEAR(best, want[m][1], 0.0, 6e-3);
+  }
+}
+
+/* ---- Nearest good point --------------------------------------------------- */
+
+typedef struct point {
+  double A;
+  double B;
+} point;
+
+static point nearest(int method, double A, double B)
+{
+  point good = {HUGE_VAL, HUGE_VAL};
+  baum_i_stability_nearest(&methods[method], A, B, &good.A, &good.B);
+  return good;
+}
+
+static double segment_distance(point w, point p, point q)
+{
+  double a[2] = {q.A - p.A, q.B - p.B};
+  double t = ((w.A - p.A) * a[0] + (w.B - p.B) * a[1]) / (a[0] * a[0] + a[1] * a[1]);
+  t = fmin(fmax(t, 0.0), 1.0);
+  return hypot(p.A + t * a[0] - w.A, p.B + t * a[1] - w.B);
+}
+
+/* |z| <= r for both Eulers: corners where z = (r, r), (-r, -r), (r, -r). */
+static double triangle_distance(int method, point w)
+{
+  double r = 0.9;
+  point corner[3] = {
+    {1.0 - r, (1.0 - r) * (1.0 - r)}, {1.0 + r, (1.0 + r) * (1.0 + r)}, {1.0, 1.0 - r * r}};
+  double least = HUGE_VAL;
+  for (int k = 0; k < 3 && method == SEMI_IMPLICIT_EULER; k++) {
+    corner[k].A -= 0.5 * corner[k].B;
+  }
+  for (int k = 0; k < 3; k++) {
+    least = fmin(least, segment_distance(w, corner[k], corner[(k + 1) % 3]));
+  }
+  return least;
+}
+
+static void a_good_point_is_its_own_nearest(void **state)
+{
+  (void)state;
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    point got = nearest(m, 0.4, 0.3);
+    assert_true(got.A == 0.4 && got.B == 0.3);
+  }
+}
+
+static void nearest_points_of_both_eulers_are_the_feet_on_their_triangles(void **state)
+{
+  (void)state;
+  uint64_t seed = 1;
+  for (int k = 0; k < 200; k++) {
+    int m = k % 2 == 0 ? EULER : SEMI_IMPLICIT_EULER;
+    double far = k < 100 ? 1.0 : 100.0;
+    point w = {far * uniform(&seed, -0.5, 2.5), far * uniform(&seed, -0.5, 4.5)};
+    point got = nearest(m, w.A, w.B);
+    double moved = hypot(got.A - w.A, got.B - w.B);
+    assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-14);
+    if (moved > 0.0) {
+      ASSERT_NEAR(moved, triangle_distance(m, w), 1e-6, 1e-8);
+    }
+  }
+}
+
+enum { COLUMNS = 300, ROWS = 500 };
+
+/* Distance of the nearest good point of a grid that covers all good regions. */
+static double grid_distance(int method, point w)
+{
+  double least = HUGE_VAL;
+  for (int k = 0; k < COLUMNS * ROWS; k++) {
+    point p = {0.01 * (k % COLUMNS), 0.02 * (k / COLUMNS)};
+    double distance = hypot(p.A - w.A, p.B - w.B);
+    if (distance < least && baum_i_amplification_growth(&methods[method], p.A, p.B) <= -0.1) {
+      least = distance;
+    }
+  }
+  return least;
+}
+
+static void no_grid_point_is_good_and_much_nearer(void **state)
+{
+  (void)state;
+  uint64_t seed = 2;
+  for (int k = 0; k < 200; k++) {
+    int m = k % METHOD_COUNT;
+    double size = k < 100 ? 1.0 : 0.05;
+    point w = {size * uniform(&seed, -0.5, 4.0), size * uniform(&seed, -1.0, 12.0)};
+    point got = nearest(m, w.A, w.B);
+    assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-14);
+    /* 1 %: what a sharp tip of RK3's region may cost. */
+    assert_true(hypot(got.A - w.A, got.B - w.B) <= 1.01 * grid_distance(m, w));
+  }
+}
+
+static void a_point_however_far_has_a_nearest_good_one(void **state)
+{
+  (void)state;
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    point got = nearest(m, 1e150, 1e300);
+    assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-14);
+    got = nearest(m, 1.0, HUGE_VAL);
+    assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-14);
+  }
+}
+
+static void the_search_ends_also_for_a_method_without_limit(void **state)
+{
+  (void)state;
+  static const baum_i_method weak = {BAUM_I_METHOD_ONE_STEP, 0, {0.95}};
+  static const baum_i_method strong = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
+  double A = 0.0;
+  double B = 0.0;
+  baum_i_stability_nearest(&weak, 1.0, 1.0, &A, &B);
+  baum_i_stability_nearest(&strong, 3.0, 4.0, &A, &B);
+  assert_true(A == 3.0 && B == 4.0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(limits_are_the_known_ones),
+    cmocka_unit_test(limits_of_both_eulers_are_exact_for_any_damping_ratio),
+    cmocka_unit_test(everything_below_a_limit_is_stable_and_just_above_is_not),
+    cmocka_unit_test(a_method_may_have_no_limit_or_no_stable_point),
+    cmocka_unit_test(deadbeat_points_are_the_known_ones),
+    cmocka_unit_test(deadbeat_of_both_eulers_is_exact),
+    cmocka_unit_test(least_radii_of_critical_damping_are_those_of_the_table),
+    cmocka_unit_test(a_good_point_is_its_own_nearest),
+    cmocka_unit_test(nearest_points_of_both_eulers_are_the_feet_on_their_triangles),
+    cmocka_unit_test(no_grid_point_is_good_and_much_nearer),
+    cmocka_unit_test(a_point_however_far_has_a_nearest_good_one),
+    cmocka_unit_test(the_search_ends_also_for_a_method_without_limit),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
