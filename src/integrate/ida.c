@@ -55,17 +55,11 @@ static const baum_i_sundials_flag FLAGS[] = {
    "rtol and atol ask for more digits than double precision has; raise rtol"},
   {IDA_ERR_FAIL, BAUM_ERR_STEP,
    "the error stays above the tolerance however small the step; a force may jump here, the "
-   "position may be "
-   "near singular, or rtol is too small"},
+   "position may be near singular, or rtol is too small"},
   {IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE,
-   "the iteration for the step does not converge however small the step; the position may be near "
-   "singular, or "
-   "rtol is too small for index 3"},
+   "the iteration does not converge however small the step; the position may be near singular, "
+   "or rtol is too small for index 3"},
   {IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
-  {IDA_RES_FAIL, BAUM_OK, NULL},
-  {IDA_REP_RES_ERR, BAUM_OK, NULL},
-  {IDA_FIRST_RES_FAIL, BAUM_OK, NULL},
-  {IDA_LSETUP_FAIL, BAUM_OK, NULL},
   {0, BAUM_OK, NULL},
 };
 

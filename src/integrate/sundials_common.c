@@ -6,7 +6,6 @@
 
 #include "integrate/sundials_common.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -78,6 +77,7 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem)
 {
   sundials->problem = problem;
+  sundials->stopped = false;
   sundials->evaluation = BAUM_OK;
   sundials->complaint[0] = '\0';
 }
@@ -96,31 +96,40 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   }
   sundials->evaluation = status;
   (void)snprintf(sundials->sentence, sizeof sundials->sentence, "%s", baum_message());
-  return may_retry(sundials, status) ? 1 : -1;
+  sundials->stopped = !may_retry(sundials, status);
+  return sundials->stopped ? -1 : 1;
+}
+
+static baum_status fail_with_evaluation(const baum_i_sundials *sundials, double t)
+{
+  return baum_i_fail(sundials->evaluation, "t = %.9g s: in a step of %s: %s", t,
+                     sundials->integrator, sundials->sentence);
 }
 
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
                                  int flag, double t, double step)
 {
+  if (sundials->evaluation != BAUM_OK) {
+    return fail_with_evaluation(sundials, t);
+  }
   while (flags->flag != 0 && flags->flag != flag) {
     flags++;
   }
-  if (flags->flag != 0 && flags->status != BAUM_OK) {
-    return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", t,
-                       sundials->integrator, flags->meaning, step, sundials->complaint);
+  if (flags->flag == 0) {
+    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)",
+                       t, sundials->integrator, flag, step, sundials->complaint);
   }
-  if (flags->flag != 0 && sundials->evaluation != BAUM_OK) {
-    return baum_i_fail(sundials->evaluation, "t = %.9g s: %s, step %.3g s: %s", t,
-                       sundials->integrator, step, sundials->sentence);
-  }
-  return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)", t,
-                     sundials->integrator, flag, step, sundials->complaint);
+  return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", t, sundials->integrator,
+                     flags->meaning, step, sundials->complaint);
 }
 
 baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t0, double t)
 {
   if (t != t0) {
     return BAUM_OK;
+  }
+  if (sundials->evaluation != BAUM_OK) {
+    return fail_with_evaluation(sundials, t);
   }
   return baum_i_fail(BAUM_ERR_STEP,
                      "t = %.9g s: %s: the step became too small to change the time; the motion may "

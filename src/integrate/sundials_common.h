@@ -21,18 +21,18 @@ enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256 };
 typedef struct baum_i_sundials {
   const char *integrator; /* name in messages */
   SUNContext context;
-  const baum_i_problem *problem; /* of the call under way */
-  baum_status
-    evaluation; /* how the last failing evaluation of this call failed; BAUM_OK: none did */
-  char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
+  const baum_i_problem *problem;      /* of the call under way */
+  bool stopped;                       /* an evaluation of this call failed for good */
+  baum_status evaluation;             /* of this call, the last failing one; BAUM_OK: none failed */
+  char sentence[BAUM_I_MESSAGE_SIZE]; /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
 } baum_i_sundials;
 
 /* What a flag of CVODE or IDA means. */
 typedef struct baum_i_sundials_flag {
   int flag;
-  baum_status status;  /* BAUM_OK: that of the evaluation that failed */
-  const char *meaning; /* a sentence that begins in lower case, and advice; NULL with BAUM_OK */
+  baum_status status;
+  const char *meaning; /* and advice; begins in lower case */
 } baum_i_sundials_flag;
 
 /* Context with a silent error handler; close it after everything made with it. Closing accepts zeroes. */
@@ -45,7 +45,8 @@ void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *prob
 /* What a callback answers: 0, +1 where a smaller step may help, else -1. Remembers a failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
-/* From a flag to a status with its sentence. flags end with flag 0. */
+/* From a flag to a status with its sentence; that of an evaluation that failed in this call comes first. flags end
+ * with flag 0. */
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
                                  int flag, double t, double step);
 
