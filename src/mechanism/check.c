@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Are the derivatives that a user gives those of his functions?
+ *
+ * A given value g is compared with differences d at a row of shrinking steps. It is right as soon as
+ *
+ *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
+ *
+ * at one of them; the second part is what rounding may do to an entry that is small beside the others of its row. It is
+ * wrong when it never is, and the best d differs from it by more than d's own error as well: 20 times the disagreement of
+ * the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where the function has a
+ * derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at any step.
+ *
+ * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is not zero there:
+ * derivatives must be those of the function, not only where the constraint is met. A pose that a function of an element
+ * refuses says nothing; only when it refuses them all is that the result. (The drawn one alone may be refused without
+ * fault: velocities that will follow from the constraints are taken as zero there.)
+ */
+#include "mechanism/check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+
+static const double tolerance = 1e-6;
+static const double row_tolerance = 1e-9;
+
+/* ---- one derivative ---- */
+
+/* What is known of the entries of one ray so far. */
+typedef struct trial {
+  baum_i_estimate now;
+  double *previous; /* value one step before */
+  double *value;    /* best */
+  double *error;    /* of the best; < 0 once the given value is found right */
+} trial;
+
+/* Where the given values of a ray are, and what rounding may do to them. */
+typedef struct column {
+  const baum_i_claim *claim;
+  const baum_i_stencil *stencil;
+  const baum_i_field *field;
+  const baum_i_ray *ray;
+  const double *row_size; /* (size) of the field, or NULL */
+  int first;              /* entry i of the ray is first + i stride of the claim */
+  int stride;
+} column;
+
+static double given(const column *c, int i)
+{
+  return c->claim->given[c->first + i * c->stride];
+}
+
+static double allowed(const column *c, int i, double value)
+{
+  double floor = c->row_size ? row_tolerance * c->row_size[i] * c->ray->rate : 0.0;
+  return tolerance * fmax(fabs(given(c, i)), fabs(value)) + floor;
+}
+
+static trial take_trial(baum_i_local *here, int size)
+{
+  trial t = {.now = baum_i_estimate_take(here, size)};
+  t.previous = baum_i_take(here, size);
+  t.value = baum_i_take(here, size);
+  t.error = baum_i_take(here, size);
+  for (int i = 0; i < size; i++) {
+    t.previous[i] = (double)NAN;
+    t.error[i] = (double)INFINITY;
+  }
+  return t;
+}
+
+/* Take in the present step; true when all given values are found right. */
+static bool weigh(const column *c, const trial *t)
+{
+  bool right = true;
+  for (int i = 0; i < c->field->size; i++) {
+    double value = t->now.value[i];
+    double error = 20.0 * t->now.error[i] + t->now.noise[i] + 2.0 * fabs(value - t->previous[i]);
+    t->previous[i] = value;
+    if (t->error[i] < 0.0) {
+      continue;
+    }
+    if (fabs(given(c, i) - value) <= allowed(c, i, value)) {
+      t->error[i] = -1.0;
+      continue;
+    }
+    right = false;
+    if (error < t->error[i]) { /* never with the first step, whose error is NaN */
+      t->value[i] = value;
+      t->error[i] = error;
+    }
+  }
+  return right;
+}
+
+/* How far the derivatives of the two sides are apart, seen at a distance. */
+static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
+                   double step, int i)
+{
+  baum_status status =
+    baum_i_difference_once(&baum_i_stencil_second, c->field, c->ray, at, step, work);
+  return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
+}
+
+/* At a smooth place the sides approach each other with the distance; at a kink they do not. */
+static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
+{
+  double step = 0.125 * baum_i_first_step(c->stencil, c->ray);
+  double far = kink(c, at, &t->now, step, i);
+  double near = kink(c, at, &t->now, 0.125 * step, i);
+  return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
+}
+
+static baum_status verdict(const column *c, const baum_i_local *at, const trial *t)
+{
+  for (int i = 0; i < c->field->size; i++) {
+    double deviation = fabs(given(c, i) - t->value[i]);
+    bool wrong = t->error[i] >= 0.0 && isfinite(t->error[i]) &&
+                 deviation > allowed(c, i, t->value[i]) + t->error[i];
+    if (wrong && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
+      char text[BAUM_I_ENTRY_SIZE];
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but differences of %s give %.9g",
+                         baum_i_user_entry(c->claim->function, c->first + i * c->stride, text),
+                         given(c, i), c->claim->source, t->value[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status compare(const column *c, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  trial t = take_trial(&here, c->field->size);
+  double step = baum_i_first_step(c->stencil, c->ray);
+  for (int k = 0; k < c->stencil->steps; k++, step *= c->stencil->shrink) {
+    here.point->retry = false;
+    baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
+    if (status != BAUM_OK && !here.point->retry) {
+      return BAUM_OK; /* so near the edge of where it can be evaluated, nothing can be told */
+    }
+    if (status == BAUM_OK && weigh(c, &t)) {
+      return BAUM_OK;
+    }
+  }
+  return verdict(c, &here, &t);
+}
+
+baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
+                               const baum_i_field *field, const baum_i_ray *ray,
+                               const baum_i_local *at)
+{
+  column c = {
+    .claim = claim, .stencil = stencil, .field = field, .ray = ray, .first = 0, .stride = 1};
+  return compare(&c, at);
+}
+
+/* Largest given entry of each row, each times what its coordinate relevantly changes. */
+static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
+                          baum_i_variable variable, int size, double *direction, double *row_size)
+{
+  memset(row_size, 0, (size_t)size * sizeof *row_size);
+  for (int j = 0; j < at->nl; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
+    for (int i = 0; i < size; i++) {
+      row_size[i] = fmax(row_size[i], fabs(claim->given[i * at->nl + j]) / ray.rate);
+    }
+  }
+}
+
+baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
+                                   baum_i_variable variable, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  double *row_size = baum_i_take(&here, field->size);
+  find_row_size(claim, at, variable, field->size, direction, row_size);
+  baum_status status = BAUM_OK;
+  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
+    column c = {.claim = claim,
+                .stencil = &baum_i_stencil_first,
+                .field = field,
+                .ray = &ray,
+                .row_size = row_size,
+                .first = j,
+                .stride = at->nl};
+    status = compare(&c, &here);
+  }
+  return status;
+}
+
+/* ---- the whole mechanism ---- */
+
+/* A place to evaluate at, with its own memory. */
+typedef struct place {
+  baum_i_point point;
+  double *q;
+  double *v;
+} place;
+
+static void release_place(place *p)
+{
+  baum_i_free(p->point.frames);
+  baum_i_free(p->point.scratch);
+  baum_i_free(p->q);
+  baum_i_free(p->v);
+}
+
+static baum_status make_place(const baum_mechanism *mechanism, place *p)
+{
+  *p = (place){.point = {.mechanism = mechanism, .parameters = mechanism->parameters}};
+  p->point.frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
+  p->point.scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof(double));
+  p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));
+  p->v = baum_i_alloc((size_t)mechanism->nv, sizeof(double));
+  return p->point.frames && p->point.scratch && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
+}
+
+/* A number in (-1, 1) away from 0, the same in every run: steps of the golden ratio fill the interval evenly. */
+static double spread(int k)
+{
+  double turns = 0.6180339887498949 * k;
+  double fraction = turns - floor(turns);
+  return k % 2 == 0 ? 0.2 + 0.8 * fraction : -0.2 - 0.8 * fraction;
+}
+
+enum { POSE_COUNT = 4 };
+
+/* Pose 0 is the drawn one, with the velocities given; others are beside it and move. */
+static void set_pose(place *p, int pose)
+{
+  static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};
+  const baum_mechanism *mechanism = p->point.mechanism;
+  for (int i = 0; i < mechanism->nv; i++) {
+    double drawn_v = mechanism->drawn_v[i];
+    int k = 3 * i + pose;
+    p->q[i] = mechanism->drawn_q[i];
+    p->v[i] = isnan(drawn_v) ? 0.0 : drawn_v;
+    if (pose > 0) {
+      p->q[i] += 0.3 * mechanism->scale[i] * spread(k);
+      p->v[i] = mechanism->scale[i] * spread(k + 7 * pose + 1);
+    }
+  }
+  baum_i_point_set(&p->point, times[pose], p->q, p->v);
+}
+
+/* One element at one pose. */
+typedef baum_status check_fn(const void *element, baum_i_point *point);
+
+static baum_status check_body(const void *element, baum_i_point *point)
+{
+  const baum_i_body *body = element;
+  return body->type->check(body, point);
+}
+
+static baum_status check_joint(const void *element, baum_i_point *point)
+{
+  const baum_i_joint *joint = element;
+  return joint->type->check(joint, point);
+}
+
+static baum_status check_force(const void *element, baum_i_point *point)
+{
+  const baum_i_force *force = element;
+  return force->type->check(force, point);
+}
+
+static bool is_refusal(baum_status status)
+{
+  return status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
+}
+
+static baum_status check_poses(check_fn *check, const void *element, place *p)
+{
+  bool any = false;
+  for (int pose = 0; pose < POSE_COUNT; pose++) {
+    set_pose(p, pose);
+    baum_status status = check(element, &p->point);
+    if (status != BAUM_OK && !is_refusal(status)) {
+      return status;
+    }
+    any = any || status == BAUM_OK;
+  }
+  if (any) {
+    return BAUM_OK;
+  }
+  set_pose(p, 0); /* for the sentence of the drawn pose */
+  return check(element, &p->point);
+}
+
+static baum_status check_elements(const baum_mechanism *mechanism, place *p)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 1; i <= mechanism->body_count && status == BAUM_OK; i++) {
+    if (mechanism->bodies[i]->type->check) {
+      status = check_poses(check_body, mechanism->bodies[i], p);
+    }
+  }
+  for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
+    if (mechanism->joints[i]->type->check) {
+      status = check_poses(check_joint, mechanism->joints[i], p);
+    }
+  }
+  for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
+    if (mechanism->forces[i]->type->check) {
+      status = check_poses(check_force, mechanism->forces[i], p);
+    }
+  }
+  return status;
+}
+
+baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "baum_mechanism_check_derivatives: the mechanism is NULL");
+  }
+  if (!mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE,
+                       "baum_mechanism_check_derivatives: the mechanism is not frozen");
+  }
+  place p;
+  baum_status status = make_place(mechanism, &p);
+  if (status == BAUM_OK) {
+    status = check_elements(mechanism, &p);
+  }
+  release_place(&p);
+  return status;
+}
