@@ -108,29 +108,40 @@ typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX3 = 3  /**< q' - v, M v' + J^T lambda - g, Phi. */
 } baum_residual;
 
-/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda).
- *  @param      index       which equations
- *  @param      alpha,beta  [1/s] finite; used by index 1
- *  @param[in]  y,dy        (nq + nv + nc) each
- *  @param[out] residual    (nq + nv + nc)
- */
-BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, baum_residual index,
-                                             double alpha, double beta, double t, const double *y,
-                                             const double *dy, double *residual);
+/** Which equations, and their gains. */
+typedef struct baum_dae {
+  baum_residual index; /**< Form. */
+  double alpha;        /**< [1/s] finite; used by index 1. */
+  double beta;         /**< [1/s] finite; used by index 1. */
+} baum_dae;
 
-/** Jacobian dF/dy + c dF/dy' of that residual, in compressed columns with sorted rows and a fixed pattern.
- *  @param      c        [1/s] finite
- *  @param[out] columns  (nq + nv + nc + 1) starts of the columns; may be NULL
- *  @param[out] rows     (nonzeros); may be NULL
- *  @param[out] values   (nonzeros); may be NULL, then only the pattern is written
- *  @param[out] nonzeros number of entries; may be NULL. Call with all other outputs NULL to learn it.
+/** A sparse matrix in compressed columns with sorted rows; the arrays are the caller's. */
+typedef struct baum_sparse {
+  int32_t *columns; /**< (size + 1) starts of the columns. May be NULL. */
+  int32_t *rows;    /**< (nonzeros). May be NULL. */
+  double *values;   /**< (nonzeros). May be NULL. */
+  int32_t nonzeros; /**< Number of entries; always written. */
+} baum_sparse;
+
+/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda).
+ *  @param[in]  dae       which equations
+ *  @param[in]  y,dy      (nq + nv + nc) each
+ *  @param[out] residual  (nq + nv + nc)
+ */
+BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae,
+                                             double t, const double *y, const double *dy,
+                                             double *residual);
+
+/** Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only. Allocates: for use outside of
+ *  inner loops. To learn the sizes call first with all arrays of `out` NULL.
+ *  @param      c    [1/s] finite
+ *  @param[out] out  receives what its arrays have room for
+ *  @return          also BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
-                                                      baum_residual index, double alpha,
-                                                      double beta, double c, double t,
+                                                      const baum_dae *dae, double c, double t,
                                                       const double *y, const double *dy,
-                                                      int32_t *columns, int32_t *rows,
-                                                      double *values, int32_t *nonzeros);
+                                                      baum_sparse *out);
 
 /** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v.
  *  @param[in,out] q     (nq) a guess on entry; unchanged on failure

@@ -70,33 +70,13 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* S, and the displacement sizes of rows, from the present J and M. */
+/* S, and the displacement sizes of rows, from the present J and M. A row without effect moves nothing. */
 static void measure_rows(const baum_workspace *w, double *shift, double *distance)
 {
-  memset(shift, 0, (size_t)w->mechanism->nc * sizeof *shift);
-  memset(distance, 0, (size_t)w->mechanism->nc * sizeof *distance);
-  double *diagonal = w->work_v;
-  for (int k = 0; k < w->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
-    for (int i = 0; i < block->size; i++) {
-      diagonal[block->first + i] = w->mass[block->value + i * block->size + i];
-    }
-  }
-  for (int k = 0; k < w->structure.row_block_count; k++) {
-    const baum_i_row_block *block = &w->structure.row_blocks[k];
-    for (int i = 0; i < block->rows; i++) {
-      for (int j = 0; j < block->cols; j++) {
-        double value = w->jacobian[block->value + i * block->cols + j];
-        double mass = diagonal[block->col[j]];
-        double size = value * w->mechanism->scale[block->col[j]];
-        shift[block->row + i] += mass > 0.0 ? MU * value * value / mass : 0.0;
-        distance[block->row + i] += size * size;
-      }
-    }
-  }
+  baum_i_row_displacements(w, distance);
+  baum_i_row_mobilities(w, shift);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    distance[i] = sqrt(distance[i]);
-    shift[i] = shift[i] > 0.0 ? shift[i] : 1.0; /* a row without effect moves nothing */
+    shift[i] = shift[i] > 0.0 ? MU * shift[i] : 1.0;
   }
 }
 
@@ -123,8 +103,7 @@ static baum_status least_change(const assembly *s)
 
 static double displacement(const assembly *s, const double *rows, int i)
 {
-  double d = s->distance[i];
-  return fabs(rows[i]) / (d > 0.0 ? d : 1.0);
+  return fabs(rows[i]) / s->distance[i];
 }
 
 static double worst_displacement(const assembly *s, const double *rows)
@@ -176,10 +155,7 @@ static double merit(const assembly *s, const double *phi)
 static double limit_step(const assembly *s)
 {
   const baum_mechanism *m = s->w->mechanism;
-  double size = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    size = fmax(size, fabs(s->w->a[i]) / m->scale[i]);
-  }
+  double size = baum_i_scaled_size(m, s->w->a);
   for (int i = 0; i < m->nv && size > STEP_LIMIT; i++) {
     s->w->a[i] *= STEP_LIMIT / size;
   }
@@ -290,15 +266,6 @@ static baum_status assemble_velocities(assembly *s, double *v)
   return BAUM_OK;
 }
 
-static double velocity_size(const baum_mechanism *m, const double *v)
-{
-  double size = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    size = fmax(size, fabs(v[i]) / m->scale[i]);
-  }
-  return size;
-}
-
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {
   baum_workspace *w = s->w;
@@ -316,7 +283,7 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
     return status;
   }
   measure_rows(w, w->shift, s->distance);
-  double size = fmax(velocity_size(m, v), worst_displacement(s, w->nu));
+  double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size)) {
     return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints", "per s left");
   }

@@ -50,7 +50,7 @@ static void emit(sink *s, int row, int col, double value)
 /* What a walk multiplies the blocks with. */
 typedef struct factors {
   const baum_workspace *w;
-  const baum_i_dae *dae;
+  const baum_dae *dae;
   double c;
 } factors;
 
@@ -118,7 +118,7 @@ static void walk_multipliers(const factors *f, const baum_i_joint *joint, sink *
 static void walk_row(const factors *f, const baum_i_joint *joint, int r, sink *s)
 {
   const baum_workspace *w = f->w;
-  const baum_i_dae *dae = f->dae;
+  const baum_dae *dae = f->dae;
   int nv = w->mechanism->nv;
   int row = 2 * nv + joint->row + r;
   bool dropped = w->redundancy.count > 0 && w->redundancy.dropped[joint->row + r];
@@ -243,7 +243,7 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
   if (!matrix) {
     return baum_i_fail_memory();
   }
-  const baum_i_dae dae = {.index = index};
+  const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
   matrix->index = index;
   matrix->size = 2 * workspace->mechanism->nv + workspace->mechanism->nc;
@@ -283,7 +283,7 @@ const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix)
 
 /* ---- the values ---- */
 
-static baum_status linearize(baum_workspace *w, const baum_i_dae *dae, double t, const double *y,
+static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, const double *y,
                              const double *dy)
 {
   int nq = w->mechanism->nq;
@@ -311,7 +311,7 @@ static baum_status linearize(baum_workspace *w, const baum_i_dae *dae, double t,
 }
 
 baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
-                                        baum_workspace *workspace, const baum_i_dae *dae, double c,
+                                        baum_workspace *workspace, const baum_dae *dae, double c,
                                         double t, const double *y, const double *dy, double *values)
 {
   baum_status status = linearize(workspace, dae, t, y, dy);

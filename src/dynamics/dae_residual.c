@@ -11,7 +11,7 @@
 
 #include "dynamics/dynamics.h"
 
-static void acceleration_rows(const baum_workspace *w, const baum_i_dae *dae, const double *dv,
+static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
                               double *out)
 {
   int nc = w->mechanism->nc;
@@ -21,7 +21,7 @@ static void acceleration_rows(const baum_workspace *w, const baum_i_dae *dae, co
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }
 
-baum_status baum_i_residual(baum_workspace *w, const baum_i_dae *dae, double t, const double *y,
+baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, const double *y,
                             const double *dy, double *residual)
 {
   int nq = w->mechanism->nq;

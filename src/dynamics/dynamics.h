@@ -95,13 +95,7 @@ void baum_i_reaction(const baum_workspace *workspace, int joint, const double *l
 
 /* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), and dF/dy + c dF/dy' ---- */
 
-typedef struct baum_i_dae {
-  baum_residual index;
-  double alpha; /* signed */
-  double beta;
-} baum_i_dae;
-
-baum_status baum_i_residual(baum_workspace *workspace, const baum_i_dae *dae, double t,
+baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
 /* Fixed sparsity of the Jacobian: compressed columns, sorted rows; made once, filled without allocation. */
@@ -113,7 +107,7 @@ int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix);
 const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix); /* (n + 1) */
 const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix);
 baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
-                                        baum_workspace *workspace, const baum_i_dae *dae, double c,
+                                        baum_workspace *workspace, const baum_dae *dae, double c,
                                         double t, const double *y, const double *dy,
                                         double *values);
 
@@ -141,10 +135,19 @@ baum_status baum_i_find_combinations(baum_workspace *workspace);
 /* Names of the joints whose rows the dropped ones depend on, into text. */
 void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size);
 
-/* ---- scales ---- */
+/* ---- sizes of rows and states ---- */
+
+/* (nc) norm of each row of J times the scales: |Phi_i| / size_i is a violation as a displacement; 1 for empty rows. */
+void baum_i_row_displacements(const baum_workspace *workspace, double *size);
+
+/* (nc) diagonal of J M^-1 J^T with the diagonal of M: rows in their own units; 0 for empty rows. */
+void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
 
 /* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| / scale_i). */
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
+
+/* Largest |x_i| / scale_i of a vector over v. */
+double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
 
 /* Row of largest magnitude, or -1; largest may be NULL. */
 int baum_i_largest(const double *values, int count, double *largest);

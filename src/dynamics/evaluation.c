@@ -261,73 +261,74 @@ baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const d
 
 /* ---- residual forms ---- */
 
-static baum_status check_dae(const char *call, const baum_workspace *w, baum_residual index,
-                             const double numbers[4], const double *y, const double *dy)
+static baum_status check_dae(const char *call, const baum_workspace *w, const baum_dae *dae,
+                             const double *y, const double *dy)
 {
-  if (!w) {
-    return fail_null(call, "the workspace");
+  if (!w || !dae) {
+    return fail_null(call, w ? "dae" : "the workspace");
   }
-  if (index != BAUM_RESIDUAL_INDEX1 && index != BAUM_RESIDUAL_INDEX3) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call, (int)index);
+  if (dae->index != BAUM_RESIDUAL_INDEX1 && dae->index != BAUM_RESIDUAL_INDEX3) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call,
+                       (int)dae->index);
   }
   int size = 2 * w->mechanism->nv + w->mechanism->nc;
-  baum_status status = check_finite(call, "one of alpha, beta, c, t", numbers, 4);
+  baum_status status =
+    check_finite(call, "alpha, beta", (const double[]){dae->alpha, dae->beta}, 2);
   if (status == BAUM_OK) {
     status = check_finite(call, "y", y, size);
   }
   return status == BAUM_OK ? check_finite(call, "dy", dy, size) : status;
 }
 
-baum_status baum_workspace_residual(baum_workspace *workspace, baum_residual index, double alpha,
-                                    double beta, double t, const double *y, const double *dy,
-                                    double *residual)
+baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae, double t,
+                                    const double *y, const double *dy, double *residual)
 {
   const char *call = "baum_workspace_residual";
-  const double numbers[4] = {alpha, beta, 0.0, t};
-  baum_status status = check_dae(call, workspace, index, numbers, y, dy);
+  baum_status status = check_dae(call, workspace, dae, y, dy);
+  if (status == BAUM_OK) {
+    status = check_finite(call, "t", &t, 1);
+  }
   if (status == BAUM_OK && !residual) {
     status = fail_null(call, "the output");
   }
-  const baum_i_dae dae = {index, alpha, beta};
-  return status == BAUM_OK ? baum_i_residual(workspace, &dae, t, y, dy, residual) : status;
+  return status == BAUM_OK ? baum_i_residual(workspace, dae, t, y, dy, residual) : status;
 }
 
-static void copy_pattern(const baum_i_residual_matrix *matrix, int size, int32_t *columns,
-                         int32_t *rows, int32_t *nonzeros)
+static void copy_pattern(const baum_i_residual_matrix *matrix, int size, baum_sparse *out)
 {
-  int count = baum_i_residual_matrix_nonzeros(matrix);
-  if (columns) {
-    memcpy(columns, baum_i_residual_matrix_columns(matrix),
-           ((size_t)size + 1) * sizeof *columns);
+  out->nonzeros = baum_i_residual_matrix_nonzeros(matrix);
+  if (out->columns) {
+    memcpy(out->columns, baum_i_residual_matrix_columns(matrix),
+           ((size_t)size + 1) * sizeof *out->columns);
   }
-  if (rows) {
-    memcpy(rows, baum_i_residual_matrix_rows(matrix), (size_t)count * sizeof *rows);
-  }
-  if (nonzeros) {
-    *nonzeros = count;
+  if (out->rows) {
+    memcpy(out->rows, baum_i_residual_matrix_rows(matrix),
+           (size_t)out->nonzeros * sizeof *out->rows);
   }
 }
 
-baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, baum_residual index,
-                                             double alpha, double beta, double c, double t,
-                                             const double *y, const double *dy, int32_t *columns,
-                                             int32_t *rows, double *values, int32_t *nonzeros)
+baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const baum_dae *dae,
+                                             double c, double t, const double *y, const double *dy,
+                                             baum_sparse *out)
 {
   const char *call = "baum_workspace_residual_jacobian";
-  const double numbers[4] = {alpha, beta, c, t};
-  baum_status status = check_dae(call, workspace, index, numbers, y, dy);
+  baum_status status = check_dae(call, workspace, dae, y, dy);
+  if (status == BAUM_OK) {
+    status = check_finite(call, "c, t", (const double[]){c, t}, 2);
+  }
+  if (status == BAUM_OK && !out) {
+    status = fail_null(call, "the output");
+  }
   if (status != BAUM_OK) {
     return status;
   }
-  const baum_i_dae dae = {index, alpha, beta};
   baum_i_residual_matrix *matrix = NULL;
-  status = baum_i_residual_matrix_create(workspace, index, &matrix);
-  if (status == BAUM_OK && values) {
-    status = baum_i_residual_matrix_fill(matrix, workspace, &dae, c, t, y, dy, values);
+  status = baum_i_residual_matrix_create(workspace, dae->index, &matrix);
+  if (status == BAUM_OK && out->values) {
+    status = baum_i_residual_matrix_fill(matrix, workspace, dae, c, t, y, dy, out->values);
   }
   if (status == BAUM_OK) {
-    copy_pattern(matrix, 2 * workspace->mechanism->nv + workspace->mechanism->nc, columns, rows,
-                 nonzeros);
+    copy_pattern(matrix, 2 * workspace->mechanism->nv + workspace->mechanism->nc, out);
   }
   baum_i_residual_matrix_destroy(matrix);
   return status;

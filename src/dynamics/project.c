@@ -39,12 +39,10 @@ static baum_status least_change(baum_workspace *w)
 
 static double apply(const baum_mechanism *m, const double *change, double *q)
 {
-  double size = 0.0;
   for (int i = 0; i < m->nv; i++) {
     q[i] += change[i];
-    size = fmax(size, fabs(change[i]) / m->scale[i]);
   }
-  return size;
+  return baum_i_scaled_size(m, change);
 }
 
 static baum_status project_positions(baum_workspace *w, double t, double *q)

@@ -77,15 +77,6 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-static double scaled_size(const baum_mechanism *m, const double *x)
-{
-  double size = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    size = fmax(size, fabs(x[i]) / m->scale[i]);
-  }
-  return size;
-}
-
 /* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S, so that dependent rows do not matter. */
 static baum_status solve_direction(const search *s, const double *p, const double *r)
 {
@@ -97,21 +88,11 @@ static baum_status solve_direction(const search *s, const double *p, const doubl
   return status == BAUM_OK ? baum_i_kkt_solve(w->kkt, w->force, r, s->x, w->lambda) : status;
 }
 
-static void small_shift(const search *s)
+static void small_shift(baum_workspace *w)
 {
-  baum_workspace *w = s->w;
-  memset(w->shift, 0, (size_t)w->mechanism->nc * sizeof *w->shift);
-  for (int k = 0; k < w->structure.row_block_count; k++) {
-    const baum_i_row_block *block = &w->structure.row_blocks[k];
-    for (int i = 0; i < block->rows; i++) {
-      for (int j = 0; j < block->cols; j++) {
-        double c = w->jacobian[block->value + i * block->cols + j] * s->column_scale[block->col[j]];
-        w->shift[block->row + i] += 1e-10 * c * c;
-      }
-    }
-  }
+  baum_i_row_mobilities(w, w->shift);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    w->shift[i] = w->shift[i] > 0.0 ? w->shift[i] : 1.0;
+    w->shift[i] = w->shift[i] > 0.0 ? 1e-10 * w->shift[i] : 1.0;
   }
 }
 
@@ -121,20 +102,20 @@ static baum_status find_direction(const search *s, double *size)
   baum_workspace *w = s->w;
   const baum_mechanism *m = w->mechanism;
   double *p = w->work_v;
+  small_shift(w);
   memset(p, 0, (size_t)m->nv * sizeof *p);
   memcpy(w->rhs, w->nu, (size_t)m->nc * sizeof *w->rhs);
-  small_shift(s);
   baum_status status = solve_direction(s, p, w->rhs);
   if (status != BAUM_OK) {
     return status;
   }
-  double driven = scaled_size(m, s->x);
+  double driven = baum_i_scaled_size(m, s->x);
   double push = driven > 0.0 ? driven : 1.0;
   for (int i = 0; i < m->nv; i++) {
     p[i] = push * scatter(i) * m->scale[i];
   }
   status = solve_direction(s, p, w->rhs);
-  *size = scaled_size(m, s->x);
+  *size = baum_i_scaled_size(m, s->x);
   *size = *size > 1e-6 * push ? *size : 0.0;
   return status;
 }
@@ -231,27 +212,10 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
 /* |row i of J M^-1/2| with the diagonal of M */
 static void find_row_scale(baum_workspace *w)
 {
-  double *s = w->redundancy.row_scale;
-  double *mass = w->work_v;
-  memset(s, 0, (size_t)w->mechanism->nc * sizeof *s);
-  for (int k = 0; k < w->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
-    for (int i = 0; i < block->size; i++) {
-      mass[block->first + i] = w->mass[block->value + i * block->size + i];
-    }
-  }
-  for (int k = 0; k < w->structure.row_block_count; k++) {
-    const baum_i_row_block *block = &w->structure.row_blocks[k];
-    for (int i = 0; i < block->rows; i++) {
-      for (int j = 0; j < block->cols; j++) {
-        double c = w->jacobian[block->value + i * block->cols + j];
-        double m = mass[block->col[j]];
-        s[block->row + i] += m > 0.0 ? c * c / m : 0.0;
-      }
-    }
-  }
+  double *scale = w->redundancy.row_scale;
+  baum_i_row_mobilities(w, scale);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    s[i] = sqrt(s[i]);
+    scale[i] = sqrt(scale[i]);
   }
 }
 

@@ -1,9 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The stages of an evaluation: what depends on (t, q), then what depends on v as well. */
-#include <math.h>
-#include <string.h>
-
-#include "base/message.h"
 #include "dynamics/dynamics.h"
 
 /* M, unless it is constant and known. */
@@ -68,34 +64,4 @@ baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, 
     status = baum_i_mechanism_force(&w->point, w->force);
   }
   return status;
-}
-
-int baum_i_largest(const double *values, int count, double *largest)
-{
-  int where = -1;
-  double most = 0.0;
-  for (int i = 0; i < count; i++) {
-    double size = fabs(values[i]);
-    if (where < 0 || !(size <= most)) { /* a NaN is the largest of all */
-      where = i;
-      most = size;
-      if (isnan(size)) {
-        break;
-      }
-    }
-  }
-  if (largest) {
-    *largest = most;
-  }
-  return where;
-}
-
-double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a)
-{
-  double rate = 0.0;
-  for (int i = 0; i < mechanism->nv; i++) {
-    rate = fmax(rate, fabs(v[i]) / mechanism->scale[i]);
-    rate = fmax(rate, sqrt(fabs(a[i]) / mechanism->scale[i]));
-  }
-  return rate;
 }

@@ -44,7 +44,7 @@ typedef struct ida_run {
   SUNMatrix matrix;
   SUNLinearSolver solver;
   baum_i_residual_matrix *jacobian; /* NULL: differences */
-  baum_i_dae dae;
+  baum_dae dae;
   baum_i_statistics before; /* up to the last restart */
 } ida_run;
 

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sizes of constraint rows and of states, so that quantities of different units can be compared. */
+#include <math.h>
+#include <string.h>
+
+#include "dynamics/dynamics.h"
+
+/* Add weight(column) J_ij^2 of every entry to its row. */
+static void add_squares(const baum_workspace *w, const double *weight, double *rows)
+{
+  memset(rows, 0, (size_t)w->mechanism->nc * sizeof *rows);
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    for (int i = 0; i < block->rows; i++) {
+      for (int j = 0; j < block->cols; j++) {
+        double value = w->jacobian[block->value + i * block->cols + j];
+        rows[block->row + i] += weight[block->col[j]] * value * value;
+      }
+    }
+  }
+}
+
+void baum_i_row_displacements(const baum_workspace *workspace, double *size)
+{
+  double *weight = workspace->work_v;
+  for (int j = 0; j < workspace->mechanism->nv; j++) {
+    weight[j] = workspace->mechanism->scale[j] * workspace->mechanism->scale[j];
+  }
+  add_squares(workspace, weight, size);
+  for (int i = 0; i < workspace->mechanism->nc; i++) {
+    size[i] = size[i] > 0.0 ? sqrt(size[i]) : 1.0;
+  }
+}
+
+void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility)
+{
+  double *weight = workspace->work_v;
+  for (int k = 0; k < workspace->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      double mass = workspace->mass[block->value + i * block->size + i];
+      weight[block->first + i] = mass > 0.0 ? 1.0 / mass : 0.0;
+    }
+  }
+  add_squares(workspace, weight, mobility);
+}
+
+int baum_i_largest(const double *values, int count, double *largest)
+{
+  int where = -1;
+  double most = 0.0;
+  for (int i = 0; i < count && !isnan(most); i++) {
+    double size = fabs(values[i]);
+    if (where < 0 || !(size <= most)) { /* a NaN is the largest of all */
+      where = i;
+      most = size;
+    }
+  }
+  if (largest) {
+    *largest = most;
+  }
+  return where;
+}
+
+double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x)
+{
+  double size = 0.0;
+  for (int i = 0; i < mechanism->nv; i++) {
+    size = fmax(size, fabs(x[i]) / mechanism->scale[i]);
+  }
+  return size;
+}
+
+double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a)
+{
+  return fmax(baum_i_scaled_size(mechanism, v), sqrt(baum_i_scaled_size(mechanism, a)));
+}
