@@ -22,6 +22,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 
 /* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times over. */
 static const double MARGIN = 1e-12;

@@ -5,8 +5,6 @@
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H
 
-#include <stdbool.h>
-
 #include <baum/stabilization.h>
 
 /* The kinds of method that the mathematics here knows. */

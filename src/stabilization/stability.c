@@ -4,7 +4,7 @@
  * Along a ray alpha = zeta beta, A = zeta b, B = b^2. The roots mu grow in proportion to b, so the first
  * instability is looked for on a geometric scale and then bisected. The smallest limits are those of weakly
  * damped rays with methods that are unstable on the imaginary axis: b = 2 zeta for explicit Euler, and nothing
- * explicit is stable beyond |mu| of about 2 degree.
+ * explicit is stable beyond |mu| of about twice the degree.
  *
  * Dead-beat: both z = 0. With mu and its conjugate zeros of R, mu^2 + 2 A mu + B = 0 for A = -Re mu, B = |mu|^2.
  *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
@@ -15,19 +15,21 @@
  * therefore RK3's pair and not its real zero (1.596, 2.547).
  *
  * Nearest good point: the good region (radius <= 0.9) is looked at from three fifths of the way to the limit of
- * critical damping, from where all of it is in sight for each of our methods (not so from RK3's dead-beat point). Its edge
- * is a polygon over directions, refined where it comes closest to the point asked for. For both Eulers the region
- * is a triangle.
+ * critical damping, from where all of it is in sight for each of our methods (not so from RK3's dead-beat point).
+ * Its edge is a polygon over directions, refined where it comes closest to the point asked for. For both Eulers
+ * the region is a triangle.
  */
 #include "stabilization/amplification.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <string.h>
 
 static const double PI = 3.14159265358979323846;
 
 static const double SCAN_RATIO = 1.01;  /* of neighbouring b */
 static const double SCAN_END = 1e3;     /* |mu| beyond which nothing explicit is stable */
+static const double OVERDAMPED = 1e9;   /* zeta beyond which limits no longer change */
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
 static const double VIEWPOINT = 0.6;    /* of the limit of critical damping */
 static const double EDGE_STEP = 0.05;   /* in looking for the edge of the good region */
@@ -57,6 +59,7 @@ static double bisect_ray(const baum_i_method *method, double damping_ratio, doub
 
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
 {
+  damping_ratio = fmin(damping_ratio, OVERDAMPED);
   double steepest = fmax(1.0, 2.0 * damping_ratio); /* |mu| / b, at most */
   double b = 1e-3 * fmin(damping_ratio, 1.0 / steepest);
   if (ray_is_unstable(method, damping_ratio, b)) {

@@ -49,6 +49,17 @@ static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
   }
 }
 
+static void limits_exist_for_any_damping_ratio_of_double(void **state)
+{
+  (void)state;
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    double overdamped = 0.5 * (m == RK3 ? 2.5127453266183286 : m == RK4 ? 2.785293563405282 : 2.0);
+    ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1e12), overdamped, 1e-12, 0.0);
+    ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1.7e308), overdamped, 1e-12, 0.0);
+    ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1e-300), 0.0, 0.0, 1e-290);
+  }
+}
+
 static void everything_below_a_limit_is_stable_and_just_above_is_not(void **state)
 {
   (void)state;
