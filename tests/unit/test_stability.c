@@ -265,6 +265,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(limits_are_the_known_ones),
     cmocka_unit_test(limits_of_both_eulers_are_exact_for_any_damping_ratio),
+    cmocka_unit_test(limits_exist_for_any_damping_ratio_of_double),
     cmocka_unit_test(everything_below_a_limit_is_stable_and_just_above_is_not),
     cmocka_unit_test(a_method_may_have_no_limit_or_no_stable_point),
     cmocka_unit_test(deadbeat_points_are_the_known_ones),
