@@ -52,7 +52,7 @@ typedef struct baum_i_kkt_values {
 typedef enum baum_i_kkt_quality {
   BAUM_I_KKT_GOOD,
   BAUM_I_KKT_NEAR_SINGULAR, /* solved, but the matrix is close to singular or was solved in the least-squares sense */
-  BAUM_I_KKT_SINGULAR       /* no factorization */
+  BAUM_I_KKT_SINGULAR /* no factorization */
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
@@ -85,6 +85,9 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
                              double *lambda);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
+/* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization: free of units,
+ * continuous while pivots are kept, with a jump where they are chosen anew. 0 for no factorization or no full rank. */
+double baum_i_kkt_rcond(const baum_i_kkt *kkt);
 const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 

@@ -1,0 +1,350 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Front of the saddle-point solvers: scaling, judging, refinement, new pivots, fallback.
+ *
+ * There is a ladder of ways to factor, each dearer and more robust than the one before:
+ *
+ *   KEEP     the pivots of the last factorization
+ *   CHOOSE   pivots chosen at these values
+ *   CAREFUL  pivots chosen for accuracy only
+ *   LAST     rank-revealing QR, least squares
+ *
+ * factor climbs until the reciprocal condition can be trusted; solve climbs on where refinement does not bring the
+ * residual down to rounding level.
+ */
+#include "linear/kkt.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "linear/backend.h"
+#include "linear/residual.h"
+#include "linear/scale.h"
+
+enum { MOST_REFINEMENTS = 3 };
+
+/* Below it more effort is made, and if that does not help the matrix is called near singular. */
+static const double trusted_rcond = 1e-10;
+/* Below it even careful LU has nothing left to say. */
+static const double least_rcond = 1e-15;
+/* How far rows that depend on each other may contradict each other, against the right side. */
+static const double contradiction = 1e-8;
+
+typedef enum ladder_rung { RUNG_KEEP, RUNG_CHOOSE, RUNG_CAREFUL, RUNG_LAST } ladder_rung;
+
+typedef struct kkt_solver {
+  const baum_i_kkt_ops *ops;
+  void *self;
+  bool has_pivots;
+} kkt_solver;
+
+struct baum_i_kkt {
+  const baum_i_kkt_structure *structure;
+  int n;
+  kkt_solver first;
+  kkt_solver last;     /* of RUNG_LAST, made when it is first needed */
+  kkt_solver *present; /* the one that factored */
+  ladder_rung present_rung;
+  ladder_rung top_rung;
+  baum_i_kkt_quality quality;
+  baum_i_kkt_counters counters;
+  baum_i_kkt_values values;
+  double *memory; /* of the five below, (n) each */
+  double *scale;
+  double *b;
+  double *x;
+  double *residual; /* then the correction */
+  double *size;
+};
+
+static bool make_room(baum_i_kkt *kkt)
+{
+  size_t n = (size_t)kkt->n;
+  kkt->memory = baum_i_alloc(5 * n, sizeof *kkt->memory);
+  if (!kkt->memory) {
+    return false;
+  }
+  kkt->scale = kkt->memory;
+  kkt->b = kkt->scale + n;
+  kkt->x = kkt->b + n;
+  kkt->residual = kkt->x + n;
+  kkt->size = kkt->residual + n;
+  return true;
+}
+
+static ladder_rung top_rung_of(baum_i_kkt_choice choice)
+{
+  switch (choice) {
+  case BAUM_I_KKT_KLU: return RUNG_CAREFUL;
+  case BAUM_I_KKT_QR: return RUNG_CHOOSE;
+  case BAUM_I_KKT_AUTO: break;
+  }
+  return RUNG_LAST;
+}
+
+baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
+                              baum_i_kkt **out)
+{
+  *out = NULL;
+  baum_i_kkt *kkt = baum_i_alloc(1, sizeof *kkt);
+  if (!kkt) {
+    return baum_i_fail_memory();
+  }
+  kkt->structure = structure;
+  kkt->n = structure->nv + structure->nc;
+  kkt->quality = BAUM_I_KKT_SINGULAR;
+  kkt->present = &kkt->first;
+  kkt->first.ops = choice == BAUM_I_KKT_QR ? &baum_i_qr_ops : &baum_i_klu_ops;
+  kkt->last.ops = &baum_i_qr_ops;
+  kkt->top_rung = top_rung_of(choice);
+  if (!make_room(kkt) || kkt->first.ops->create(structure, &kkt->first.self) != BAUM_OK) {
+    baum_i_kkt_destroy(kkt);
+    return baum_i_fail_memory();
+  }
+  *out = kkt;
+  return BAUM_OK;
+}
+
+void baum_i_kkt_destroy(baum_i_kkt *kkt)
+{
+  if (!kkt) {
+    return;
+  }
+  kkt->first.ops->destroy(kkt->first.self);
+  kkt->last.ops->destroy(kkt->last.self);
+  baum_i_free(kkt->memory);
+  baum_i_free(kkt);
+}
+
+/* ---- factor ---- */
+
+static bool are_finite(const double *x, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(x[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static bool values_are_finite(const baum_i_kkt_structure *structure,
+                              const baum_i_kkt_values *values)
+{
+  for (int b = 0; b < structure->mass_block_count; b++) {
+    const baum_i_mass_block *block = &structure->mass_blocks[b];
+    if (!are_finite(values->mass + block->value, block->size * block->size)) {
+      return false;
+    }
+  }
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    if (!are_finite(values->jacobian + block->value, block->rows * block->cols)) {
+      return false;
+    }
+  }
+  return !values->shift || are_finite(values->shift, structure->nc);
+}
+
+static double present_rcond(const baum_i_kkt *kkt)
+{
+  return kkt->present->ops->rcond(kkt->present->self);
+}
+
+/* The first solver goes by the rung, the last one has one way only. */
+static baum_i_kkt_effort effort_of(ladder_rung rung)
+{
+  switch (rung) {
+  case RUNG_KEEP: return BAUM_I_EFFORT_KEEP;
+  case RUNG_CAREFUL: return BAUM_I_EFFORT_CAREFUL;
+  case RUNG_CHOOSE:
+  case RUNG_LAST: break;
+  }
+  return BAUM_I_EFFORT_CHOOSE;
+}
+
+static baum_status make_last(baum_i_kkt *kkt)
+{
+  kkt->counters.fallbacks++;
+  kkt_solver *last = &kkt->last;
+  return last->self ? BAUM_OK : last->ops->create(kkt->structure, &last->self);
+}
+
+static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
+{
+  if (rung == RUNG_LAST && make_last(kkt) != BAUM_OK) {
+    return BAUM_ERR_MEMORY;
+  }
+  kkt_solver *solver = rung == RUNG_LAST ? &kkt->last : &kkt->first;
+  kkt->present = solver;
+  kkt->present_rung = rung;
+  kkt->counters.factorizations++;
+  kkt->counters.full_factorizations += rung != RUNG_KEEP;
+  baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, effort_of(rung));
+  solver->has_pivots = status == BAUM_OK && solver->ops->keeps_pivots;
+  return status;
+}
+
+static bool is_trusted(const baum_i_kkt *kkt)
+{
+  switch (kkt->present_rung) {
+  case RUNG_KEEP:
+  case RUNG_CHOOSE: return present_rcond(kkt) >= trusted_rcond;
+  case RUNG_CAREFUL: return present_rcond(kkt) >= least_rcond;
+  case RUNG_LAST: break;
+  }
+  return true;
+}
+
+static baum_i_kkt_quality judge(const baum_i_kkt *kkt, baum_status status)
+{
+  if (status != BAUM_OK) {
+    return BAUM_I_KKT_SINGULAR;
+  }
+  bool is_good = kkt->present_rung != RUNG_LAST && present_rcond(kkt) >= trusted_rcond;
+  return is_good ? BAUM_I_KKT_GOOD : BAUM_I_KKT_NEAR_SINGULAR;
+}
+
+/* Factor at the first rung from `start` on that can be trusted, or at the top. */
+static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
+{
+  baum_status status = factor_at(kkt, start);
+  while (kkt->present_rung < kkt->top_rung &&
+         (status == BAUM_ERR_SINGULAR || (status == BAUM_OK && !is_trusted(kkt)))) {
+    status = factor_at(kkt, kkt->present_rung + 1);
+  }
+  kkt->quality = judge(kkt, status);
+  return status;
+}
+
+static baum_status report(baum_status status)
+{
+  return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
+}
+
+baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
+{
+  if (!values_are_finite(kkt->structure, values)) {
+    kkt->quality = BAUM_I_KKT_SINGULAR;
+    return BAUM_ERR_NOT_FINITE;
+  }
+  kkt->values = *values;
+  baum_i_scale_compute(kkt->structure, values, kkt->scale);
+  /* Close to a singularity kept pivots would only be tried in vain. */
+  bool keep = kkt->first.has_pivots && kkt->quality == BAUM_I_KKT_GOOD;
+  return report(climb(kkt, keep ? RUNG_KEEP : RUNG_CHOOSE));
+}
+
+/* ---- solve ---- */
+
+static void load_right_side(baum_i_kkt *kkt, const double *f, const double *r)
+{
+  int nv = kkt->structure->nv;
+  memcpy(kkt->b, f, (size_t)nv * sizeof *f);
+  for (int i = 0; i < kkt->structure->nc; i++) {
+    bool dropped = kkt->values.dropped && kkt->values.dropped[i];
+    kkt->b[nv + i] = dropped ? 0.0 : r[i];
+  }
+}
+
+static baum_status solve_once(baum_i_kkt *kkt)
+{
+  memcpy(kkt->x, kkt->b, (size_t)kkt->n * sizeof *kkt->x);
+  baum_status status = kkt->present->ops->solve(kkt->present->self, kkt->x);
+  baum_i_residual_form(kkt->structure, &kkt->values, kkt->b, kkt->x, kkt->residual, kkt->size);
+  return status;
+}
+
+static baum_status refine(baum_i_kkt *kkt)
+{
+  kkt->counters.refinements++;
+  baum_status status = kkt->present->ops->solve(kkt->present->self, kkt->residual);
+  for (int i = 0; i < kkt->n; i++) {
+    kkt->x[i] += kkt->residual[i];
+  }
+  baum_i_residual_form(kkt->structure, &kkt->values, kkt->b, kkt->x, kkt->residual, kkt->size);
+  return status;
+}
+
+static bool is_at_rounding(const baum_i_kkt *kkt)
+{
+  return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
+}
+
+/* Some rows are still out, but are they all next to nothing? Asked only where more effort does not help. */
+static bool is_at_noise(const baum_i_kkt *kkt)
+{
+  bool is_careful = kkt->present_rung >= RUNG_CAREFUL || kkt->present_rung == kkt->top_rung;
+  return is_careful && baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size);
+}
+
+/* A matrix without full rank was solved by least squares: are the rows it could not meet nearly met? */
+static bool is_least_squares(const baum_i_kkt *kkt)
+{
+  return present_rcond(kkt) == 0.0 &&
+         baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
+}
+
+/* BAUM_ERR_SINGULAR if the residual stays large. */
+static baum_status solve_refined(baum_i_kkt *kkt)
+{
+  baum_status status = solve_once(kkt);
+  for (int k = 0; k < MOST_REFINEMENTS && status == BAUM_OK && !is_at_rounding(kkt); k++) {
+    status = refine(kkt);
+  }
+  if (status != BAUM_OK || is_at_rounding(kkt) || is_at_noise(kkt) || is_least_squares(kkt)) {
+    return status;
+  }
+  return BAUM_ERR_SINGULAR;
+}
+
+static baum_status solve_climbing(baum_i_kkt *kkt)
+{
+  baum_status status = solve_refined(kkt);
+  while (status == BAUM_ERR_SINGULAR && kkt->present_rung < kkt->top_rung) {
+    status = climb(kkt, kkt->present_rung + 1);
+    if (status == BAUM_OK) {
+      status = solve_refined(kkt);
+    }
+  }
+  return status;
+}
+
+baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
+                             double *lambda)
+{
+  if (kkt->quality == BAUM_I_KKT_SINGULAR) {
+    return BAUM_ERR_SINGULAR;
+  }
+  load_right_side(kkt, f, r);
+  if (!are_finite(kkt->b, kkt->n)) {
+    return BAUM_ERR_NOT_FINITE;
+  }
+  baum_status status = solve_climbing(kkt);
+  if (status == BAUM_OK) {
+    memcpy(a, kkt->x, (size_t)kkt->structure->nv * sizeof *a);
+    memcpy(lambda, kkt->x + kkt->structure->nv, (size_t)kkt->structure->nc * sizeof *lambda);
+  }
+  return report(status);
+}
+
+baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt)
+{
+  return kkt->quality;
+}
+
+const char *baum_i_kkt_backend(const baum_i_kkt *kkt)
+{
+  return kkt->present->ops->name;
+}
+
+double baum_i_kkt_rcond(const baum_i_kkt *kkt)
+{
+  return kkt->quality == BAUM_I_KKT_SINGULAR ? 0.0 : present_rcond(kkt);
+}
+
+baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt)
+{
+  return kkt->counters;
+}

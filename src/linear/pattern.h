@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The saddle-point matrix in compressed columns: the pattern is found once, filling allocates nothing.
+ *
+ * Everything that can be non-zero is in the pattern, also where it is zero just now, and so is the whole diagonal;
+ * rows ascend within a column. The pattern is symmetric.
+ */
+#ifndef BAUM_I_LINEAR_PATTERN_H
+#define BAUM_I_LINEAR_PATTERN_H
+
+#include "linear/kkt.h"
+
+typedef struct baum_i_pattern {
+  const baum_i_kkt_structure *structure;
+  int32_t n;             /* nv + nc */
+  int32_t *column_start; /* (n + 1) */
+  int32_t *row;          /* (column_start[n]) */
+
+  /* Places of the block values in `row`, in the order in which the blocks list them. */
+  int32_t *slot;             /* start of the one array behind the four below */
+  const int32_t *mass;       /* M */
+  const int32_t *jacobian;   /* J */
+  const int32_t *transposed; /* J^T, listed as J */
+  const int32_t *diagonal;   /* (n) */
+} baum_i_pattern;
+
+/* BAUM_OK or BAUM_ERR_MEMORY, then the pattern is empty. */
+baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
+void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is fine */
+
+/* matrix (column_start[n]) = D K D with (1,1) multiplied and (2,2) divided by mass_weight, a power of two. */
+void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
+                         const double *scale, double mass_weight, double *matrix);
+
+#endif

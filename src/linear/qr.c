@@ -1,0 +1,445 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Backend "qr": rank-revealing sparse QR by SPQR of SuiteSparse, and the rank of J.
+ *
+ * The scaled saddle-point matrix is weighted once more,
+ *
+ *   K_w = [ w M   J^T  ]
+ *         [ J    -S / w]
+ *
+ * with a small w, because the smallest singular value of K_w is about sigma for a smallest singular value sigma > w of the
+ * scaled J, where that of K_1 is sigma^2. Columns of norm at most 1e-13 are taken as dependent. The
+ * solution is the one of least norm among those that minimize the scaled residual: K_w is symmetric, so that its range is
+ * also its row space, and projecting the basic solution onto it is enough. Accelerations are then unique wherever M is
+ * positive definite on ker J; multipliers are of least norm in scaled rows.
+ *
+ * SPQR allocates in factor and solve. It calls the BLAS, whose threads are the program's business.
+ */
+#include <SuiteSparseQR_C.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "linear/backend.h"
+#include "linear/pattern.h"
+
+/* A power of four, so that its root is a power of two. */
+static const double mass_weight = 0x1p-26;
+static const double mass_weight_root = 0x1p-13;
+static const double dependent = 1e-13;
+
+enum { RANK_STATISTIC = 4 }; /* of cholmod_common.SPQR_istat */
+
+/* ---- shared by both uses ---- */
+
+static bool start(cholmod_common *common)
+{
+  if (!cholmod_l_start(common)) {
+    return false;
+  }
+  common->print = 0;
+  common->try_catch = 1;
+  common->error_handler = NULL;
+  common->useGPU = 0;
+  return true;
+}
+
+static void clear_sparse(cholmod_sparse *sparse)
+{
+  baum_i_free(sparse->p);
+  baum_i_free(sparse->i);
+  baum_i_free(sparse->x);
+  *sparse = (cholmod_sparse){0};
+}
+
+/* Room for a real matrix in compressed columns. */
+static bool make_sparse(size_t rows, size_t columns, size_t entries, cholmod_sparse *sparse)
+{
+  *sparse = (cholmod_sparse){
+    .nrow = rows,
+    .ncol = columns,
+    .nzmax = entries,
+    .p = baum_i_alloc(columns + 1, sizeof(SuiteSparse_long)),
+    .i = baum_i_alloc(entries, sizeof(SuiteSparse_long)),
+    .x = baum_i_alloc(entries, sizeof(double)),
+    .itype = CHOLMOD_LONG,
+    .xtype = CHOLMOD_REAL,
+    .dtype = CHOLMOD_DOUBLE,
+    .sorted = 1,
+    .packed = 1,
+  };
+  if (sparse->p && sparse->i && sparse->x) {
+    return true;
+  }
+  clear_sparse(sparse);
+  return false;
+}
+
+static void widen(const int32_t *from, size_t count, SuiteSparse_long *to)
+{
+  for (size_t k = 0; k < count; k++) {
+    to[k] = from[k];
+  }
+}
+
+/* ---- backend ---- */
+
+typedef struct qr_backend {
+  baum_i_pattern pattern;
+  cholmod_common common;
+  bool is_started;
+  cholmod_sparse matrix;
+  SuiteSparseQR_C_factorization *factors;
+  const double *scale; /* of the last factorization; the front's */
+  size_t rank;
+  double rcond;
+  double *work; /* (n) */
+} qr_backend;
+
+static void destroy(void *self)
+{
+  qr_backend *qr = self;
+  if (!qr) {
+    return;
+  }
+  if (qr->is_started) {
+    (void)SuiteSparseQR_C_free(&qr->factors, &qr->common);
+    (void)cholmod_l_finish(&qr->common);
+  }
+  clear_sparse(&qr->matrix);
+  baum_i_free(qr->work);
+  baum_i_pattern_clear(&qr->pattern);
+  baum_i_free(qr);
+}
+
+static bool set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
+{
+  qr->is_started = start(&qr->common);
+  if (!qr->is_started || baum_i_pattern_create(structure, &qr->pattern) != BAUM_OK) {
+    return false;
+  }
+  const baum_i_pattern *pattern = &qr->pattern;
+  size_t n = (size_t)pattern->n;
+  size_t entries = (size_t)pattern->column_start[n];
+  qr->work = baum_i_alloc(n, sizeof *qr->work);
+  if (!qr->work || !make_sparse(n, n, entries, &qr->matrix)) {
+    return false;
+  }
+  widen(pattern->column_start, n + 1, qr->matrix.p);
+  widen(pattern->row, entries, qr->matrix.i);
+  qr->factors = SuiteSparseQR_C_symbolic(SPQR_ORDERING_COLAMD, 1, &qr->matrix, &qr->common);
+  return qr->factors != NULL;
+}
+
+static baum_status create(const baum_i_kkt_structure *structure, void **out)
+{
+  *out = NULL;
+  qr_backend *qr = baum_i_alloc(1, sizeof *qr);
+  if (!qr) {
+    return BAUM_ERR_MEMORY;
+  }
+  if (!set_up(qr, structure)) {
+    destroy(qr);
+    return BAUM_ERR_MEMORY;
+  }
+  *out = qr;
+  return BAUM_OK;
+}
+
+/* x <- D_w x, where D_w is the scale with the weight in it. */
+static void apply_scale(const qr_backend *qr, double *x)
+{
+  int nv = qr->pattern.structure->nv;
+  for (int j = 0; j < nv; j++) {
+    x[j] *= qr->scale[j] * mass_weight_root;
+  }
+  for (int i = nv; i < qr->pattern.n; i++) {
+    x[i] *= qr->scale[i] / mass_weight_root;
+  }
+}
+
+/* x <- the result of SPQR, which is released. */
+static baum_status take(qr_backend *qr, cholmod_dense *result, double *x)
+{
+  if (!result) {
+    return BAUM_ERR_MEMORY;
+  }
+  memcpy(x, result->x, (size_t)qr->pattern.n * sizeof *x);
+  (void)cholmod_l_free_dense(&result, &qr->common);
+  return BAUM_OK;
+}
+
+static cholmod_dense as_column(const qr_backend *qr, double *x)
+{
+  size_t n = (size_t)qr->pattern.n;
+  return (cholmod_dense){
+    .nrow = n,
+    .ncol = 1,
+    .nzmax = n,
+    .d = n,
+    .x = x,
+    .xtype = CHOLMOD_REAL,
+    .dtype = CHOLMOD_DOUBLE,
+  };
+}
+
+/* x <- Q x or Q^T x */
+static baum_status multiply(qr_backend *qr, int method, double *x)
+{
+  cholmod_dense column = as_column(qr, x);
+  return take(qr, SuiteSparseQR_C_qmult(method, qr->factors, &column, &qr->common), x);
+}
+
+/* x <- E R^-1 x, zero where columns are dependent */
+static baum_status solve_triangle(qr_backend *qr, double *x)
+{
+  cholmod_dense column = as_column(qr, x);
+  return take(qr, SuiteSparseQR_C_solve(SPQR_RETX_EQUALS_B, qr->factors, &column, &qr->common), x);
+}
+
+/* x <- its projection onto the range of K_w */
+static baum_status project(qr_backend *qr, double *x)
+{
+  baum_status status = multiply(qr, SPQR_QTX, x);
+  for (size_t i = qr->rank; i < (size_t)qr->pattern.n; i++) {
+    x[i] = 0.0;
+  }
+  return status == BAUM_OK ? multiply(qr, SPQR_QX, x) : status;
+}
+
+/* x <- K_w^+ x */
+static baum_status solve_scaled(qr_backend *qr, double *x)
+{
+  baum_status status = multiply(qr, SPQR_QTX, x);
+  if (status == BAUM_OK) {
+    status = solve_triangle(qr, x);
+  }
+  if (status == BAUM_OK && qr->rank < (size_t)qr->pattern.n) {
+    status = project(qr, x);
+  }
+  return status;
+}
+
+static double largest_of(const double *x, size_t count)
+{
+  double largest = 0.0;
+  for (size_t i = 0; i < count; i++) {
+    largest = fmax(largest, fabs(x[i]));
+  }
+  return largest;
+}
+
+/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank. Two steps, because a singular vector may hide from one. */
+static baum_status estimate_rcond(qr_backend *qr)
+{
+  size_t n = (size_t)qr->pattern.n;
+  double growth = 1.0;
+  for (size_t i = 0; i < n; i++) {
+    qr->work[i] = i % 3 == 0 ? 1.0 : -0.5;
+  }
+  for (int step = 0; step < 2; step++) {
+    double before = largest_of(qr->work, n);
+    for (size_t i = 0; i < n; i++) {
+      qr->work[i] /= before;
+    }
+    if (solve_scaled(qr, qr->work) != BAUM_OK) {
+      return BAUM_ERR_MEMORY;
+    }
+    growth = fmax(growth, largest_of(qr->work, n));
+  }
+  qr->rcond = 1.0 / (growth * fmax(largest_of(qr->matrix.x, qr->matrix.nzmax), 1.0));
+  return BAUM_OK;
+}
+
+static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
+                          baum_i_kkt_effort effort)
+{
+  (void)effort; /* there is one way only */
+  qr_backend *qr = self;
+  qr->scale = scale;
+  qr->rcond = 0.0;
+  baum_i_pattern_fill(&qr->pattern, values, scale, mass_weight, qr->matrix.x);
+  (void)SuiteSparseQR_C_numeric(dependent, &qr->matrix, qr->factors, &qr->common);
+  if (qr->common.status < CHOLMOD_OK) {
+    return BAUM_ERR_MEMORY;
+  }
+  qr->rank = (size_t)qr->common.SPQR_istat[RANK_STATISTIC];
+  return qr->rank == (size_t)qr->pattern.n ? estimate_rcond(qr) : BAUM_OK;
+}
+
+static baum_status solve(void *self, double *x)
+{
+  qr_backend *qr = self;
+  apply_scale(qr, x);
+  baum_status status = solve_scaled(qr, x);
+  apply_scale(qr, x);
+  return status;
+}
+
+static double rcond(const void *self)
+{
+  const qr_backend *qr = self;
+  return qr->rcond;
+}
+
+const baum_i_kkt_ops baum_i_qr_ops = {
+  .name = "qr",
+  .keeps_pivots = false,
+  .create = create,
+  .factor = factor,
+  .solve = solve,
+  .rcond = rcond,
+  .destroy = destroy,
+};
+
+/* ---- rank of J ---- */
+
+static size_t count_entries(const baum_i_kkt_structure *structure)
+{
+  size_t count = 0;
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    count += (size_t)block->rows * (size_t)block->cols;
+  }
+  return count;
+}
+
+/* J^T as a list of entries: column = constraint. Repeated entries are summed by CHOLMOD. */
+static void list_scaled(const baum_i_kkt_structure *structure, const double *jacobian,
+                        const double *column_scale, cholmod_triplet *list)
+{
+  SuiteSparse_long *velocity = list->i;
+  SuiteSparse_long *constraint = list->j;
+  double *x = list->x;
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    const double *value = jacobian + block->value;
+    for (int i = 0; i < block->rows; i++) {
+      for (int k = 0; k < block->cols; k++) {
+        velocity[list->nnz] = block->col[k];
+        constraint[list->nnz] = block->row + i;
+        x[list->nnz++] = *value++ * column_scale[block->col[k]];
+      }
+    }
+  }
+}
+
+static bool entries_are_finite(const cholmod_triplet *list)
+{
+  const double *x = list->x;
+  for (size_t k = 0; k < list->nnz; k++) {
+    if (!isfinite(x[k])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* Columns of unit length; by the largest entry first, so that squares neither overflow nor vanish. */
+static void make_unit_columns(cholmod_sparse *sparse)
+{
+  const SuiteSparse_long *start_of = sparse->p;
+  double *x = sparse->x;
+  for (size_t j = 0; j < sparse->ncol; j++) {
+    double largest = 0.0;
+    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1]; k++) {
+      largest = fmax(largest, fabs(x[k]));
+    }
+    double sum = 0.0;
+    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1] && largest > 0.0; k++) {
+      x[k] /= largest;
+      sum += x[k] * x[k];
+    }
+    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1] && largest > 0.0; k++) {
+      x[k] /= sqrt(sum);
+    }
+  }
+}
+
+/* Mark the columns in which a row of the squeezed triangle R begins. */
+static void mark_independent(const cholmod_sparse *r, const SuiteSparse_long *order,
+                             unsigned char *independent)
+{
+  const SuiteSparse_long *start_of = r->p;
+  const SuiteSparse_long *row = r->i;
+  SuiteSparse_long found = 0;
+  for (size_t j = 0; j < r->ncol; j++) {
+    bool begins = false;
+    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1]; k++) {
+      begins = begins || row[k] >= found;
+    }
+    if (begins) {
+      found++;
+      independent[order ? order[j] : (SuiteSparse_long)j] = 1;
+    }
+  }
+}
+
+/* Columns are taken in their order, so that of dependent ones the later are given up. */
+static baum_status reveal(cholmod_sparse *transposed, double tolerance, int *rank,
+                          unsigned char *independent, cholmod_common *common)
+{
+  cholmod_sparse *r = NULL;
+  SuiteSparse_long *order = NULL;
+  SuiteSparse_long found = SuiteSparseQR_C(SPQR_ORDERING_FIXED, tolerance, 0, 0, transposed, NULL,
+                                           NULL, NULL, NULL, &r, &order, NULL, NULL, NULL, common);
+  baum_status status = found < 0 || !r ? BAUM_ERR_MEMORY : BAUM_OK;
+  if (status == BAUM_OK) {
+    memset(independent, 0, transposed->ncol);
+    mark_independent(r, order, independent);
+    *rank = (int)found;
+  }
+  (void)cholmod_l_free_sparse(&r, common);
+  (void)cholmod_l_free(transposed->ncol, sizeof *order, order, common);
+  return status;
+}
+
+static baum_status rank_of_list(cholmod_triplet *list, double tolerance, int *rank,
+                                unsigned char *independent, cholmod_common *common)
+{
+  if (!entries_are_finite(list)) {
+    return BAUM_ERR_NOT_FINITE;
+  }
+  cholmod_sparse *transposed = cholmod_l_triplet_to_sparse(list, 0, common);
+  if (!transposed) {
+    return BAUM_ERR_MEMORY;
+  }
+  make_unit_columns(transposed);
+  baum_status status = reveal(transposed, tolerance, rank, independent, common);
+  (void)cholmod_l_free_sparse(&transposed, common);
+  return status;
+}
+
+static baum_status rank_by_qr(const baum_i_kkt_structure *structure, const double *jacobian,
+                              const double *column_scale, double tolerance, int *rank,
+                              unsigned char *independent)
+{
+  cholmod_common common;
+  if (!start(&common)) {
+    return BAUM_ERR_MEMORY;
+  }
+  baum_status status = BAUM_ERR_MEMORY;
+  cholmod_triplet *list =
+    cholmod_l_allocate_triplet((size_t)structure->nv, (size_t)structure->nc,
+                               count_entries(structure), 0, CHOLMOD_REAL, &common);
+  if (list) {
+    list_scaled(structure, jacobian, column_scale, list);
+    status = rank_of_list(list, tolerance, rank, independent, &common);
+  }
+  (void)cholmod_l_free_triplet(&list, &common);
+  (void)cholmod_l_finish(&common);
+  return status;
+}
+
+baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
+                                 const double *column_scale, double tolerance, int *rank,
+                                 unsigned char *independent)
+{
+  if (structure->nv == 0 || structure->nc == 0) {
+    *rank = 0;
+    memset(independent, 0, (size_t)structure->nc);
+    return BAUM_OK;
+  }
+  baum_status status = rank_by_qr(structure, jacobian, column_scale, tolerance, rank, independent);
+  return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
+}

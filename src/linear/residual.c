@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Residual of the saddle-point system, and the test on it.
+ *
+ * Componentwise backward error (W. Oettli, W. Prager 1964): x solves a system whose every number is
+ * changed by at most omega of itself, with
+ *
+ *   omega = max_i |b - K x|_i / (|K| |x| + |b|)_i .
+ *
+ * Each row is held against itself, and so neither units nor masses of very different size matter. A row whose
+ * denominator is only the rounding noise of other rows might never pass; such rows are held against the largest row
+ * instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once if they are noise of noise, what one refinement
+ * makes of them, and when refinement has ended also if they are plain noise.
+ */
+#include "linear/residual.h"
+
+#include <float.h>
+#include <math.h>
+
+static const double rounding = 100.0 * DBL_EPSILON;
+static const double noise = 1000.0 * DBL_EPSILON; /* times the number of rows */
+static const double noise_of_noise = 1e-27;
+
+static void start(int n, const double *b, double *residual, double *size)
+{
+  for (int i = 0; i < n; i++) {
+    residual[i] = b[i];
+    size[i] = fabs(b[i]);
+  }
+}
+
+static void subtract_mass(const baum_i_kkt_structure *structure, const double *mass,
+                          const double *a, double *residual, double *size)
+{
+  for (int b = 0; b < structure->mass_block_count; b++) {
+    const baum_i_mass_block *block = &structure->mass_blocks[b];
+    const double *value = mass + block->value;
+    for (int i = block->first; i < block->first + block->size; i++) {
+      for (int j = block->first; j < block->first + block->size; j++) {
+        double term = *value++ * a[j];
+        residual[i] -= term;
+        size[i] += fabs(term);
+      }
+    }
+  }
+}
+
+/* One row of a block of J, in both equations. x = (a, lambda). */
+static void subtract_row(const baum_i_row_block *block, const double *value, int row,
+                         const double *x, double *residual, double *size)
+{
+  double sum = 0.0;
+  double sum_size = 0.0;
+  for (int k = 0; k < block->cols; k++) {
+    int column = block->col[k];
+    double term = value[k] * x[column];
+    sum += term;
+    sum_size += fabs(term);
+    double force = value[k] * x[row];
+    residual[column] -= force;
+    size[column] += fabs(force);
+  }
+  residual[row] -= sum;
+  size[row] += sum_size;
+}
+
+static void subtract_jacobian(const baum_i_kkt_structure *structure, const double *jacobian,
+                              const double *x, double *residual, double *size)
+{
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    for (int i = 0; i < block->rows; i++) {
+      const double *value = jacobian + block->value + i * block->cols;
+      subtract_row(block, value, structure->nv + block->row + i, x, residual, size);
+    }
+  }
+}
+
+static void add_shift(int nc, const double *shift, const double *lambda, double *residual,
+                      double *size)
+{
+  for (int i = 0; i < nc; i++) {
+    double term = shift[i] * lambda[i];
+    residual[i] += term;
+    size[i] += fabs(term);
+  }
+}
+
+static void leave_out(int nc, const unsigned char *dropped, double *residual, double *size)
+{
+  for (int i = 0; i < nc; i++) {
+    if (dropped[i]) {
+      residual[i] = 0.0;
+      size[i] = 0.0;
+    }
+  }
+}
+
+void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
+                          const double *b, const double *x, double *residual, double *size)
+{
+  int nv = structure->nv;
+  start(nv + structure->nc, b, residual, size);
+  subtract_mass(structure, values->mass, x, residual, size);
+  subtract_jacobian(structure, values->jacobian, x, residual, size);
+  if (values->shift) {
+    add_shift(structure->nc, values->shift, x + nv, residual + nv, size + nv);
+  }
+  if (values->dropped) {
+    leave_out(structure->nc, values->dropped, residual + nv, size + nv);
+  }
+}
+
+static double largest_scaled(int n, const double *scale, const double *x)
+{
+  double largest = 0.0;
+  for (int i = 0; i < n; i++) {
+    largest = fmax(largest, scale[i] * fabs(x[i]));
+  }
+  return largest;
+}
+
+/* Rows of scaled size up to `negligible` of the largest are held against the largest. */
+static bool is_rounding(int n, const double *scale, const double *residual, const double *size,
+                        double negligible)
+{
+  double largest = -1.0; /* found when it is needed */
+  for (int i = 0; i < n; i++) {
+    if (fabs(residual[i]) <= rounding * size[i]) {
+      continue;
+    }
+    if (largest < 0.0) {
+      largest = largest_scaled(n, scale, size);
+    }
+    bool is_negligible = scale[i] * size[i] <= negligible * largest;
+    if (!is_negligible || !(scale[i] * fabs(residual[i]) <= rounding * largest)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
+                                 const double *size)
+{
+  return is_rounding(n, scale, residual, size, noise_of_noise);
+}
+
+bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
+                              const double *size)
+{
+  return is_rounding(n, scale, residual, size, n * noise);
+}
+
+bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,
+                              double tolerance)
+{
+  double limit = tolerance * largest_scaled(n, scale, b);
+  for (int i = 0; i < n; i++) {
+    if (!(scale[i] * fabs(residual[i]) <= limit)) {
+      return false;
+    }
+  }
+  return true;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Residual b - K x of the saddle-point system, and whether it is at rounding level whatever the units. */
+#ifndef BAUM_I_LINEAR_RESIDUAL_H
+#define BAUM_I_LINEAR_RESIDUAL_H
+
+#include "linear/kkt.h"
+
+/* residual = b - K x and size = |b| + |K| |x|, all of length nv + nc; zero in dropped rows. */
+void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
+                          const double *b, const double *x, double *residual, double *size);
+
+/* Is each |residual_i| a few units of rounding of its own size_i? NaN is not. */
+bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
+                                 const double *size);
+
+/* The same, but rows whose scaled size is itself rounding noise of the largest one are held against that one. */
+bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
+                              const double *size);
+
+/* Is each scaled |residual_i| at most `tolerance` of the largest scaled |b_i|? */
+bool baum_i_residual_is_below(int n, const double *scale, const double *residual, const double *b,
+                              double tolerance);
+
+#endif

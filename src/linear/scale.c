@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scaling by powers of two. */
+#include "linear/scale.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Exponents are kept so small that a product of two scales and an entry can neither overflow nor vanish. */
+enum { EXPONENT_BIAS = 1023, EXPONENT_BITS = 52, EXPONENT_MASK = 0x7ff, EXPONENT_LIMIT = 300 };
+
+/* floor(log2(x)) of a finite x > 0. */
+static int exponent_of(double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return (int)(bits >> EXPONENT_BITS & EXPONENT_MASK) - EXPONENT_BIAS;
+}
+
+static double power_of_two(int exponent)
+{
+  if (exponent > EXPONENT_LIMIT) {
+    exponent = EXPONENT_LIMIT;
+  }
+  if (exponent < -EXPONENT_LIMIT) {
+    exponent = -EXPONENT_LIMIT;
+  }
+  uint64_t bits = (uint64_t)(exponent + EXPONENT_BIAS) << EXPONENT_BITS;
+  double power;
+  memcpy(&power, &bits, sizeof power);
+  return power;
+}
+
+static double inverse(double x)
+{
+  return power_of_two(-exponent_of(x));
+}
+
+static double inverse_root(double x)
+{
+  int exponent = exponent_of(x);
+  return power_of_two(-(exponent - (exponent & 1)) / 2);
+}
+
+/* Below, 0 means "not known yet". */
+
+static void scale_velocities(const baum_i_kkt_structure *structure, const double *mass, double *d)
+{
+  for (int j = 0; j < structure->nv; j++) {
+    d[j] = 0.0;
+  }
+  for (int b = 0; b < structure->mass_block_count; b++) {
+    const baum_i_mass_block *block = &structure->mass_blocks[b];
+    const double *diagonal = mass + block->value;
+    for (int j = 0; j < block->size; j++) {
+      double size = fabs(diagonal[j * (block->size + 1)]);
+      d[block->first + j] = size > 0.0 ? inverse_root(size) : 0.0;
+    }
+  }
+}
+
+/* largest[i] of each row over the columns whose scale is known. */
+static void measure_rows(const baum_i_kkt_structure *structure, const double *jacobian,
+                         const double *d, double *largest)
+{
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    const double *value = jacobian + block->value;
+    for (int i = 0; i < block->rows; i++) {
+      double *row = &largest[block->row + i];
+      for (int k = 0; k < block->cols; k++) {
+        double size = fabs(*value++) * d[block->col[k]];
+        *row = size > *row ? size : *row;
+      }
+    }
+  }
+}
+
+static void scale_constraints(const baum_i_kkt_structure *structure,
+                              const baum_i_kkt_values *values, const double *d, double *e)
+{
+  for (int i = 0; i < structure->nc; i++) {
+    e[i] = values->shift ? sqrt(fabs(values->shift[i])) : 0.0;
+  }
+  measure_rows(structure, values->jacobian, d, e);
+  for (int i = 0; i < structure->nc; i++) {
+    e[i] = e[i] > 0.0 ? inverse(e[i]) : 0.0;
+  }
+}
+
+/* d_j of one velocity without mass, 0 if no row with a known scale holds it. */
+static double scale_massless(const baum_i_kkt_structure *structure, const double *jacobian,
+                             const double *e, int j)
+{
+  double largest = 0.0;
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    for (int k = 0; k < block->cols; k++) {
+      for (int i = 0; i < block->rows && block->col[k] == j; i++) {
+        double value = jacobian[block->value + i * block->cols + k];
+        largest = fmax(largest, fabs(value) * e[block->row + i]);
+      }
+    }
+  }
+  return largest > 0.0 ? inverse(largest) : 0.0;
+}
+
+/* Let scales spread from rows to the velocities without mass; true if any was found. */
+static bool spread(const baum_i_kkt_structure *structure, const double *jacobian, const double *e,
+                   double *d)
+{
+  bool found = false;
+  for (int j = 0; j < structure->nv; j++) {
+    if (d[j] == 0.0) {
+      d[j] = scale_massless(structure, jacobian, e, j);
+      found = found || d[j] > 0.0;
+    }
+  }
+  return found;
+}
+
+static bool any_unknown(const double *scale, int n)
+{
+  for (int i = 0; i < n; i++) {
+    if (scale[i] == 0.0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void replace_unknown(double *scale, int n)
+{
+  for (int i = 0; i < n; i++) {
+    scale[i] = scale[i] == 0.0 ? 1.0 : scale[i];
+  }
+}
+
+void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
+                          double *scale)
+{
+  double *d = scale;
+  double *e = scale + structure->nv;
+  scale_velocities(structure, values->mass, d);
+  scale_constraints(structure, values, d, e);
+  if (any_unknown(d, structure->nv)) {
+    while (spread(structure, values->jacobian, e, d)) {
+      scale_constraints(structure, values, d, e);
+    }
+    replace_unknown(d, structure->nv);
+    scale_constraints(structure, values, d, e);
+  }
+  replace_unknown(e, structure->nc);
+  for (int i = 0; i < structure->nc; i++) {
+    if (values->dropped && values->dropped[i]) {
+      e[i] = 0.0;
+    }
+  }
+}
