@@ -90,7 +90,7 @@ static baum_status refuse_return(const baum_i_joint *joint, baum_i_point *point,
   point->retry = code > 0;
   return baum_i_fail(BAUM_ERR_CALLBACK, "%s: law() returned %d (%s)",
                      baum_i_label(&joint->element, "joint", label), code,
-                     code > 0 ? "retry with a smaller step" : "stop");
+                     code > 0 ? "retry" : "stop");
 }
 
 static baum_status check_law(const baum_i_joint *joint, baum_i_point *point, const double s[3])

@@ -1,0 +1,428 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Differences are of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with h = 1e-3: truncation h^4 f''''' / 30 is
+ * 3e-14 times the fifth derivative, rounding about 1e-12 times f. With both up to some thousands at the states that
+ * test_point_random() makes, 1e-8 of the value and of 1 is what the tolerance must be.
+ */
+#include "derivatives.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "mechanism/planar.h"
+
+static const double STEP = 1e-3;
+static const double TOLERANCE = 1e-8;
+
+enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
+
+/* What functions below are evaluated with; fixed numbers, so that they are functions of the state alone. */
+typedef struct directions {
+  double w[TEST_SIZE_MAX];
+  double lambda[TEST_SIZE_MAX];
+} directions;
+
+typedef void state_fn(test_point *p, const directions *d, double *out);
+
+static directions some_directions(void)
+{
+  directions d;
+  uint64_t seed = 17;
+  for (int i = 0; i < TEST_SIZE_MAX; i++) {
+    d.w[i] = test_uniform(&seed, -2.0, 2.0);
+    d.lambda[i] = test_uniform(&seed, -5.0, 5.0);
+  }
+  return d;
+}
+
+/* ---- blocks to full matrices, added up over the elements ---- */
+
+static void spread_rows(const test_point *p, const double *blocks, double *full)
+{
+  memset(full, 0, MATRIX * sizeof *full);
+  for (int k = 0; k < p->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = p->mechanism->joints[k];
+    const baum_i_span *span = &joint->span;
+    for (int i = 0; i < joint->rows; i++) {
+      for (int j = 0; j < span->nl; j++) {
+        full[(joint->row + i) * p->nv + span->columns[j]] +=
+          blocks[joint->jacobian + i * span->nl + j];
+      }
+    }
+  }
+}
+
+static void spread_square(const test_point *p, const baum_i_span *span, const double *block,
+                          double *full)
+{
+  for (int i = 0; i < span->nl; i++) {
+    for (int j = 0; j < span->nl; j++) {
+      full[span->columns[i] * p->nv + span->columns[j]] += block[i * span->nl + j];
+    }
+  }
+}
+
+static void spread_joint_squares(const test_point *p, const double *blocks, double *full)
+{
+  memset(full, 0, MATRIX * sizeof *full);
+  for (int k = 0; k < p->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = p->mechanism->joints[k];
+    spread_square(p, &joint->span, blocks + joint->square, full);
+  }
+}
+
+static void spread_force_squares(const test_point *p, const double *blocks, double *full)
+{
+  memset(full, 0, MATRIX * sizeof *full);
+  for (int k = 0; k < p->mechanism->force_count; k++) {
+    const baum_i_force *force = p->mechanism->forces[k];
+    spread_square(p, &force->span, blocks + force->square, full);
+  }
+}
+
+/* ---- functions of the state ---- */
+
+static void full_jacobian(test_point *p, double *full)
+{
+  double blocks[MATRIX];
+  assert_int_equal(baum_i_mechanism_jacobian(&p->point, blocks), BAUM_OK);
+  spread_rows(p, blocks, full);
+}
+
+static void phi_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  assert_int_equal(baum_i_mechanism_phi(&p->point, out), BAUM_OK);
+}
+
+static void nu_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  assert_int_equal(baum_i_mechanism_nu(&p->point, out), BAUM_OK);
+}
+
+static void gamma_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  assert_int_equal(baum_i_mechanism_gamma(&p->point, out), BAUM_OK);
+}
+
+static void product_of(test_point *p, const double *x, double *out)
+{
+  double jacobian[MATRIX];
+  full_jacobian(p, jacobian);
+  for (int i = 0; i < p->nc; i++) {
+    out[i] = 0.0;
+    for (int j = 0; j < p->nv; j++) {
+      out[i] += jacobian[i * p->nv + j] * x[j];
+    }
+  }
+}
+
+static void jw_of(test_point *p, const directions *d, double *out)
+{
+  product_of(p, d->w, out);
+}
+
+static void jtl_of(test_point *p, const directions *d, double *out)
+{
+  double jacobian[MATRIX];
+  full_jacobian(p, jacobian);
+  for (int j = 0; j < p->nv; j++) {
+    out[j] = 0.0;
+    for (int i = 0; i < p->nc; i++) {
+      out[j] += jacobian[i * p->nv + j] * d->lambda[i];
+    }
+  }
+}
+
+/* Phi' */
+static void rate_of(test_point *p, const directions *d, double *out)
+{
+  double nu[TEST_SIZE_MAX];
+  nu_of(p, d, nu);
+  product_of(p, p->v, out);
+  for (int i = 0; i < p->nc; i++) {
+    out[i] -= nu[i];
+  }
+}
+
+static void force_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  assert_int_equal(baum_i_mechanism_force(&p->point, out), BAUM_OK);
+}
+
+static void potential_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  assert_int_equal(baum_i_mechanism_potential(&p->point, out), BAUM_OK);
+}
+
+/* ---- the joint's coordinate ---- */
+
+static baum_i_coordinate coordinate_at(const test_point *p)
+{
+  const baum_i_joint *joint = p->mechanism->joints[0];
+  baum_i_coordinate c;
+  joint->type->coordinate(joint, &p->point, &c);
+  return c;
+}
+
+/* Six columns of the joint's bodies, left out where they have none, to nv. */
+static void spread_six(const test_point *p, const double six[6], double *full)
+{
+  memset(full, 0, (size_t)p->nv * sizeof *full);
+  const baum_i_span *span = &p->mechanism->joints[0]->span;
+  for (int k = 0; k < 2; k++) {
+    const baum_i_body *body = p->mechanism->bodies[span->bodies[k]];
+    for (int i = 0; i < body->nv; i++) {
+      full[body->v + i] = six[3 * k + i];
+    }
+  }
+}
+
+static void six_of(const test_point *p, const double *full, double six[6])
+{
+  memset(six, 0, 6 * sizeof *six);
+  const baum_i_span *span = &p->mechanism->joints[0]->span;
+  for (int k = 0; k < 2; k++) {
+    const baum_i_body *body = p->mechanism->bodies[span->bodies[k]];
+    for (int i = 0; i < body->nv; i++) {
+      six[3 * k + i] = full[body->v + i];
+    }
+  }
+}
+
+static void value_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  *out = coordinate_at(p).value;
+}
+
+static void coordinate_rate_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  *out = coordinate_at(p).rate;
+}
+
+static void coordinate_gamma_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  *out = coordinate_at(p).gamma;
+}
+
+static void coordinate_gradient_of(test_point *p, const directions *d, double *out)
+{
+  (void)d;
+  spread_six(p, coordinate_at(p).gradient, out);
+}
+
+/* ---- differences ---- */
+
+static void evaluate_at(test_point *p, const test_point *from, double step,
+                        const double direction[1 + 2 * TEST_SIZE_MAX], state_fn *fn,
+                        const directions *d, double *out)
+{
+  p->t = from->t + step * direction[0];
+  for (int i = 0; i < p->nv; i++) {
+    p->q[i] = from->q[i] + step * direction[1 + i];
+    p->v[i] = from->v[i] + step * direction[1 + TEST_SIZE_MAX + i];
+  }
+  test_point_update(p);
+  fn(p, d, out);
+}
+
+/* Derivative of a function of (t, q, v) along a direction. */
+static void slope(test_point *p, const double direction[1 + 2 * TEST_SIZE_MAX], state_fn *fn,
+                  const directions *d, int count, double *out)
+{
+  const test_point from = *p;
+  double f[4][TEST_SIZE_MAX];
+  static const double places[4] = {-2.0, -1.0, 1.0, 2.0};
+  for (int k = 0; k < 4; k++) {
+    evaluate_at(p, &from, places[k] * STEP, direction, fn, d, f[k]);
+  }
+  for (int i = 0; i < count; i++) {
+    out[i] = (8.0 * (f[2][i] - f[1][i]) - (f[3][i] - f[0][i])) / (12.0 * STEP);
+  }
+  *p = from;
+  test_point_update(p);
+}
+
+static void compare(const char *what, int row, int column, double got, double difference)
+{
+  if (fabs(got - difference) > TOLERANCE * (1.0 + fabs(difference))) {
+    print_error("%s, row %d, column %d\n", what, row, column);
+  }
+  ASSERT_NEAR(got, difference, TOLERANCE, TOLERANCE);
+}
+
+/* A matrix (count x nv) is the derivative of fn in q, or in v. */
+static void check_matrix(test_point *p, const char *what, bool in_q, state_fn *fn,
+                         const directions *d, int count, const double *matrix)
+{
+  for (int j = 0; j < p->nv; j++) {
+    double direction[1 + 2 * TEST_SIZE_MAX] = {0.0};
+    double column[TEST_SIZE_MAX];
+    direction[1 + (in_q ? 0 : TEST_SIZE_MAX) + j] = 1.0;
+    slope(p, direction, fn, d, count, column);
+    for (int i = 0; i < count; i++) {
+      compare(what, i, j, matrix[i * p->nv + j], column[i]);
+    }
+  }
+}
+
+/* sign * values is the derivative of fn in time, the positions moving with v if asked, v held. */
+static void check_in_time(test_point *p, const char *what, bool moving, state_fn *fn, int count,
+                          double sign, const double *values)
+{
+  double direction[1 + 2 * TEST_SIZE_MAX] = {1.0};
+  double difference[TEST_SIZE_MAX];
+  const directions d = some_directions();
+  if (moving) {
+    memcpy(direction + 1, p->v, (size_t)p->nv * sizeof(double));
+  }
+  slope(p, direction, fn, &d, count, difference);
+  for (int i = 0; i < count; i++) {
+    compare(what, i, -1, sign * values[i], difference[i]);
+  }
+}
+
+/* ---- joints ---- */
+
+static void check_first_derivatives(test_point *p)
+{
+  double full[MATRIX];
+  double values[TEST_SIZE_MAX];
+  const directions d = some_directions();
+  full_jacobian(p, full);
+  check_matrix(p, "J", true, phi_of, &d, p->nc, full);
+  nu_of(p, &d, values);
+  check_in_time(p, "nu", false, phi_of, p->nc, -1.0, values);
+  gamma_of(p, &d, values);
+  check_in_time(p, "gamma", true, rate_of, p->nc, -1.0, values);
+}
+
+typedef struct joint_arrays {
+  double jw_q[MATRIX];
+  double jtl_q[MATRIX];
+  double gamma_q[MATRIX];
+  double gamma_v[MATRIX];
+  double nu_q[MATRIX];
+} joint_arrays;
+
+static void linearize_joints(test_point *p, const directions *d, const baum_i_joint_blocks *blocks)
+{
+  assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, d->w, d->lambda, blocks), BAUM_OK);
+}
+
+/* Asked for alone, a block is the same as among the others. */
+static void check_blocks_alone(test_point *p, const directions *d, const joint_arrays *all)
+{
+  size_t rows = (size_t)p->mechanism->jacobian_size * sizeof(double);
+  size_t squares = (size_t)p->mechanism->joint_square_size * sizeof(double);
+  double alone[MATRIX];
+  linearize_joints(p, d, &(baum_i_joint_blocks){.jw_q = alone});
+  assert_memory_equal(alone, all->jw_q, rows);
+  linearize_joints(p, d, &(baum_i_joint_blocks){.jtl_q = alone});
+  assert_memory_equal(alone, all->jtl_q, squares);
+  linearize_joints(p, d, &(baum_i_joint_blocks){.gamma_q = alone});
+  assert_memory_equal(alone, all->gamma_q, rows);
+  linearize_joints(p, d, &(baum_i_joint_blocks){.gamma_v = alone});
+  assert_memory_equal(alone, all->gamma_v, rows);
+}
+
+static void check_second_derivatives(test_point *p)
+{
+  joint_arrays all;
+  double full[MATRIX];
+  const directions d = some_directions();
+  baum_i_joint_blocks blocks = {all.jw_q, all.jtl_q, all.gamma_q, all.gamma_v, all.nu_q};
+  linearize_joints(p, &d, &blocks);
+  spread_rows(p, all.jw_q, full);
+  check_matrix(p, "(J w)_q", true, jw_of, &d, p->nc, full);
+  spread_joint_squares(p, all.jtl_q, full);
+  check_matrix(p, "(J^T lambda)_q", true, jtl_of, &d, p->nv, full);
+  spread_rows(p, all.gamma_q, full);
+  check_matrix(p, "gamma_q", true, gamma_of, &d, p->nc, full);
+  spread_rows(p, all.gamma_v, full);
+  check_matrix(p, "gamma_v", false, gamma_of, &d, p->nc, full);
+  spread_rows(p, all.nu_q, full);
+  check_matrix(p, "nu_q", true, nu_of, &d, p->nc, full);
+  check_blocks_alone(p, &d, &all);
+}
+
+void check_joint_derivatives(test_point *p)
+{
+  check_first_derivatives(p);
+  check_second_derivatives(p);
+}
+
+void check_coordinate_derivatives(test_point *p)
+{
+  const baum_i_joint *joint = p->mechanism->joints[0];
+  const directions d = some_directions();
+  baum_i_coordinate c = coordinate_at(p);
+  double full[MATRIX];
+  spread_six(p, c.gradient, full);
+  check_matrix(p, "coordinate_q", true, value_of, &d, 1, full);
+  check_matrix(p, "rate_v", false, coordinate_rate_of, &d, 1, full);
+  check_in_time(p, "coordinate rate", true, value_of, 1, 1.0, &c.rate);
+  check_in_time(p, "coordinate gamma", true, coordinate_rate_of, 1, -1.0, &c.gamma);
+
+  double w[6];
+  baum_i_coordinate_blocks blocks;
+  six_of(p, d.w, w);
+  joint->type->coordinate_linearize(joint, &p->point, w, 1.0, &blocks);
+  spread_six(p, blocks.gamma_q, full);
+  check_matrix(p, "coordinate gamma_q", true, coordinate_gamma_of, &d, 1, full);
+  spread_six(p, blocks.gamma_v, full);
+  check_matrix(p, "coordinate gamma_v", false, coordinate_gamma_of, &d, 1, full);
+  memset(full, 0, sizeof full);
+  double packed[36];
+  baum_i_planar_pack_square(p->mechanism, &joint->span, blocks.jtl_q, packed);
+  spread_square(p, &joint->span, packed, full);
+  check_matrix(p, "coordinate_qq", true, coordinate_gradient_of, &d, p->nv, full);
+}
+
+/* ---- forces ---- */
+
+void check_force_derivatives(test_point *p)
+{
+  double blocks_q[MATRIX];
+  double blocks_v[MATRIX];
+  double full[MATRIX];
+  const directions d = some_directions();
+  baum_i_force_blocks blocks = {blocks_q, blocks_v};
+  assert_int_equal(baum_i_mechanism_linearize_forces(&p->point, &blocks), BAUM_OK);
+  spread_force_squares(p, blocks_q, full);
+  check_matrix(p, "force_q", true, force_of, &d, p->nv, full);
+  spread_force_squares(p, blocks_v, full);
+  check_matrix(p, "force_v", false, force_of, &d, p->nv, full);
+
+  size_t size = (size_t)p->mechanism->force_square_size * sizeof(double);
+  double alone[MATRIX];
+  blocks = (baum_i_force_blocks){.force_q = alone};
+  assert_int_equal(baum_i_mechanism_linearize_forces(&p->point, &blocks), BAUM_OK);
+  assert_memory_equal(alone, blocks_q, size);
+  blocks = (baum_i_force_blocks){.force_v = alone};
+  assert_int_equal(baum_i_mechanism_linearize_forces(&p->point, &blocks), BAUM_OK);
+  assert_memory_equal(alone, blocks_v, size);
+}
+
+void check_potential_gradient(test_point *p)
+{
+  const directions d = some_directions();
+  double force[TEST_SIZE_MAX];
+  memset(p->v, 0, sizeof p->v);
+  test_point_update(p);
+  force_of(p, &d, force);
+  for (int j = 0; j < p->nv; j++) {
+    force[j] = -force[j];
+  }
+  check_matrix(p, "potential_q", true, potential_of, &d, 1, force);
+}

@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two planar bodies and two particles, drawn apart, for joints and forces to be put between. */
+#ifndef BAUM_TEST_PLANAR_SCENE_H
+#define BAUM_TEST_PLANAR_SCENE_H
+
+#include <baum/planar.h>
+
+#include "point.h"
+
+typedef struct planar_scene {
+  baum_mechanism *mechanism; /* the caller destroys it */
+  baum_body_id link;
+  baum_body_id crank;
+  baum_body_id ball;
+  baum_body_id bead;
+} planar_scene;
+
+planar_scene planar_scene_make(void);
+
+/* A point on one of its bodies or ground, in that body's axes, other than the origin where there may be one. */
+void planar_scene_arm(const planar_scene *scene, baum_body_id body, double arm[2]);
+
+/* Put what is to be tested between two bodies. */
+typedef void planar_add_fn(planar_scene *scene, baum_body_id a, baum_body_id b);
+typedef void planar_check_fn(test_point *p);
+
+/* For every pair of body, other body, ground (and particles, if they may be), at 20 random states. */
+void for_each_planar_pair(planar_add_fn *add, bool particles, planar_check_fn *check);
+
+/* Set the two points of a definition. */
+#define PLANAR_BETWEEN(scene, def, a, b)            \
+  do {                                              \
+    (def)->body_a = (a);                            \
+    (def)->body_b = (b);                            \
+    planar_scene_arm((scene), (a), (def)->point_a); \
+    planar_scene_arm((scene), (b), (def)->point_b); \
+  } while (0)
+
+#endif

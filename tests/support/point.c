@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "point.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+void test_point_open(test_point *p, baum_mechanism *mechanism)
+{
+  *p = (test_point){.mechanism = mechanism};
+  baum_status status = baum_mechanism_freeze(mechanism);
+  if (status != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  p->nv = mechanism->nv;
+  p->nc = mechanism->nc;
+  assert_true(p->nv <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
+  p->point.mechanism = mechanism;
+  p->point.parameters = mechanism->parameters;
+  p->point.frames = calloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
+  p->point.scratch = calloc((size_t)mechanism->scratch_size + 1, sizeof(double));
+  assert_non_null(p->point.frames);
+  assert_non_null(p->point.scratch);
+  memcpy(p->q, mechanism->drawn_q, (size_t)p->nv * sizeof(double));
+  test_point_update(p);
+}
+
+void test_point_close(test_point *p)
+{
+  free(p->point.frames);
+  free(p->point.scratch);
+  baum_mechanism_destroy(p->mechanism);
+}
+
+void test_point_update(test_point *p)
+{
+  baum_i_point_set(&p->point, p->t, p->q, p->v);
+}
+
+/* Knuth's linear congruential generator; the upper bits. */
+double test_uniform(uint64_t *seed, double low, double high)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * (double)(*seed >> 11) / 9007199254740992.0;
+}
+
+void test_point_random(test_point *p, uint64_t *seed)
+{
+  p->t = test_uniform(seed, 0.0, 2.0);
+  for (int i = 0; i < p->nv; i++) {
+    p->q[i] = test_uniform(seed, -2.0, 2.0);
+    p->v[i] = test_uniform(seed, -3.0, 3.0);
+  }
+  test_point_update(p);
+}

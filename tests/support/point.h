@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A frozen mechanism with a state to evaluate it at. */
+#ifndef BAUM_TEST_POINT_H
+#define BAUM_TEST_POINT_H
+
+#include <stdint.h>
+
+#include "mechanism/mechanism.h"
+
+enum { TEST_SIZE_MAX = 24 }; /* nv, nc */
+
+typedef struct test_point {
+  baum_mechanism *mechanism; /* owned */
+  baum_i_point point;
+  int nv;
+  int nc;
+  double t;
+  double q[TEST_SIZE_MAX];
+  double v[TEST_SIZE_MAX];
+} test_point;
+
+/* Freeze a mechanism and take it over; the state is the drawn pose at rest. */
+void test_point_open(test_point *p, baum_mechanism *mechanism);
+void test_point_close(test_point *p);
+
+/* After a change of t, q or v. */
+void test_point_update(test_point *p);
+
+/* t in [0, 2], q within 2 of zero, v within 3. */
+void test_point_random(test_point *p, uint64_t *seed);
+
+double test_uniform(uint64_t *seed, double low, double high);
+
+#endif
