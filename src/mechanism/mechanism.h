@@ -225,6 +225,7 @@ struct baum_i_joint_type {
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point, const double w[6],
                                double lambda, baum_i_coordinate_blocks *out);
   baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
+  double (*noise)(const void *def); /* relative error of derivatives by differences; NULL: none are taken */
 };
 
 struct baum_i_force_type {

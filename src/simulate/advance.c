@@ -1,0 +1,454 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The loop of a run.
+ *
+ * Fixed step: times are origin + k h. A step is made on the trial state, projected there if the formulation says so, checked, and
+ * only then becomes the present state. A sample off the grid is such a trial that is not kept.
+ * Variable step: the method runs ahead by whole steps of its own; what is reported is interpolated inside the last.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "simulate/run.h"
+
+/* Times that differ by less than this share of a step are the same. */
+static const double SAME_TIME = 1e-9;
+
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
+{
+  memcpy(run->message, baum_message(), sizeof run->message);
+  return status;
+}
+
+/* ---- interruptions ---- */
+
+void baum_simulation_cancel(baum_simulation *simulation)
+{
+  if (simulation) {
+    atomic_store(&simulation->cancelled, 1);
+  }
+}
+
+static double seconds_since(const struct timespec *then)
+{
+  struct timespec now;
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
+}
+
+static bool progress_cancels(baum_simulation *run)
+{
+  const baum_simulation_options *o = &run->options;
+  if (!o->progress || seconds_since(&run->last_progress) < o->progress_interval) {
+    return false;
+  }
+  (void)clock_gettime(CLOCK_MONOTONIC, &run->last_progress);
+  return o->progress(run, run->state.t, o->user) != 0;
+}
+
+/* Before every step: cancelled, or too many steps in this call? */
+static baum_status may_go_on(baum_simulation *run, int64_t taken)
+{
+  if (atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run)) {
+    return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", run->state.t);
+  }
+  if (taken >= run->options.max_steps) {
+    return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call",
+                       run->state.t, (long long)run->options.max_steps);
+  }
+  return BAUM_OK;
+}
+
+/* ---- one step of fixed length, on the trial state ---- */
+
+static baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  for (int i = 0; i < m->nv; i++) {
+    if (!isfinite(state->q[i]) || !isfinite(state->v[i])) {
+      return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                         "t = %.9g s: the step to %.9g s gives values that are not finite; the run "
+                         "blows up: take a smaller step, or gains that are stable",
+                         run->state.t, state->t);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status explain_retry(const baum_simulation *run, baum_status status)
+{
+  if (status == BAUM_ERR_CALLBACK && run->workspace->point.retry) {
+    char reason[BAUM_I_MESSAGE_SIZE];
+    memcpy(reason, baum_message(), sizeof reason);
+    return baum_i_fail(status, "t = %.9g s: %.600s; %s cannot take a smaller step", run->state.t,
+                       reason, run->integrator->name);
+  }
+  return status;
+}
+
+static baum_status try_step(baum_simulation *run, double t_next, bool observe)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_state *trial = &run->trial;
+  const baum_i_state *state = &run->state;
+  baum_status status = baum_i_problem_acceleration(&run->problem, state->t, state->q, state->v);
+  if (status != BAUM_OK) {
+    return explain_retry(run, status);
+  }
+  if (observe) {
+    baum_i_run_observe(run, state->t, true);
+  }
+  memcpy(run->acceleration, run->workspace->a, (size_t)m->nv * sizeof(double));
+  memcpy(trial->q, state->q, (size_t)m->nq * sizeof(double));
+  memcpy(trial->v, state->v, (size_t)m->nv * sizeof(double));
+  trial->t = state->t;
+  status = run->integrator->step(run->self, &run->problem, trial, t_next - state->t,
+                                 run->acceleration);
+  trial->t = t_next;
+  if (status == BAUM_OK) {
+    status = check_finite(run, trial);
+  }
+  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
+    status = baum_i_project(run->workspace, t_next, trial->q, trial->v);
+  }
+  return explain_retry(run, status);
+}
+
+static void keep_trial(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  run->state.t = run->trial.t;
+  memcpy(run->state.q, run->trial.q, (size_t)m->nq * sizeof(double));
+  memcpy(run->state.v, run->trial.v, (size_t)m->nv * sizeof(double));
+  run->counters.steps++;
+}
+
+/* ---- a fixed-step method to a target ---- */
+
+static double grid_time(const baum_simulation *run, int64_t k)
+{
+  return run->grid.origin + (double)k * run->options.step;
+}
+
+static baum_status whole_step(baum_simulation *run, int direction)
+{
+  double t_next = grid_time(run, run->grid.k + direction);
+  if (t_next == run->state.t) {
+    return baum_i_fail(BAUM_ERR_STEP,
+                       "t = %.17g s: the step of %g s is lost in the rounding of the time",
+                       run->state.t, run->options.step);
+  }
+  baum_status status = try_step(run, t_next, true);
+  if (status == BAUM_OK) {
+    keep_trial(run);
+    run->grid.k += direction;
+  }
+  return status;
+}
+
+static baum_status short_step(baum_simulation *run, double t)
+{
+  baum_status status = try_step(run, t, true);
+  if (status == BAUM_OK) {
+    keep_trial(run);
+    run->counters.short_steps++;
+    run->grid = (baum_i_grid){.origin = t};
+  }
+  return status;
+}
+
+/* Whole steps as long as they do not pass t; then the present time is t (on the grid) or less than a step before. */
+static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
+{
+  int direction = run->problem.direction > 0.0 ? 1 : -1;
+  double same = SAME_TIME * run->options.step;
+  while (direction * (t - grid_time(run, run->grid.k + direction)) >= -same) {
+    baum_status status = may_go_on(run, (*taken)++);
+    if (status == BAUM_OK) {
+      status = whole_step(run, direction);
+    }
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  return BAUM_OK;
+}
+
+static bool stands_at(const baum_simulation *run, double t)
+{
+  return fabs(t - run->state.t) <= SAME_TIME * run->options.step;
+}
+
+static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
+{
+  baum_status status = steps_before(run, t, taken);
+  if (status != BAUM_OK || stands_at(run, t)) {
+    return status;
+  }
+  status = may_go_on(run, (*taken)++);
+  return status == BAUM_OK ? short_step(run, t) : status;
+}
+
+/* ---- a variable-step method to a target ---- */
+
+static baum_status internal_step(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  baum_status status = run->integrator->advance(run->self, &run->problem, &run->ahead);
+  if (status == BAUM_OK) {
+    status = check_finite(run, &run->ahead);
+  }
+  if (status == BAUM_OK) {
+    run->counters.steps++;
+    status = baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v);
+  }
+  if (status == BAUM_OK) {
+    baum_i_run_observe(run, run->ahead.t, false);
+  }
+  return status;
+}
+
+/* The end of the last internal step becomes the present state. */
+static void catch_up(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  run->state.t = run->ahead.t;
+  memcpy(run->state.q, run->ahead.q, (size_t)m->nq * sizeof(double));
+  memcpy(run->state.v, run->ahead.v, (size_t)m->nv * sizeof(double));
+}
+
+static baum_status interpolate(baum_simulation *run, double t)
+{
+  baum_status status = run->integrator->interpolate(run->self, &run->problem, t, run->trial.q,
+                                                    run->trial.v);
+  if (status == BAUM_OK) {
+    run->trial.t = t;
+    status = check_finite(run, &run->trial);
+  }
+  if (status == BAUM_OK) {
+    keep_trial(run);
+    run->counters.steps--; /* an interpolation is no step */
+  }
+  return status;
+}
+
+static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)
+{
+  while (run->problem.direction * (t - run->ahead.t) > 0.0) {
+    baum_status status = may_go_on(run, (*taken)++);
+    if (status == BAUM_OK) {
+      status = internal_step(run);
+    }
+    if (status != BAUM_OK) {
+      catch_up(run);
+      return status;
+    }
+  }
+  if (t == run->ahead.t) {
+    catch_up(run);
+    return BAUM_OK;
+  }
+  return interpolate(run, t);
+}
+
+/* ---- what every call begins and ends with ---- */
+
+/* Point the run towards t. A multistep method that turns round begins anew from the present state. */
+static baum_status turn(baum_simulation *run, double t)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double direction = t < run->state.t ? -1.0 : 1.0;
+  if (direction == run->problem.direction) {
+    return BAUM_OK;
+  }
+  run->problem.direction = direction;
+  if (!run->integrator->restart) {
+    return BAUM_OK;
+  }
+  run->counters.restarts++;
+  run->ahead.t = run->state.t;
+  memcpy(run->ahead.q, run->state.q, (size_t)m->nq * sizeof(double));
+  memcpy(run->ahead.v, run->state.v, (size_t)m->nv * sizeof(double));
+  return run->integrator->restart(run->self, &run->problem, &run->ahead);
+}
+
+static baum_status advance(baum_simulation *run, double t, int64_t *taken)
+{
+  if (t == run->state.t) {
+    return BAUM_OK;
+  }
+  baum_status status = turn(run, t);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  return run->integrator->step ? advance_fixed(run, t, taken) : advance_variable(run, t, taken);
+}
+
+/* Look at the state where the call ends, which no later step has looked at yet. */
+static baum_status finish(baum_simulation *run, baum_status status, const struct timespec *begin)
+{
+  const baum_i_state *state = &run->state;
+  char reason[BAUM_I_MESSAGE_SIZE];
+  memcpy(reason, baum_message(), sizeof reason);
+  baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
+  if (look == BAUM_OK) {
+    baum_i_run_observe(run, state->t, false);
+  }
+  run->counters.wall += seconds_since(begin);
+  if (status != BAUM_OK) {
+    (void)baum_i_fail(status, "%s", reason);
+    return baum_i_run_fail(run, status);
+  }
+  return look == BAUM_OK ? baum_i_run_finish(run) : baum_i_run_fail(run, look);
+}
+
+static struct timespec begin(baum_simulation *run)
+{
+  struct timespec now;
+  (void)clock_gettime(CLOCK_MONOTONIC, &now);
+  run->last_progress = now;
+  return now;
+}
+
+static baum_status check_time(const baum_simulation *run, const char *call, double t)
+{
+  if (!run) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
+  }
+  if (!isfinite(t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
+  }
+  return BAUM_OK;
+}
+
+/* ---- public ---- */
+
+baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
+{
+  baum_status status = check_time(simulation, "baum_simulation_advance_to", t);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  struct timespec start = begin(simulation);
+  int64_t taken = 0;
+  status = advance(simulation, t, &taken);
+  return finish(simulation, status, &start);
+}
+
+static baum_status one_step(baum_simulation *run)
+{
+  if (run->integrator->step) {
+    return whole_step(run, 1);
+  }
+  baum_status status = internal_step(run);
+  catch_up(run);
+  return status;
+}
+
+baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
+{
+  baum_status status = check_time(simulation, "baum_simulation_step", 0.0);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (count <= 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_step: count is %lld, must be > 0",
+                       (long long)count);
+  }
+  struct timespec start = begin(simulation);
+  status = turn(simulation, INFINITY);
+  for (int64_t k = 0; k < count && status == BAUM_OK; k++) {
+    status = may_go_on(simulation, k);
+    if (status == BAUM_OK) {
+      status = one_step(simulation);
+    }
+  }
+  return finish(simulation, status, &start);
+}
+
+/* ---- sampling ---- */
+
+static baum_status check_times(const baum_simulation *run, const double *times, int64_t n)
+{
+  const char *call = "baum_simulation_sample";
+  double direction = n > 0 && times[n - 1] < run->state.t ? -1.0 : 1.0;
+  double last = run->state.t;
+  for (int64_t k = 0; k < n; k++) {
+    if (!isfinite(times[k]) || direction * (times[k] - last) < 0.0) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s: times[%lld] is %.9g s after %.9g s; times must be finite and go one way "
+                         "from the present time",
+                         call, (long long)k, times[k], last);
+    }
+    last = times[k];
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_sample(const baum_simulation *run, const double *times, int64_t n,
+                                const baum_channel *channels, int32_t count, const double *rows)
+{
+  const char *call = "baum_simulation_sample";
+  if (!run || n < 0 || (n > 0 && (!times || !rows))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       run ? "times or rows are NULL, or n is negative"
+                           : "the simulation is NULL");
+  }
+  if (baum_i_output_width(run->workspace->mechanism, channels, count) < 0) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  return check_times(run, times, n);
+}
+
+/* To a sample time: by whole steps, and from there to the side on the trial state, which is where the sample is. */
+static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken,
+                                  const baum_i_state **at)
+{
+  *at = &run->state;
+  if (t == run->state.t) {
+    return BAUM_OK;
+  }
+  baum_status status = turn(run, t);
+  if (status == BAUM_OK) {
+    status = steps_before(run, t, taken);
+  }
+  if (status == BAUM_OK && !stands_at(run, t)) {
+    *at = &run->trial;
+    status = try_step(run, t, false);
+  }
+  return status;
+}
+
+static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t *taken,
+                              const baum_i_state **at)
+{
+  *at = &run->state;
+  return last || !run->integrator->step ? advance(run, t, taken)
+                                        : advance_beside(run, t, taken, at);
+}
+
+baum_status baum_simulation_sample(baum_simulation *simulation, const double *times, int64_t n,
+                                   const baum_channel *channels, int32_t count, double *rows,
+                                   int64_t *done)
+{
+  if (done) {
+    *done = 0;
+  }
+  baum_status status = check_sample(simulation, times, n, channels, count, rows);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  struct timespec start = begin(simulation);
+  int width = baum_i_output_width(simulation->workspace->mechanism, channels, count);
+  int64_t taken = 0;
+  for (int64_t k = 0; k < n && status == BAUM_OK; k++) {
+    const baum_i_state *at = NULL;
+    status = sample_one(simulation, times[k], k == n - 1, &taken, &at);
+    if (status == BAUM_OK) {
+      status = baum_i_output(simulation, at, channels, count, rows + k * width);
+    }
+    if (status == BAUM_OK && done) {
+      *done = k + 1;
+    }
+  }
+  return finish(simulation, status, &start);
+}

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a run is, in words. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "simulate/run.h"
+
+static void BAUM_I_PRINTF(2, 3) say(baum_simulation *run, const char *format, ...)
+{
+  size_t used = strlen(run->explain);
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(run->explain + used, sizeof run->explain - used, format, arguments);
+  va_end(arguments);
+}
+
+static const char *formulation_text(baum_formulation formulation)
+{
+  switch (formulation) {
+  case BAUM_FORMULATION_UNSTABILIZED: return "J a = gamma, nothing done against drift";
+  case BAUM_FORMULATION_BAUMGARTE: return "J a = gamma - 2 alpha Phi' - beta^2 Phi";
+  case BAUM_FORMULATION_PROJECTION: return "J a = gamma, then q and v projected after each step";
+  case BAUM_FORMULATION_INDEX3: return "Phi = 0 kept by the implicit method itself";
+  case BAUM_FORMULATION_DEFAULT:
+  case BAUM_FORMULATION_INDEX2:
+  case BAUM_FORMULATION_GGL:
+  default: return "";
+  }
+}
+
+static void say_mechanism(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_redundancy *r = &run->workspace->redundancy;
+  int rank = m->nc > 0 ? r->rank : 0;
+  say(run, "mechanism     %d bodies, %d joints, %d forces; %d velocities, %d constraint rows, %d %s\n",
+      m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank,
+      m->nv - rank == 1 ? "freedom" : "freedoms");
+  if (r->count > 0) {
+    say(run, "              %d redundant %s left out of every solution\n", r->count,
+        r->count == 1 ? "row" : "rows");
+  }
+  if (m->nv == rank) {
+    say(run, "              no freedom is left: the motion follows from the drivers alone\n");
+  }
+  say(run, "scale         %.6g m, and 1 rad\n", m->length);
+}
+
+static void say_integrator(baum_simulation *run)
+{
+  const baum_simulation_options *o = &run->options;
+  if (run->integrator->step) {
+    say(run, "integrator    %s, order %d, fixed step %.6g s\n", run->integrator->name,
+        run->integrator->order, o->step);
+    return;
+  }
+  say(run, "integrator    %s, rtol %.3g", run->integrator->name, o->rtol);
+  if (!isnan(o->atol)) {
+    say(run, ", atol %.3g", o->atol);
+  }
+  say(run, "; positions relative to the scale, velocities to the scale times %.4g 1/s or the present "
+           "velocity\n",
+      run->problem.rate);
+}
+
+void baum_i_run_explain(baum_simulation *run)
+{
+  run->explain[0] = '\0';
+  say_mechanism(run);
+  say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
+      formulation_text(run->options.formulation));
+  say_integrator(run);
+  if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {
+    say(run, "gains         alpha %.6g 1/s, beta %.6g 1/s\n              %s\n", run->problem.alpha,
+        run->problem.beta, run->gains.why);
+  }
+  say(run, "solver        %s on the equations of motion\n",
+      baum_i_kkt_backend(run->workspace->kkt));
+  say(run, "start         t = %.9g s, largest displacement at assembly %.3g of the scale",
+      run->state.t, run->counters.start_change);
+}

@@ -1,0 +1,166 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a run watches: violation and its joint, predicted violation, near-singular poses, warnings, counters. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "simulate/run.h"
+
+/* ---- warnings ---- */
+
+void baum_i_run_warn(baum_simulation *run, const char *format, ...)
+{
+  if (run->counters.warnings < BAUM_I_WARNINGS) {
+    va_list arguments;
+    va_start(arguments, format);
+    (void)vsnprintf(run->warnings[run->counters.warnings], BAUM_I_WARNING_SIZE, format, arguments);
+    va_end(arguments);
+  }
+  run->counters.warnings++;
+}
+
+baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k, char *text,
+                                    size_t size)
+{
+  const char *call = "baum_simulation_warning";
+  if (!simulation || !text || size == 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       simulation ? "text is NULL or size is 0" : "the simulation is NULL");
+  }
+  if (k < 0 || k >= simulation->counters.warnings) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from 0 to %lld", call,
+                       (long long)k, (long long)simulation->counters.warnings - 1);
+  }
+  (void)snprintf(text, size, "%s",
+                 k < BAUM_I_WARNINGS ? simulation->warnings[k]
+                                     : "(further warnings are counted, not kept)");
+  return BAUM_OK;
+}
+
+baum_status baum_i_run_finish(baum_simulation *run)
+{
+  if (run->counters.warnings == run->signalled) {
+    return BAUM_OK;
+  }
+  int64_t first = run->signalled;
+  run->signalled = run->counters.warnings;
+  (void)baum_i_fail(BAUM_WARNED, "t = %.9g s: %lld new %s, the first: %s", run->state.t,
+                    (long long)(run->counters.warnings - first),
+                    run->counters.warnings - first == 1 ? "warning" : "warnings",
+                    first < BAUM_I_WARNINGS ? run->warnings[first] : "not kept");
+  return baum_i_run_fail(run, BAUM_WARNED);
+}
+
+/* ---- what is observed at every step ---- */
+
+static void observe_row(const baum_simulation *run, const double *rows, double *largest,
+                        baum_joint_id *joint)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double size = 0.0;
+  int row = baum_i_largest(rows, m->nc, &size);
+  if (row >= 0 && !(size <= *largest)) {
+    *largest = size;
+    *joint = baum_i_joint_id(m, baum_i_row_joint(m, row));
+  }
+}
+
+/* Rows without nu have the steady violation of both Eulers in gamma (docs/theory/stabilization.md). */
+static void observe_gamma(baum_simulation *run)
+{
+  const baum_workspace *w = run->workspace;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    if (w->nu[i] == 0.0) {
+      run->largest_gamma = fmax(run->largest_gamma, fabs(w->gamma[i]));
+    }
+  }
+}
+
+static void observe_singular(baum_simulation *run, double t)
+{
+  const baum_workspace *w = run->workspace;
+  if (w->near_singular == run->near_singular_seen) {
+    return;
+  }
+  if (run->near_singular_seen == 0) {
+    int row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
+    char label[BAUM_I_LABEL_SIZE] = "no joint";
+    if (row >= 0) {
+      (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
+    }
+    baum_i_run_warn(run,
+                    "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
+                    "%s; the motion after it may be on another branch",
+                    t, label);
+  }
+  run->near_singular_seen = w->near_singular;
+}
+
+void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
+{
+  const baum_workspace *w = run->workspace;
+  baum_counters *c = &run->counters;
+  observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
+  observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
+  if (with_gamma && run->integrator->predicts_violation) {
+    observe_gamma(run);
+  }
+  observe_singular(run, t);
+}
+
+/* ---- counters ---- */
+
+static void count_work(baum_simulation *run, baum_counters *c)
+{
+  baum_i_kkt_counters kkt = baum_i_kkt_get_counters(run->workspace->kkt);
+  baum_i_statistics statistics = {0};
+  if (run->integrator->statistics && run->self) {
+    run->integrator->statistics(run->self, &statistics);
+  }
+  c->evaluations = run->workspace->evaluations;
+  c->factorizations = kkt.factorizations + statistics.factorizations;
+  c->full_factorizations = kkt.full_factorizations;
+  c->near_singular = run->workspace->near_singular;
+  c->rejected = statistics.rejected;
+  c->nonlinear_iterations = statistics.nonlinear_iterations;
+}
+
+/* Steady violation of both Eulers (DESIGN of the gains): |Phi'| = h |gamma| / 2, |Phi| = alpha h |gamma| / beta^2. */
+static void predict(const baum_simulation *run, baum_counters *c)
+{
+  double alpha = run->problem.alpha;
+  double beta = run->problem.beta;
+  bool predicted = run->integrator->predicts_violation &&
+                   run->problem.formulation == BAUM_FORMULATION_BAUMGARTE && alpha > 0.0 &&
+                   beta > 0.0;
+  double h = run->options.step;
+  c->predicted_phi = predicted ? alpha / (beta * beta) * h * run->largest_gamma : NAN;
+  c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : NAN;
+}
+
+baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
+                                     size_t caller_size)
+{
+  if (!simulation || !out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_counters: %s",
+                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+  }
+  double kinetic = 0.0;
+  double potential = 0.0;
+  const baum_i_state *state = &simulation->state;
+  baum_status status = baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic,
+                                     &potential);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_counters *c = &simulation->counters;
+  count_work(simulation, c);
+  predict(simulation, c);
+  c->energy_change = kinetic + potential - simulation->start_energy;
+  c->alpha = simulation->problem.alpha;
+  c->beta = simulation->problem.beta;
+  c->struct_size = caller_size < sizeof *c ? caller_size : sizeof *c;
+  memcpy(out, c, c->struct_size);
+  return BAUM_OK;
+}

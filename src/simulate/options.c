@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Options of a run: defaults, and what is refused. */
+#include "simulate/options.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "integrate/integrator.h"
+
+void baum_simulation_options_init(baum_simulation_options *options, size_t caller_size)
+{
+  if (!options || caller_size < sizeof(size_t)) {
+    return;
+  }
+  baum_simulation_options defaults = {
+    .start_time = 0.0,
+    .step = NAN,
+    .rtol = NAN,
+    .atol = NAN,
+    .check_derivatives = true,
+    .max_steps = 1000000000,
+    .progress_interval = 0.05,
+  };
+  size_t bytes = caller_size < sizeof defaults ? caller_size : sizeof defaults;
+  defaults.struct_size = bytes;
+  memcpy(options, &defaults, bytes);
+}
+
+static baum_status refuse(const char *field, const char *unit, double value, const char *must)
+{
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, %s", field, value,
+                     unit[0] ? " " : "", unit, must);
+}
+
+static baum_status check_step(const baum_simulation_options *o)
+{
+  const char *name = o->integrator->name;
+  if (isnan(o->step)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: step is not given, and %s has a fixed step", name);
+  }
+  if (!isfinite(o->step) || o->step <= 0.0) {
+    return refuse("step", "s", o->step, "must be finite and > 0");
+  }
+  if (!isnan(o->rtol) || !isnan(o->atol)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: %s is %g, but %s has a fixed step; give step alone",
+                       isnan(o->rtol) ? "atol" : "rtol", isnan(o->rtol) ? o->atol : o->rtol, name);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_tolerance(const baum_simulation_options *o)
+{
+  const char *name = o->integrator->name;
+  if (!isnan(o->step)) {
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "simulation options: step is %g s, but %s chooses its own steps; give rtol alone", o->step,
+      name);
+  }
+  if (isnan(o->rtol)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: rtol is not given, and %s needs it", name);
+  }
+  if (!(o->rtol > 0.0 && o->rtol < 1.0)) {
+    return refuse("rtol", "", o->rtol, "must be > 0 and < 1");
+  }
+  if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
+    return refuse("atol", "", o->atol, "must be finite and >= 0");
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_choices(const baum_simulation_options *o)
+{
+  if (o->start < BAUM_START_ASSEMBLE || o->start > BAUM_START_AS_GIVEN) {
+    return refuse("start", "", (double)o->start, "is no baum_start");
+  }
+  if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_QR) {
+    return refuse("solver", "", (double)o->solver, "is no baum_solver");
+  }
+  if (!isfinite(o->start_time)) {
+    return refuse("start_time", "s", o->start_time, "must be finite");
+  }
+  if (o->max_steps <= 0) {
+    return refuse("max_steps", "", (double)o->max_steps, "must be > 0");
+  }
+  if (!(isfinite(o->progress_interval) && o->progress_interval >= 0.0)) {
+    return refuse("progress_interval", "s", o->progress_interval, "must be finite and >= 0");
+  }
+  return BAUM_OK;
+}
+
+/* The pair of integrator and formulation. */
+static baum_status check_pair(baum_simulation_options *o)
+{
+  const baum_formulation *offered = o->integrator->formulations;
+  if (o->formulation == BAUM_FORMULATION_DEFAULT) {
+    o->formulation = offered[0];
+  }
+  if (baum_i_integrator_offers(o->integrator, o->formulation)) {
+    return BAUM_OK;
+  }
+  char list[160] = "";
+  for (int k = 0; offered[k] != BAUM_FORMULATION_DEFAULT; k++) {
+    size_t used = strlen(list);
+    (void)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "",
+                   baum_formulation_name(offered[k]));
+  }
+  const char *name = baum_formulation_name(o->formulation);
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                     "simulation options: %s does not offer the formulation %s; it offers %s",
+                     o->integrator->name, name ? name : "of that number", list);
+}
+
+static baum_status check_gains(const baum_simulation_options *o)
+{
+  if (o->gains.rule != BAUM_GAINS_DEFAULT && o->formulation != BAUM_FORMULATION_BAUMGARTE) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: gains are given, but the formulation %s has none",
+                       baum_formulation_name(o->formulation));
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_options_check(baum_simulation_options *options)
+{
+  if (!options->integrator) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: integrator is NULL; there is no default, choose one of "
+                       "baum_euler, baum_semi_implicit_euler, baum_rk2, baum_rk3, baum_rk4, "
+                       "baum_cvode_adams, baum_cvode_bdf, baum_ida");
+  }
+  baum_status status = baum_integrator_has_fixed_step(options->integrator)
+                         ? check_step(options)
+                         : check_tolerance(options);
+  if (status == BAUM_OK) {
+    status = check_choices(options);
+  }
+  if (status == BAUM_OK) {
+    status = check_pair(options);
+  }
+  return status == BAUM_OK ? check_gains(options) : status;
+}

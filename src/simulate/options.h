@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checking the options of a run. */
+#ifndef BAUM_I_SIMULATE_OPTIONS_H
+#define BAUM_I_SIMULATE_OPTIONS_H
+
+#include <baum/simulation.h>
+
+/* Every field, alone and together. BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_UNSUPPORTED. On success
+ * the default formulation is replaced by the one it stands for. */
+baum_status baum_i_options_check(baum_simulation_options *options);
+
+#endif

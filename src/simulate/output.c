@@ -1,0 +1,227 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one solution of (5), which is made
+ * once per row and only when a channel asks for it.
+ */
+#include <string.h>
+
+#include "mechanism/planar.h"
+#include "simulate/run.h"
+
+/* ---- widths and checks ---- */
+
+static int fail_channel(int k, const char *what)
+{
+  (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: %s", k, what);
+  return -1;
+}
+
+static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
+{
+  int body = baum_i_body_index(m, c->body);
+  if (body <= 0) {
+    return fail_channel(k, body == 0 ? "ground has no pose or velocity"
+                                     : "body is none or not of this mechanism");
+  }
+  bool rigid = m->bodies[body]->type->frame == BAUM_I_FRAME_BODY;
+  if (!rigid && (c->point[0] != 0.0 || c->point[1] != 0.0)) {
+    return fail_channel(k, "point is given, but the body has no axes");
+  }
+  return m->bodies[body]->nv;
+}
+
+/* Rows of the joint, or of all joints when none is given. */
+static int rows_width(const baum_mechanism *m, const baum_channel *c, int k)
+{
+  if (c->joint.index1 == 0) {
+    return m->nc;
+  }
+  int joint = baum_i_joint_index(m, c->joint);
+  return joint < 0 ? fail_channel(k, "joint is not of this mechanism") : m->joints[joint]->rows;
+}
+
+static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
+{
+  int joint = baum_i_joint_index(m, c->joint);
+  if (joint < 0) {
+    return fail_channel(k, "joint is none or not of this mechanism");
+  }
+  if (c->quantity == BAUM_JOINT_REACTION) {
+    return baum_i_reaction_width(m, joint);
+  }
+  return m->joints[joint]->type->coordinate
+           ? 2
+           : fail_channel(k, "only revolute and translational joints have a coordinate");
+}
+
+static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
+{
+  switch (c->quantity) {
+  case BAUM_Q: return m->nq;
+  case BAUM_V:
+  case BAUM_A: return m->nv;
+  case BAUM_LAMBDA:
+  case BAUM_PHI:
+  case BAUM_PHI_RATE: return rows_width(m, c, k);
+  case BAUM_ENERGY: return 2;
+  case BAUM_BODY_POSE:
+  case BAUM_BODY_VELOCITY: return body_width(m, c, k);
+  case BAUM_JOINT_REACTION:
+  case BAUM_JOINT_COORDINATE: return joint_width(m, c, k);
+  default: return fail_channel(k, "quantity is no baum_quantity");
+  }
+}
+
+int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *channels, int count)
+{
+  int sum = 0;
+  if (count < 0 || (count > 0 && !channels)) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channels are NULL or their count is negative");
+    return -1;
+  }
+  for (int k = 0; k < count; k++) {
+    int width = channel_width(mechanism, &channels[k], k);
+    if (width < 0) {
+      return -1;
+    }
+    sum += width;
+  }
+  return sum;
+}
+
+int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
+                            int32_t count)
+{
+  if (!mechanism || !mechanism->frozen) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "baum_channels_width: the mechanism is %s",
+                      mechanism ? "not frozen" : "NULL");
+    return -1;
+  }
+  return baum_i_output_width(mechanism, channels, count);
+}
+
+/* ---- evaluation that channels need ---- */
+
+static bool asks_for_solution(const baum_channel *channels, int count)
+{
+  for (int k = 0; k < count; k++) {
+    baum_quantity quantity = channels[k].quantity;
+    if (quantity == BAUM_A || quantity == BAUM_LAMBDA || quantity == BAUM_JOINT_REACTION) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
+                            const baum_channel *channels, int count)
+{
+  return asks_for_solution(channels, count)
+           ? baum_i_reported_acceleration(w, state->t, state->q, state->v)
+           : baum_i_violation(w, state->t, state->q, state->v);
+}
+
+/* ---- values; each returns its width ---- */
+
+static int put(const double *values, int count, double *out)
+{
+  memcpy(out, values, (size_t)count * sizeof *out);
+  return count;
+}
+
+static int put_rows(const baum_mechanism *m, const baum_channel *c, const double *rows, double *out)
+{
+  if (c->joint.index1 == 0) {
+    return put(rows, m->nc, out);
+  }
+  const baum_i_joint *joint = m->joints[baum_i_joint_index(m, c->joint)];
+  return put(rows + joint->row, joint->rows, out);
+}
+
+static int put_body(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                    double *out)
+{
+  int index = baum_i_body_index(w->mechanism, c->body);
+  const baum_i_body *body = w->mechanism->bodies[index];
+  bool pose = c->quantity == BAUM_BODY_POSE;
+  if (body->type->frame != BAUM_I_FRAME_BODY) {
+    return put(pose ? state->q + body->q : state->v + body->v, body->nv, out);
+  }
+  baum_i_marker marker = baum_i_marker_at(&w->point, index, c->point);
+  out[0] = pose ? marker.r[0] : marker.dr[0];
+  out[1] = pose ? marker.r[1] : marker.dr[1];
+  out[2] = pose ? w->point.frames[index].angle : marker.w;
+  return 3;
+}
+
+static int put_joint(const baum_workspace *w, const baum_channel *c, double *out)
+{
+  int index = baum_i_joint_index(w->mechanism, c->joint);
+  if (c->quantity == BAUM_JOINT_REACTION) {
+    baum_i_reaction(w, index, w->lambda, out);
+    return baum_i_reaction_width(w->mechanism, index);
+  }
+  const baum_i_joint *joint = w->mechanism->joints[index];
+  baum_i_coordinate coordinate;
+  joint->type->coordinate(joint, &w->point, &coordinate);
+  out[0] = coordinate.value;
+  out[1] = coordinate.rate;
+  return 2;
+}
+
+static int put_channel(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                       double *out)
+{
+  const baum_mechanism *m = w->mechanism;
+  switch (c->quantity) {
+  case BAUM_Q: return put(state->q, m->nq, out);
+  case BAUM_V: return put(state->v, m->nv, out);
+  case BAUM_A: return put(w->a, m->nv, out);
+  case BAUM_LAMBDA: return put_rows(m, c, w->lambda, out);
+  case BAUM_PHI: return put_rows(m, c, w->phi, out);
+  case BAUM_PHI_RATE: return put_rows(m, c, w->phi_rate, out);
+  case BAUM_BODY_POSE:
+  case BAUM_BODY_VELOCITY: return put_body(w, state, c, out);
+  case BAUM_JOINT_REACTION:
+  case BAUM_JOINT_COORDINATE: return put_joint(w, c, out);
+  case BAUM_ENERGY:
+  default: return 2; /* filled afterwards: it needs an evaluation of its own */
+  }
+}
+
+static baum_status put_energies(baum_workspace *w, const baum_i_state *state,
+                                const baum_channel *channels, int count, double *row)
+{
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < count && status == BAUM_OK; k++) {
+    if (channels[k].quantity == BAUM_ENERGY) {
+      status = baum_i_energy(w, state->t, state->q, state->v, &row[0], &row[1]);
+    }
+    row += channel_width(w->mechanism, &channels[k], k);
+  }
+  return status;
+}
+
+baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
+                          const baum_channel *channels, int count, double *row)
+{
+  baum_workspace *w = run->workspace;
+  baum_status status = evaluate(w, state, channels, count);
+  double *place = row;
+  for (int k = 0; k < count && status == BAUM_OK; k++) {
+    place += put_channel(w, state, &channels[k], place);
+  }
+  return status == BAUM_OK ? put_energies(w, state, channels, count, row) : status;
+}
+
+baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
+                                int32_t count, double *row)
+{
+  if (!simulation || !row) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_get: %s is NULL",
+                       simulation ? "row" : "the simulation");
+  }
+  if (baum_i_output_width(simulation->workspace->mechanism, channels, count) < 0) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  return baum_i_output(simulation, &simulation->state, channels, count, row);
+}

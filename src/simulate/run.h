@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One run from the inside: present state, integrator, monitors, warnings. */
+#ifndef BAUM_I_SIMULATE_RUN_H
+#define BAUM_I_SIMULATE_RUN_H
+
+#include <stdatomic.h>
+#include <time.h>
+
+#include "base/message.h"
+#include "integrate/integrator.h"
+#include "stabilization/gains.h"
+
+enum {
+  BAUM_I_WARNINGS = 32,      /* kept in words; more are counted */
+  BAUM_I_WARNING_SIZE = 320, /* characters of one */
+  BAUM_I_EXPLAIN_SIZE = 3072
+};
+
+/* Times of a fixed-step method: origin + k step, never sums. */
+typedef struct baum_i_grid {
+  double origin;
+  int64_t k;
+} baum_i_grid;
+
+struct baum_simulation {
+  baum_simulation_options options;
+  const baum_integrator *integrator;
+  baum_workspace *workspace;
+  baum_i_problem problem;
+  void *self; /* of the integrator; may be NULL for a fixed-step one */
+
+  double *memory;         /* all arrays below */
+  baum_i_state state;     /* reported */
+  baum_i_state ahead;     /* variable step: end of the last internal step */
+  baum_i_state trial;     /* a step under way, or a sample beside the motion */
+  double *acceleration;   /* (nv) at the start of a step */
+
+  baum_i_grid grid;
+  baum_counters counters;
+  int64_t evaluations_before;  /* of the workspace, when the run was ready */
+  int64_t restarted_rejected;
+  double start_energy;
+  double largest_gamma;        /* of rows that do not depend on time, over all steps */
+  int64_t near_singular_seen;  /* workspace->near_singular at the last look */
+
+  int64_t signalled;           /* warnings that a status has announced */
+  char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
+  char explain[BAUM_I_EXPLAIN_SIZE];
+  char message[BAUM_I_MESSAGE_SIZE];
+  baum_i_gain_choice gains;
+
+  atomic_int cancelled;
+  struct timespec last_progress;
+};
+
+/* ---- start.c ---- */
+
+/* Bring a state onto the constraints as the option `start` says, into trial; the present state is untouched. */
+baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
+
+/* Make the trial state the present one: grid, integrator, energy begin anew. */
+baum_status baum_i_run_accept(baum_simulation *run);
+
+/* ---- advance.c ---- */
+
+/* Remember the sentence of a failure in the run and return its status. */
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
+
+/* ---- monitor.c ---- */
+
+void baum_i_run_warn(baum_simulation *run, const char *format, ...) BAUM_I_PRINTF(2, 3);
+
+/* Violation, gamma and near-singular poses from the workspace's last velocity stage, which was at time t. */
+void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
+
+/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
+baum_status baum_i_run_finish(baum_simulation *run);
+
+/* ---- output.c ---- */
+
+/* Width of channels, or -1 with the sentence. */
+int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *channels, int count);
+
+/* Channels at any state, without change to the run. The channels are checked. */
+baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
+                          const baum_channel *channels, int count, double *row);
+
+/* ---- explain.c ---- */
+
+void baum_i_run_explain(baum_simulation *run);
+
+#endif

@@ -1,0 +1,268 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Making and ending a run, and what can be read of it at any time. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "simulate/options.h"
+#include "simulate/run.h"
+
+/* ---- memory ---- */
+
+static baum_status make_states(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  size_t nq = (size_t)m->nq;
+  size_t nv = (size_t)m->nv;
+  run->memory = baum_i_alloc(3 * (nq + nv) + nv, sizeof(double));
+  if (!run->memory) {
+    return baum_i_fail_memory();
+  }
+  double *next = run->memory;
+  baum_i_state *states[3] = {&run->state, &run->ahead, &run->trial};
+  for (int k = 0; k < 3; k++) {
+    states[k]->q = next;
+    states[k]->v = next + nq;
+    next += nq + nv;
+  }
+  run->acceleration = next;
+  return BAUM_OK;
+}
+
+/* ---- gains ---- */
+
+static baum_status choose_gains(baum_simulation *run, double rate)
+{
+  const baum_simulation_options *o = &run->options;
+  if (o->formulation != BAUM_FORMULATION_BAUMGARTE) {
+    return BAUM_OK;
+  }
+  const baum_i_gain_context context = {
+    .method = &run->integrator->method,
+    .integrator = run->integrator->name,
+    .step = o->step,
+    .rate = rate,
+    .rule_default = run->integrator->gains,
+    .allow_unstable = o->allow_unstable,
+  };
+  baum_status status = baum_i_gains_choose(&o->gains, &context, &run->gains);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  run->problem.alpha = run->gains.alpha;
+  run->problem.beta = run->gains.beta;
+  if (run->gains.amplification.stability == BAUM_MARGINAL ||
+      run->gains.amplification.stability == BAUM_UNSTABLE) {
+    baum_i_run_warn(run, "%s", run->gains.why);
+  }
+  return BAUM_OK;
+}
+
+/* The equations at the start: fastest rate, then gains. A start that cannot be solved is refused here. */
+static baum_status choose_problem(baum_simulation *run)
+{
+  const baum_simulation_options *o = &run->options;
+  const baum_i_state *start = &run->trial;
+  baum_i_problem *p = &run->problem;
+  *p = (baum_i_problem){
+    .workspace = run->workspace,
+    .formulation = o->formulation,
+    .direction = 1.0,
+    .rtol = o->rtol,
+    .atol = isnan(o->atol) ? 0.0 : o->atol,
+    .max_steps = o->max_steps,
+  };
+  baum_status status =
+    baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double rate = baum_i_state_rate(run->workspace->mechanism, start->v, run->workspace->a);
+  p->rate = rate > 0.0 ? rate : 1.0;
+  return choose_gains(run, rate);
+}
+
+/* ---- warnings that are known at the start ---- */
+
+static void warn_redundancy(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_state *start = &run->trial;
+  if (r->count > 0 &&
+      baum_i_reported_acceleration(w, start->t, start->q, start->v) == BAUM_OK) {
+    char names[160];
+    baum_i_redundancy_text(w, names, sizeof names);
+    baum_i_run_warn(run,
+                    "%d redundant constraint %s among %s: accelerations are right, multipliers and "
+                    "reactions of these joints are not unique and given with least norm",
+                    r->count, r->count == 1 ? "row" : "rows", names);
+  }
+  if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
+    baum_i_run_warn(run, "the start pose is singular: %d independent constraint rows, %d nearby",
+                    r->rank_at_start, r->rank);
+  }
+}
+
+static double difference_noise(const baum_mechanism *m)
+{
+  double noise = 0.0;
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    if (joint->type->noise) {
+      noise = fmax(noise, joint->type->noise(joint->element.def));
+    }
+  }
+  return noise;
+}
+
+static void warn_settings(baum_simulation *run)
+{
+  double noise = difference_noise(run->workspace->mechanism);
+  if (run->options.rtol < noise) {
+    baum_i_run_warn(run,
+                    "rtol %.1g is below %.1g, about the error of derivatives by differences of user "
+                    "constraints: give jacobian and gamma, or a larger rtol",
+                    run->options.rtol, noise);
+  }
+  if (run->options.formulation == BAUM_FORMULATION_INDEX3) {
+    baum_i_run_warn(run, "index 3 is for comparison: its velocities are outside of the error test and "
+                         "the motion error is far above rtol");
+  }
+}
+
+/* ---- create ---- */
+
+static baum_i_kkt_choice solver_choice(baum_solver solver)
+{
+  switch (solver) {
+  case BAUM_SOLVER_KLU: return BAUM_I_KKT_KLU;
+  case BAUM_SOLVER_QR: return BAUM_I_KKT_QR;
+  case BAUM_SOLVER_AUTO:
+  default: return BAUM_I_KKT_AUTO;
+  }
+}
+
+static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
+{
+  const baum_simulation_options *o = &run->options;
+  baum_status status =
+    o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace);
+  }
+  if (status == BAUM_OK) {
+    status = make_states(run);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_run_start(run, o->start_time, mechanism->drawn_q, mechanism->drawn_v);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_find_redundancy(run->workspace, run->trial.t, run->trial.q);
+  }
+  if (status == BAUM_OK) {
+    status = choose_problem(run);
+  }
+  if (status == BAUM_OK && run->integrator->create) {
+    status = run->integrator->create(&run->problem, &run->trial, &run->self);
+  }
+  if (status == BAUM_OK) {
+    warn_redundancy(run);
+    warn_settings(run);
+    status = baum_i_run_accept(run);
+  }
+  return status;
+}
+
+static baum_status check_create(const baum_mechanism *mechanism,
+                                const baum_simulation_options *options)
+{
+  const char *call = "baum_simulation_create";
+  if (!mechanism || !options) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
+                       mechanism ? "options are" : "the mechanism is");
+  }
+  if (options->struct_size != sizeof *options) {
+    return baum_i_fail(BAUM_ERR_STRUCT,
+                       "%s: struct_size of the options is %zu, must be %zu; start from "
+                       "baum_simulation_options_default()",
+                       call, options->struct_size, sizeof *options);
+  }
+  if (!mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_simulation_create(const baum_mechanism *mechanism,
+                                   const baum_simulation_options *options, baum_simulation **out)
+{
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_create: out is NULL");
+  }
+  *out = NULL;
+  baum_status status = check_create(mechanism, options);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_simulation_options checked = *options;
+  status = baum_i_options_check(&checked);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_simulation *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  run->options = checked;
+  run->integrator = checked.integrator;
+  atomic_init(&run->cancelled, 0);
+  status = prepare(run, mechanism);
+  if (status != BAUM_OK) {
+    baum_simulation_destroy(run);
+    return status;
+  }
+  baum_i_run_explain(run);
+  *out = run;
+  return BAUM_OK;
+}
+
+void baum_simulation_destroy(baum_simulation *simulation)
+{
+  if (!simulation) {
+    return;
+  }
+  if (simulation->integrator->destroy) {
+    simulation->integrator->destroy(simulation->self);
+  }
+  baum_workspace_destroy(simulation->workspace);
+  baum_i_free(simulation->memory);
+  baum_i_free(simulation);
+}
+
+/* ---- present state ---- */
+
+double baum_simulation_time(const baum_simulation *simulation)
+{
+  return simulation ? simulation->state.t : NAN;
+}
+
+const double *baum_simulation_q(const baum_simulation *simulation)
+{
+  return simulation ? simulation->state.q : NULL;
+}
+
+const double *baum_simulation_v(const baum_simulation *simulation)
+{
+  return simulation ? simulation->state.v : NULL;
+}
+
+const char *baum_simulation_explain(const baum_simulation *simulation)
+{
+  return simulation ? simulation->explain : NULL;
+}
+
+const char *baum_simulation_message(const baum_simulation *simulation)
+{
+  return simulation ? simulation->message : NULL;
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The start of a run, or of its continuation from a given state. */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "simulate/run.h"
+
+/* Largest displacement that assembly may make: of lengths relative to their scale, of angles in radians. A drawing further off
+ * is more likely to be mounted on a branch that its author did not mean. */
+static const double LARGEST_MOVE = 0.25;
+static const double LARGEST_TURN = 1.0;
+static const double EXACT = 1e-9; /* of the scales */
+
+/* ---- assembled ---- */
+
+static int owner(const baum_mechanism *m, int coordinate)
+{
+  int body = m->body_count;
+  while (m->bodies[body]->q > coordinate) {
+    body--;
+  }
+  return body;
+}
+
+static bool is_angle(const baum_mechanism *m, int coordinate)
+{
+  const baum_i_body *body = m->bodies[owner(m, coordinate)];
+  return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->q + 2;
+}
+
+/* The joint that the drawing violates most. */
+static void name_worst_joint(baum_simulation *run, double t, const double *drawn,
+                             char label[BAUM_I_LABEL_SIZE])
+{
+  baum_workspace *w = run->workspace;
+  strcpy(label, "no joint");
+  if (w->mechanism->nc == 0 || baum_i_position_stage(w, t, drawn) != BAUM_OK) {
+    return;
+  }
+  baum_i_row_displacements(w, w->rhs);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = w->phi[i] / w->rhs[i];
+  }
+  int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
+  (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
+}
+
+static baum_status check_displacement(baum_simulation *run, const double *drawn, double *largest)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  *largest = 0.0;
+  for (int i = 0; i < m->nq; i++) {
+    double move = fabs(run->trial.q[i] - drawn[i]) / m->scale[i];
+    double limit = is_angle(m, i) ? LARGEST_TURN : LARGEST_MOVE;
+    *largest = fmax(*largest, move);
+    if (move > limit) {
+      char body[BAUM_I_LABEL_SIZE];
+      char joint[BAUM_I_LABEL_SIZE];
+      (void)baum_i_label(&m->bodies[owner(m, i)]->element, "body", body);
+      name_worst_joint(run, run->trial.t, drawn, joint);
+      return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                         "t = %.9g s: assembly would move %s by %.3g %s, more than %.3g; the drawing "
+                         "fits least in %s; draw the start pose closer",
+                         run->trial.t, body, move * m->scale[i], is_angle(m, i) ? "rad" : "m",
+                         limit * m->scale[i], joint);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status start_assembled(baum_simulation *run, const double *q, const double *v)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
+  double largest = 0.0;
+  baum_status status = baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v,
+                                       m->held, NULL);
+  if (status == BAUM_OK) {
+    status = check_displacement(run, q, &largest);
+  }
+  if (status == BAUM_OK) {
+    run->counters.start_change = largest;
+  }
+  return status;
+}
+
+/* ---- exact ---- */
+
+static baum_status check_rows(baum_simulation *run, const double *rows, double allowed,
+                              const char *what, const char *unit)
+{
+  const baum_workspace *w = run->workspace;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
+      char label[BAUM_I_LABEL_SIZE];
+      (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, i), label);
+      return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                         "t = %.9g s: the start is not exact: %s has %s = %.3g %s", run->trial.t,
+                         label, what, rows[i], unit);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_exact(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  baum_status status = baum_i_violation(w, run->trial.t, run->trial.q, run->trial.v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double rate = baum_i_scaled_size(w->mechanism, run->trial.v);
+  baum_i_row_displacements(w, w->rhs);
+  status = check_rows(run, w->phi, EXACT, "Phi", "m or rad");
+  return status == BAUM_OK ? check_rows(run, w->phi_rate, EXACT * rate, "Phi'", "m/s or rad/s")
+                           : status;
+}
+
+/* ---- the whole ---- */
+
+baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  run->trial.t = t;
+  memcpy(run->trial.q, q, (size_t)m->nq * sizeof *q);
+  if (run->options.start == BAUM_START_ASSEMBLE) {
+    return start_assembled(run, q, v);
+  }
+  for (int i = 0; i < m->nv; i++) {
+    run->trial.v[i] = isnan(v[i]) ? 0.0 : v[i];
+  }
+  return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
+}
+
+static void copy_state(const baum_mechanism *m, baum_i_state *to, const baum_i_state *from)
+{
+  to->t = from->t;
+  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
+  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
+}
+
+baum_status baum_i_run_accept(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  double energy[2];
+  baum_status status = baum_i_violation(w, run->trial.t, run->trial.q, run->trial.v);
+  if (status == BAUM_OK) {
+    baum_i_run_observe(run, run->trial.t, false);
+    status = baum_i_energy(w, run->trial.t, run->trial.q, run->trial.v, &energy[0], &energy[1]);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  copy_state(w->mechanism, &run->state, &run->trial);
+  copy_state(w->mechanism, &run->ahead, &run->trial);
+  run->start_energy = energy[0] + energy[1];
+  run->grid = (baum_i_grid){.origin = run->state.t};
+  return BAUM_OK;
+}
+
+static baum_status check_state(const baum_simulation *run, double t, const double *q,
+                               const double *v)
+{
+  const char *call = "baum_simulation_set_state";
+  if (!run || !q || !v) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
+                       !run ? "the simulation" : (q ? "v" : "q"));
+  }
+  const baum_mechanism *m = run->workspace->mechanism;
+  bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
+  if (!isfinite(t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
+  }
+  for (int i = 0; i < m->nv; i++) {
+    if (!isfinite(q[i]) || !(isfinite(v[i]) || (may_be_free && isnan(v[i])))) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %g and v[%d] is %g, must be finite", call,
+                         i, q[i], i, v[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
+                                      const double *v)
+{
+  baum_status status = check_state(simulation, t, q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = baum_i_run_start(simulation, t, q, v);
+  if (status == BAUM_OK && simulation->integrator->restart) {
+    status = simulation->integrator->restart(simulation->self, &simulation->problem,
+                                             &simulation->trial);
+    simulation->counters.restarts++;
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_run_accept(simulation);
+  }
+  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
+}
