@@ -258,8 +258,8 @@ typedef struct baum_counters {
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;      /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  double predicted_phi;         /**< Both Eulers with gains: largest (alpha/beta^2) h |gamma_i|; else NaN. */
-  double predicted_phi_rate;    /**< Both Eulers with gains: largest (h/2) |gamma_i|; else NaN. */
+  double predicted_phi;         /**< Both Eulers, stable gains >= 0.1/h: largest (alpha/beta^2) h |gamma_i|; else NaN. */
+  double predicted_phi_rate;    /**< Likewise largest (h/2) |gamma_i|; else NaN. */
   double energy_change;         /**< [J] total energy now minus at start, drivers and dampers included. */
   double start_change;          /**< [-] largest displacement at assembly relative to the scale. */
   double alpha;                 /**< [1/s] in use. */

@@ -51,8 +51,10 @@ static baum_status choose_gains(baum_simulation *run, double rate)
   }
   run->problem.alpha = run->gains.alpha;
   run->problem.beta = run->gains.beta;
-  if (run->gains.amplification.stability == BAUM_MARGINAL ||
-      run->gains.amplification.stability == BAUM_UNSTABLE) {
+  baum_stability stability = run->gains.amplification.stability;
+  /* BDF damps any alpha h only if alpha / beta is above the golden ratio's inverse (Hairer, Wanner: A(alpha)-stability). */
+  bool oscillates = stability == BAUM_VARIABLE_STEP && run->gains.alpha < 0.618 * run->gains.beta;
+  if (stability == BAUM_MARGINAL || stability == BAUM_UNSTABLE || oscillates) {
     baum_i_run_warn(run, "%s", run->gains.why);
   }
   return BAUM_OK;
@@ -244,7 +246,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
 
 double baum_simulation_time(const baum_simulation *simulation)
 {
-  return simulation ? simulation->state.t : NAN;
+  return simulation ? simulation->state.t : (double)NAN;
 }
 
 const double *baum_simulation_q(const baum_simulation *simulation)
