@@ -158,24 +158,24 @@ static void unload(const baum_i_problem *problem, N_Vector from, double *q, doub
   memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
 }
 
-static baum_status fail(const cvode_run *run, int flag, double t)
+static baum_status fail(const cvode_run *run, int flag)
 {
   double step = 0;
   (void)CVodeGetCurrentStep(run->cvode, &step);
-  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, t, step);
+  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, step);
 }
 
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   cvode_run *run = self;
-  baum_i_sundials_begin(&run->sundials, problem);
+  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
   double t = state->t;
   double target = baum_i_sundials_target(problem, t);
   int flag = CVode(run->cvode, target, run->y, &t, CV_ONE_STEP);
   if (flag < 0) {
-    return fail(run, flag, state->t);
+    return fail(run, flag);
   }
-  baum_status status = baum_i_sundials_check_progress(&run->sundials, state->t, t);
+  baum_status status = baum_i_sundials_check_progress(&run->sundials, t);
   if (status == BAUM_OK) {
     state->t = t;
     unload(problem, run->y, state->q, state->v);
@@ -187,10 +187,8 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
                                double *v)
 {
   cvode_run *run = self;
-  baum_i_sundials_begin(&run->sundials, problem);
-  int flag = CVodeGetDky(run->cvode, t, 0, run->inside);
-  if (flag < 0) {
-    return fail(run, flag, t);
+  if (CVodeGetDky(run->cvode, t, 0, run->inside) != CV_SUCCESS) {
+    return baum_i_sundials_fail_outside(&run->sundials, t);
   }
   unload(problem, run->inside, q, v);
   return BAUM_OK;
@@ -219,10 +217,10 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   baum_i_statistics present;
   count(run, &present);
   run->before = present;
-  baum_i_sundials_begin(&run->sundials, problem);
+  baum_i_sundials_begin(&run->sundials, problem, state->t);
   load(run, problem, state);
   int flag = CVodeReInit(run->cvode, state->t, run->y);
-  return flag < 0 ? fail(run, flag, state->t) : BAUM_OK;
+  return flag < 0 ? fail(run, flag) : BAUM_OK;
 }
 
 /* ---- life ---- */
@@ -299,11 +297,10 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   if (!run->inside) {
     return baum_i_fail_memory();
   }
-  baum_i_sundials_begin(&run->sundials, problem);
+  baum_i_sundials_begin(&run->sundials, problem, start->t);
   load(run, problem, start);
   int flag = start_cvode(run, method, start->t);
-  return flag == CV_SUCCESS ? BAUM_OK
-                            : baum_i_sundials_fail(&run->sundials, FLAGS, flag, start->t, 0);
+  return flag == CV_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }
 
 static baum_status create(int method, const char *name, const baum_i_problem *problem,

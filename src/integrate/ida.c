@@ -21,6 +21,7 @@
 
 #include "integrate/ida.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -120,9 +121,9 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
 
 /* ---- one step ---- */
 
-static void begin(ida_run *run, const baum_i_problem *problem)
+static void begin(ida_run *run, const baum_i_problem *problem, double t)
 {
-  baum_i_sundials_begin(&run->sundials, problem);
+  baum_i_sundials_begin(&run->sundials, problem, t);
   bool index3 = problem->formulation == BAUM_FORMULATION_INDEX3;
   bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
   run->dae.index = index3 ? BAUM_RESIDUAL_INDEX3 : BAUM_RESIDUAL_INDEX1;
@@ -138,24 +139,24 @@ static void unload(const baum_i_problem *problem, N_Vector from, double *q, doub
   memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
 }
 
-static baum_status fail(const ida_run *run, int flag, double t)
+static baum_status fail(const ida_run *run, int flag)
 {
   double step = 0;
   (void)IDAGetCurrentStep(run->ida, &step);
-  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, t, step);
+  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, step);
 }
 
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   ida_run *run = self;
-  begin(run, problem);
+  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
   double t = state->t;
   double target = baum_i_sundials_target(problem, t);
   int flag = IDASolve(run->ida, target, &t, run->y, run->dy, IDA_ONE_STEP);
   if (flag < 0) {
-    return fail(run, flag, state->t);
+    return fail(run, flag);
   }
-  baum_status status = baum_i_sundials_check_progress(&run->sundials, state->t, t);
+  baum_status status = baum_i_sundials_check_progress(&run->sundials, t);
   if (status == BAUM_OK) {
     state->t = t;
     unload(problem, run->y, state->q, state->v);
@@ -167,10 +168,12 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
                                double *v)
 {
   ida_run *run = self;
-  begin(run, problem);
-  int flag = IDAGetDky(run->ida, t, 0, run->inside);
-  if (flag < 0) {
-    return fail(run, flag, t);
+  /* IDA refuses times before its last step, but extrapolates beyond. */
+  double end = t;
+  (void)IDAGetCurrentTime(run->ida, &end);
+  bool beyond = (t - end) * problem->direction > 100.0 * DBL_EPSILON * fabs(end);
+  if (beyond || IDAGetDky(run->ida, t, 0, run->inside) != IDA_SUCCESS) {
+    return baum_i_sundials_fail_outside(&run->sundials, t);
   }
   unload(problem, run->inside, q, v);
   return BAUM_OK;
@@ -233,7 +236,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   baum_i_statistics present;
   count(run, &present);
   run->before = present;
-  begin(run, problem);
+  begin(run, problem, state->t);
   baum_status status = load(run, problem, state);
   if (status != BAUM_OK) {
     return status;
@@ -242,7 +245,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   if (flag == IDA_SUCCESS) {
     flag = give_first_step(run);
   }
-  return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag, state->t);
+  return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag);
 }
 
 /* ---- life ---- */
@@ -344,7 +347,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
 {
   const baum_mechanism *mechanism = problem->workspace->mechanism;
   baum_status status = baum_i_sundials_open(&run->sundials, "ida");
-  begin(run, problem);
+  begin(run, problem, start->t);
   if (status == BAUM_OK && make_vectors(run, mechanism) != IDA_SUCCESS) {
     status = baum_i_fail_memory();
   }
@@ -359,8 +362,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
   }
   choose_tested(run, mechanism);
   int flag = start_ida(run, start->t);
-  return flag == IDA_SUCCESS ? BAUM_OK
-                             : baum_i_sundials_fail(&run->sundials, FLAGS, flag, start->t, 0);
+  return flag == IDA_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }
 
 static baum_status create_run(const baum_i_problem *problem, const baum_i_state *start,

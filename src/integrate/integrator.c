@@ -170,7 +170,8 @@ baum_status baum_stability_limit(const baum_integrator *integrator, double dampi
     return status;
   }
   if (!(damping_ratio > 0) || !isfinite(damping_ratio)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "damping_ratio is %g, must be > 0", damping_ratio);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "damping_ratio is %g, must be > 0 and finite",
+                       damping_ratio);
   }
   *alpha_h = baum_i_stability_limit(&integrator->method, damping_ratio);
   return BAUM_OK;

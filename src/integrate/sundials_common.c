@@ -6,6 +6,7 @@
 
 #include "integrate/sundials_common.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -74,12 +75,23 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 
 /* ---- evaluations ---- */
 
-void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem)
+void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t)
 {
   sundials->problem = problem;
+  sundials->t = t;
   sundials->stopped = false;
   sundials->evaluation = BAUM_OK;
   sundials->complaint[0] = '\0';
+}
+
+/* Steps that shrink towards a place where evaluations fail end with one in which none does: what failed nearly no time
+ * ago is still the reason. */
+void baum_i_sundials_begin_step(baum_i_sundials *sundials, const baum_i_problem *problem, double t)
+{
+  bool near = fabs(t - sundials->evaluated_at) * problem->rate <= 1e-6;
+  baum_status evaluation = near ? sundials->evaluation : BAUM_OK;
+  baum_i_sundials_begin(sundials, problem, t);
+  sundials->evaluation = evaluation;
 }
 
 /* The flag `retry` says something after these two failures only. */
@@ -95,46 +107,53 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
     return 0;
   }
   sundials->evaluation = status;
+  sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->sentence, sizeof sundials->sentence, "%s", baum_message());
   sundials->stopped = !may_retry(sundials, status);
   return sundials->stopped ? -1 : 1;
 }
 
-static baum_status fail_with_evaluation(const baum_i_sundials *sundials, double t)
+static baum_status fail_with_evaluation(const baum_i_sundials *sundials)
 {
-  return baum_i_fail(sundials->evaluation, "t = %.9g s: in a step of %s: %s", t,
-                     sundials->integrator, sundials->sentence);
+  return baum_i_fail(sundials->evaluation, "%s (in a step of %s from t = %.9g s)",
+                     sundials->sentence, sundials->integrator, sundials->t);
 }
 
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
-                                 int flag, double t, double step)
+                                 int flag, double step)
 {
   if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials, t);
+    return fail_with_evaluation(sundials);
   }
   while (flags->flag != 0 && flags->flag != flag) {
     flags++;
   }
   if (flags->flag == 0) {
     return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)",
-                       t, sundials->integrator, flag, step, sundials->complaint);
+                       sundials->t, sundials->integrator, flag, step, sundials->complaint);
   }
-  return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", t, sundials->integrator,
-                     flags->meaning, step, sundials->complaint);
+  return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", sundials->t,
+                     sundials->integrator, flags->meaning, step, sundials->complaint);
 }
 
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t0, double t)
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t)
 {
-  if (t != t0) {
+  if (t != sundials->t) {
     return BAUM_OK;
   }
   if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials, t);
+    return fail_with_evaluation(sundials);
   }
   return baum_i_fail(BAUM_ERR_STEP,
                      "t = %.9g s: %s: the step became too small to change the time; the motion may "
                      "be singular here, or rtol = %g is too small",
                      t, sundials->integrator, sundials->problem->rtol);
+}
+
+baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t)
+{
+  return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
+                     sundials->integrator);
 }
 
 /* ---- numbers ---- */

@@ -23,7 +23,9 @@ typedef struct baum_i_sundials {
   SUNContext context;
   const baum_i_problem *problem;      /* of the call under way */
   bool stopped;                       /* an evaluation of this call failed for good */
-  baum_status evaluation;             /* of this call, the last failing one; BAUM_OK: none failed */
+  baum_status evaluation;             /* the last failing one here and now, or BAUM_OK */
+  double t;                           /* start of the step under way */
+  double evaluated_at;                /* start of the step in which that evaluation failed */
   char sentence[BAUM_I_MESSAGE_SIZE]; /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
 } baum_i_sundials;
@@ -39,19 +41,22 @@ typedef struct baum_i_sundials_flag {
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* Before each call of CVODE or IDA. */
-void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem);
+/* Before a start at t; before a step from t. */
+void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
+void baum_i_sundials_begin_step(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
 
 /* What a callback answers: 0, +1 where a smaller step may help, else -1. Remembers a failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
-/* From a flag to a status with its sentence; that of an evaluation that failed in this call comes first. flags end
- * with flag 0. */
+/* From a flag to a status with its sentence; a remembered evaluation comes first. flags end with flag 0. */
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
-                                 int flag, double t, double step);
+                                 int flag, double step);
 
-/* After a step from t0 to t: BAUM_ERR_STEP when it did not move. */
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t0, double t);
+/* After a step to t: BAUM_ERR_STEP when it did not move. */
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t);
+
+/* For a time that is not inside the last step. */
+baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t);
 
 /* A target beyond the first step, in problem->direction: CVODE and IDA take the direction from it, and its distance
  * bounds the first step to a tenth of 10 T. */
