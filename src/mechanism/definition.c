@@ -241,6 +241,11 @@ static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, co
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its size is %d and must stay", k->family,
                        element->index, element->name, k->count(element->def));
   }
+  const char *tied = k->definition->tied ? k->definition->tied(element->def, def) : NULL;
+  if (tied) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its %s must stay", k->family,
+                       element->index, element->name, tied);
+  }
   baum_i_span next;
   baum_i_span *span = span_of(k, element);
   if (make_span(mechanism, k, def, &next) != BAUM_OK) {

@@ -31,6 +31,9 @@ typedef struct baum_i_definition {
    * owned. NULL when there is nothing. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free what own() made. NULL likewise. */
+  /* The name of a field that a new definition may not change, but does, beside bodies and size; or NULL. NULL when
+   * there is none. */
+  const char *(*tied)(const void *present, const void *next);
 } baum_i_definition;
 
 /* Every definition struct begins with these two. */

@@ -99,11 +99,6 @@ void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum
 
 /* ---- points ---- */
 
-static bool is_given(const double point[2])
-{
-  return !isnan(point[0]) && !isnan(point[1]);
-}
-
 /* Both components finite, or both NaN. */
 static baum_status check_point(const char *label, const char *field_x, const char *field_y,
                                const double point[2])
@@ -115,6 +110,12 @@ static baum_status check_point(const char *label, const char *field_x, const cha
   return status == BAUM_OK ? baum_i_check_finite(label, field_y, "m", point[1]) : status;
 }
 
+/* Of a point that has passed check_point(). */
+static bool is_given(const double point[2])
+{
+  return !isnan(point[0]);
+}
+
 static baum_status check_points(const baum_i_planar_head *head, const char *label)
 {
   baum_status status = check_point(label, "point[0]", "point[1]", head->point);
@@ -124,27 +125,36 @@ static baum_status check_points(const baum_i_planar_head *head, const char *labe
   return status == BAUM_OK ? check_point(label, "point_b[0]", "point_b[1]", head->point_b) : status;
 }
 
-static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
-                                 bool point_allowed)
+static baum_status check_with_point(const baum_i_planar_head *head, const char *label,
+                                    bool point_allowed)
 {
-  bool point = is_given(head->point);
-  bool a = is_given(head->point_a);
-  bool b = is_given(head->point_b);
-  if (point && !point_allowed) {
+  if (!point_allowed) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: point is given and leaves no length; give point_a and point_b instead",
                        label);
   }
-  if (point && (a || b)) {
+  bool a = is_given(head->point_a);
+  if (a || is_given(head->point_b)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: point and %s are both given; give point alone, or point_a and point_b",
                        label, a ? "point_a" : "point_b");
   }
-  if (!point && a != b) {
+  return BAUM_OK;
+}
+
+static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
+                                 bool point_allowed)
+{
+  if (is_given(head->point)) {
+    return check_with_point(head, label, point_allowed);
+  }
+  bool a = is_given(head->point_a);
+  bool b = is_given(head->point_b);
+  if (a != b) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
                        a ? "point_a" : "point_b", a ? "point_b" : "point_a");
   }
-  if (!point && !a) {
+  if (!a) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
                        label, point_allowed ? "point, or " : "");
   }
@@ -284,10 +294,11 @@ void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span
 void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
                                const double *six, double *packed)
 {
-  int columns = 3 * span->body_count;
+  /* Three rows of each body, of which it has the first nv. */
+  ptrdiff_t rows_size = (ptrdiff_t)9 * span->body_count;
   for (int k = 0; k < span->body_count; k++) {
     int nv = mechanism->bodies[span->bodies[k]]->nv;
-    baum_i_planar_pack(mechanism, span, nv, six + 3 * k * columns, packed);
-    packed += nv * span->nl;
+    baum_i_planar_pack(mechanism, span, nv, six + rows_size * k, packed);
+    packed += (ptrdiff_t)nv * span->nl;
   }
 }

@@ -85,9 +85,18 @@ static void spread_force_squares(const test_point *p, const double *blocks, doub
 
 /* ---- functions of the state ---- */
 
+/* What is set, not added to, must not depend on what was there. */
+static void spoil(double *values, int count)
+{
+  for (int i = 0; i < count; i++) {
+    values[i] = (double)NAN;
+  }
+}
+
 static void full_jacobian(test_point *p, double *full)
 {
   double blocks[MATRIX];
+  spoil(blocks, p->mechanism->jacobian_size);
   assert_int_equal(baum_i_mechanism_jacobian(&p->point, blocks), BAUM_OK);
   spread_rows(p, blocks, full);
 }
@@ -95,18 +104,21 @@ static void full_jacobian(test_point *p, double *full)
 static void phi_of(test_point *p, const directions *d, double *out)
 {
   (void)d;
+  spoil(out, p->nc);
   assert_int_equal(baum_i_mechanism_phi(&p->point, out), BAUM_OK);
 }
 
 static void nu_of(test_point *p, const directions *d, double *out)
 {
   (void)d;
+  spoil(out, p->nc);
   assert_int_equal(baum_i_mechanism_nu(&p->point, out), BAUM_OK);
 }
 
 static void gamma_of(test_point *p, const directions *d, double *out)
 {
   (void)d;
+  spoil(out, p->nc);
   assert_int_equal(baum_i_mechanism_gamma(&p->point, out), BAUM_OK);
 }
 

@@ -75,6 +75,8 @@ static void check_pair(planar_add_fn *add, int which, planar_check_fn *check)
     {BAUM_GROUND, scene.ball}, {scene.bead, BAUM_GROUND}, {scene.ball, scene.bead},
   };
   add(&scene, pairs[which][0], pairs[which][1]);
+  /* Another one behind it, so that places in arrays are not all the first. */
+  add(&scene, scene.crank, BAUM_GROUND);
   test_point p;
   test_point_open(&p, scene.mechanism);
   uint64_t seed = 5;

@@ -169,9 +169,13 @@ static void a_law_that_sets_nothing_is_zero(void **state)
   (void)state;
   test_point p;
   open_motor(&p, nothing, NULL, false);
-  double nu[3];
-  assert_int_equal(baum_i_mechanism_nu(&p.point, nu), BAUM_OK);
-  ASSERT_NEAR(nu[2], 0.0, 0.0, 0.0);
+  double rows[3];
+  assert_int_equal(baum_i_mechanism_phi(&p.point, rows), BAUM_OK);
+  ASSERT_NEAR(rows[2], -1.1 - 0.4, 1e-15, 0.0);
+  assert_int_equal(baum_i_mechanism_nu(&p.point, rows), BAUM_OK);
+  ASSERT_NEAR(rows[2], 0.0, 0.0, 0.0);
+  assert_int_equal(baum_i_mechanism_gamma(&p.point, rows), BAUM_OK);
+  ASSERT_NEAR(rows[2], 0.0, 0.0, 0.0);
   test_point_close(&p);
 }
 
@@ -274,6 +278,21 @@ static void joints_that_cannot_be_driven_are_refused(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
+static void the_joint_must_stay(void **state)
+{
+  (void)state;
+  planar_scene scene = planar_scene_make();
+  baum_driver_def def = baum_driver_def_default();
+  def.name = "motor";
+  def.joint = pin_between(&scene, scene.link, scene.crank);
+  baum_joint_id motor;
+  assert_int_equal(baum_mechanism_add_driver(scene.mechanism, &def, &motor), BAUM_OK);
+  def.joint = pin_between(&scene, scene.link, scene.crank);
+  assert_int_equal(baum_mechanism_set_driver(scene.mechanism, motor, &def), BAUM_ERR_ARGUMENT);
+  assert_string_equal(baum_message(), "joint 2 \"motor\": its joint must stay");
+  baum_mechanism_destroy(scene.mechanism);
+}
+
 static void definitions_come_back(void **state)
 {
   (void)state;
@@ -304,6 +323,7 @@ int main(void)
     cmocka_unit_test(a_law_that_is_not_finite_is_named),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(joints_that_cannot_be_driven_are_refused),
+    cmocka_unit_test(the_joint_must_stay),
     cmocka_unit_test(definitions_come_back),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

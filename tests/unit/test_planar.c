@@ -195,6 +195,24 @@ static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
+static void a_particle_is_at_its_point_up_to_rounding(void **state)
+{
+  (void)state;
+  planar_scene scene = planar_scene_make();
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  particle.position[0] = 0.1 + 0.2;
+  baum_body_id id;
+  assert_int_equal(baum_mechanism_add_planar_particle(scene.mechanism, &particle, &id), BAUM_OK);
+  baum_planar_revolute_def def = pin(scene.link, id);
+  def.point[0] = 0.3;
+  def.point[1] = 0.0;
+  double points[4] = {1.0, 1.0, 1.0, 1.0};
+  assert_int_equal(baum_i_planar_points(scene.mechanism, &def, "x", points), BAUM_OK);
+  ASSERT_NEAR(points[2], 0.0, 0.0, 0.0);
+  ASSERT_NEAR(points[3], 0.0, 0.0, 0.0);
+  baum_mechanism_destroy(scene.mechanism);
+}
+
 static void drawn_frames_are_at_rest(void **state)
 {
   (void)state;
@@ -309,6 +327,7 @@ int main(void)
     cmocka_unit_test(points_are_given_in_one_way_only),
     cmocka_unit_test(a_particle_is_its_own_point),
     cmocka_unit_test(a_point_in_the_drawing_is_turned_into_body_axes),
+    cmocka_unit_test(a_particle_is_at_its_point_up_to_rounding),
     cmocka_unit_test(drawn_frames_are_at_rest),
     cmocka_unit_test(a_driver_leaves_the_size_of_the_drawing_alone),
     cmocka_unit_test(packing_leaves_out_what_a_particle_does_not_have),

@@ -33,6 +33,7 @@ static void check_at_random(const planar_scene *scene, const baum_planar_load_de
                             bool conservative)
 {
   assert_int_equal(add(scene->mechanism, def), BAUM_OK);
+  assert_int_equal(add(scene->mechanism, def), BAUM_OK);
   test_point p;
   test_point_open(&p, scene->mechanism);
   uint64_t seed = 3;
@@ -171,7 +172,13 @@ static void wrong_bodies_are_refused(void **state)
   check_refused(scene.mechanism, add, &def,
                 "force 1 \"push\": point is (0.4, -0.7) m, must be (0, 0) on a particle");
   def.point[0] = 0.0;
+  check_refused(scene.mechanism, add, &def,
+                "force 1 \"push\": point is (0, -0.7) m, must be (0, 0) on a particle");
+  def.point[0] = 0.4;
   def.point[1] = 0.0;
+  check_refused(scene.mechanism, add, &def,
+                "force 1 \"push\": point is (0.4, 0) m, must be (0, 0) on a particle");
+  def.point[0] = 0.0;
   def.torque = 3.0;
   check_refused(scene.mechanism, add, &def,
                 "force 1 \"push\": torque is 3 N m, must be 0 on a particle");

@@ -50,6 +50,32 @@ static void mass_gravity_and_potential_are_those_of_a_point(void **state)
   test_point_close(&p);
 }
 
+static void a_second_one_has_its_own_numbers(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_particle_def def = good();
+  assert_int_equal(add(mechanism, &def), BAUM_OK);
+  def.mass = 5.0;
+  def.position[1] = 10.0;
+  assert_int_equal(add(mechanism, &def), BAUM_OK);
+  test_point p;
+  test_point_open(&p, mechanism);
+  double mass[8];
+  double force[4];
+  double potential;
+  assert_int_equal(baum_i_mechanism_mass(&p.point, mass), BAUM_OK);
+  assert_int_equal(baum_i_mechanism_force(&p.point, force), BAUM_OK);
+  assert_int_equal(baum_i_mechanism_potential(&p.point, &potential), BAUM_OK);
+  ASSERT_NEAR(mass[0], 2.5, 0.0, 0.0);
+  ASSERT_NEAR(mass[4], 5.0, 0.0, 0.0);
+  ASSERT_NEAR(mass[7], 5.0, 0.0, 0.0);
+  ASSERT_NEAR(force[3], 5.0 * -9.81, 1e-15, 0.0);
+  ASSERT_NEAR(potential, 9.81 * (2.5 * -1.0 + 5.0 * 10.0), 1e-15, 0.0);
+  test_point_close(&p);
+}
+
 static void the_drawing_is_the_start(void **state)
 {
   (void)state;
@@ -115,6 +141,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(mass_gravity_and_potential_are_those_of_a_point),
+    cmocka_unit_test(a_second_one_has_its_own_numbers),
     cmocka_unit_test(the_drawing_is_the_start),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(definitions_come_back),

@@ -37,9 +37,8 @@ static baum_planar_spring_def good(const planar_scene *scene)
 
 /* A spring is all but straight only away from zero length: for the differences, states with points closer than this are
  * left out, where fifth derivatives go like its fourth power. */
-static bool is_long(const test_point *p)
+static double length_of(const test_point *p, const baum_i_force *spring)
 {
-  const baum_i_force *spring = p->mechanism->forces[0];
   double at[2][2];
   for (int k = 0; k < 2; k++) {
     const baum_i_frame *f = &p->point.frames[spring->span.bodies[k]];
@@ -47,12 +46,12 @@ static bool is_long(const test_point *p)
     at[k][0] = f->x + f->c * s[0] - f->s * s[1];
     at[k][1] = f->y + f->s * s[0] + f->c * s[1];
   }
-  return hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > 0.3;
+  return hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]);
 }
 
 static void check_when_long(test_point *p)
 {
-  if (is_long(p)) {
+  if (length_of(p, p->mechanism->forces[0]) > 0.3 && length_of(p, p->mechanism->forces[1]) > 0.3) {
     check_force_derivatives(p);
     check_potential_gradient(p);
   }

@@ -139,12 +139,16 @@ static void the_kept_angle_is_drawn_unless_given(void **state)
 static void an_axis_of_any_length_is_a_direction(void **state)
 {
   (void)state;
-  const double lengths[] = {DBL_MAX, 1e200, 1e-200, DBL_TRUE_MIN};
-  for (int i = 0; i < 4; i++) {
+  const double axes[][2] = {{DBL_MAX, -DBL_MAX},
+                            {1e200, 1e-200},
+                            {1e-200, 1e200},
+                            {1e-200, 1e-200},
+                            {DBL_TRUE_MIN, -DBL_TRUE_MIN}};
+  for (int i = 0; i < 5; i++) {
     planar_scene scene = planar_scene_make();
     baum_planar_translational_def def = good(&scene);
-    def.axis[0] = lengths[i];
-    def.axis[1] = -lengths[i];
+    def.axis[0] = axes[i][0];
+    def.axis[1] = axes[i][1];
     test_point p;
     open_with(&p, &scene, &def);
     baum_i_coordinate c = coordinate_of(&p);

@@ -59,6 +59,14 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return status;
 }
 
+/* A driver always comes after its joint; in a copy, too, that is what it finds. */
+static const char *tied(const void *present, const void *next)
+{
+  const baum_driver_def *a = present;
+  const baum_driver_def *b = next;
+  return a->joint.index1 == b->joint.index1 ? NULL : "joint";
+}
+
 static int rows(const void *def)
 {
   (void)def;
@@ -236,7 +244,8 @@ static const baum_i_joint_type type = {
   .definition = {.kind = "driver",
                  .size = sizeof(baum_driver_def),
                  .defaults = &defaults,
-                 .check = check},
+                 .check = check,
+                 .tied = tied},
   .parameter_count = PARAMETER_COUNT,
   .planar = true,
   .scleronomic = false,
