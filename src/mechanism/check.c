@@ -34,6 +34,7 @@ typedef struct trial {
   double *previous; /* value one step before */
   double *value;    /* best */
   double *error;    /* of the best; < 0 once the given value is found right */
+  double *quality;  /* of the best: error in units of how much the function varied */
 } trial;
 
 /* Where the given values of a ray are, and what rounding may do to them. */
@@ -64,9 +65,11 @@ static trial take_trial(baum_i_local *here, int size)
   t.previous = baum_i_take(here, size);
   t.value = baum_i_take(here, size);
   t.error = baum_i_take(here, size);
+  t.quality = baum_i_take(here, size);
   for (int i = 0; i < size; i++) {
     t.previous[i] = (double)NAN;
     t.error[i] = (double)INFINITY;
+    t.quality[i] = (double)INFINITY;
   }
   return t;
 }
@@ -87,9 +90,12 @@ static bool weigh(const column *c, const trial *t)
       continue;
     }
     right = false;
-    if (error < t->error[i]) { /* never with the first step, whose error is NaN */
+    double varied = t->now.variation[i] + t->now.noise[i];
+    double quality = varied > 0.0 ? error / varied : 0.0 * error;
+    if (quality < t->quality[i]) { /* never with the first step, whose error is NaN */
       t->value[i] = value;
       t->error[i] = error;
+      t->quality[i] = quality;
     }
   }
   return right;

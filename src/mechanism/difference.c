@@ -9,7 +9,7 @@
  * lose nothing: about 1e-13 and 1e-11 remain.
  *
  * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two orders agree to 1e-7, the
- * sixth is good to about 1e-11. Where they do not, the announced scale was too large for F, and the step is shrunk until
+ * sixth is good to about 1e-11; first derivatives can afford to ask for 1e-9. Where they do not agree, the announced scale was too large for F, and the step is shrunk until
  * they do: a scale that is wrong by 1e6 costs time, not truth. The search ends when disagreement is rounding.
  *
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at q, so that q + k h is
@@ -29,6 +29,7 @@ const baum_i_stencil baum_i_stencil_first = {
   .step = 0x1p-9,
   .shrink = 0.125,
   .steps = 8,
+  .agreement = 1e-9,
 };
 
 /* For a field that carries an error of 1e-11 already, which must not be divided by a small step. */
@@ -39,6 +40,7 @@ static const baum_i_stencil stencil_rough = {
   .step = 0x1p-5,
   .shrink = 0.125,
   .steps = 9,
+  .agreement = 1e-7,
 };
 
 const baum_i_stencil baum_i_stencil_second = {
@@ -48,10 +50,8 @@ const baum_i_stencil baum_i_stencil_second = {
   .step = 0x1p-6,
   .shrink = 0.25,
   .steps = 12,
+  .agreement = 1e-7,
 };
-
-/* Agreement of the two orders, relative, that is good enough. */
-static const double agreement = 1e-7;
 
 /* Rounding of F in units of its own last place, allowing for larger terms inside F that cancel. */
 static const double rounding = 64.0 * DBL_EPSILON;
@@ -222,28 +222,29 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Take over the entries that got better; best (size) is their error so far, < 0 when good enough. True when a smaller
- * step is not worth trying. */
-static bool settle(const baum_i_estimate *now, double *out, double *best, int size)
+/* Take over the entries that got better. best (size) is how far the orders were apart at best, in units of how much F
+ * varied; < 0 when good enough. True when a smaller step is not worth trying. */
+static bool settle(const baum_i_estimate *now, double agreement, double *out, double *best,
+                   int size)
 {
   bool settled = true;
   for (int i = 0; i < size; i++) {
     if (best[i] < 0.0) {
       continue;
     }
-    double error = now->error[i];
-    if (error <= agreement * fabs(now->value[i]) + now->noise[i]) {
+    if (now->error[i] <= agreement * fabs(now->value[i]) + now->noise[i]) {
       out[i] = now->value[i];
       best[i] = -1.0;
       continue;
     }
     /* Worth it while it helps, and while the orders disagree by far more than rounding can explain. */
-    bool helps = error < 0.5 * best[i];
-    bool coarse = error > 1e-3 * now->variation[i] && error > 1e4 * now->noise[i];
+    double apart = now->error[i] / now->variation[i];
+    bool helps = apart < 0.5 * best[i];
+    bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];
     settled = settled && !helps && !coarse;
-    if (error < best[i]) {
+    if (apart < best[i]) {
       out[i] = now->value[i];
-      best[i] = error;
+      best[i] = apart;
     }
   }
   return settled;
@@ -270,7 +271,7 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
     }
     if (status == BAUM_OK) {
       any = true;
-      if (settle(&now, out, best, field->size)) {
+      if (settle(&now, stencil->agreement, out, best, field->size)) {
         break;
       }
     }

@@ -56,9 +56,10 @@ typedef struct baum_i_stencil {
   int order;
   double sixth[3]; /* weights of the pairs at distance 1, 2, 3 */
   double fourth[3];
-  double step;   /* first step, in relevant changes */
-  double shrink; /* factor to the next step */
-  int steps;     /* at most so many */
+  double step;      /* first step, in relevant changes */
+  double shrink;    /* factor to the next step */
+  int steps;        /* at most so many */
+  double agreement; /* of the two orders, relative, that ends the search */
 } baum_i_stencil;
 
 extern const baum_i_stencil baum_i_stencil_first;

@@ -195,9 +195,10 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
 {
   const baum_user_constraint_def *def = def_of(joint);
   *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_rate(at)};
-  /* Without J, and when not slow, the answer would change nothing and is not worth the calls. */
-  *moves = def->nu || (!def->jacobian && ray->rate >= 1.0);
-  baum_status status = *moves ? BAUM_OK : find_movement(joint, at, moves);
+  /* When fast the step is the same in any case; then only a missing nu has to be told from zero. */
+  bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
+  *moves = true;
+  baum_status status = matters ? find_movement(joint, at, moves) : BAUM_OK;
   if (*moves) {
     ray->rate = fmax(ray->rate, 1.0);
   } else {

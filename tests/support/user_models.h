@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Constraints and coordinates by user functions, of which every derivative is known.
+ *
+ *   circle  (x, y)        Phi = x^2 + y^2 - l^2
+ *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
+ *                         Phi = (r cos b - d cos(b + th) - s sin ga - x_b, r sin b - d sin(b + th) + s cos ga - y_b)
+ *   swing   (x, y)        Phi = x sin(w t) + y^2 cos(w t) / l - l sin(w t) cos(w t)
+ */
+#ifndef BAUM_TEST_USER_MODELS_H
+#define BAUM_TEST_USER_MODELS_H
+
+#include <baum/mechanism.h>
+
+/* The `user` of all functions below. */
+typedef struct user_model {
+  double length; /* l */
+  double rate;   /* w */
+} user_model;
+
+/* Which derivatives of a constraint are given. */
+enum { GIVE_NOTHING = 0, GIVE_JACOBIAN = 1, GIVE_NU = 2, GIVE_GAMMA = 4, GIVE_ALL = 7 };
+
+typedef struct user_kind {
+  const char *name;
+  int size; /* coordinates */
+  int rows;
+  bool angles; /* coordinates are angles, not lengths */
+  baum_q_fn *phi;
+  baum_q_fn *jacobian;
+  baum_q_fn *nu;
+  baum_qv_fn *gamma;
+  /* Second derivatives as in baum_i_joint_blocks, for w and lambda. */
+  void (*blocks)(const user_model *model, double t, const double *q, const double *v,
+                 const double *w, const double *lambda, double *jw_q, double *jtl_q,
+                 double *gamma_q, double *gamma_v, double *nu_q);
+} user_kind;
+
+extern const user_kind user_circle;
+extern const user_kind user_loop;
+extern const user_kind user_swing;
+
+/* Zero. */
+int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user);
+
+/* size coordinates with unit mass (2 x 2 and 3 x 3 only), drawn at q, all of one scale. */
+baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,
+                                  double scale);
+
+/* One body and the constraint on it, not frozen; drawn at some pose of size l, or 1 for angles. */
+baum_mechanism *user_make(const user_kind *kind, user_model *model, int given);
+
+#endif
