@@ -124,7 +124,7 @@ static int linearize(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
   for (int j = 0; j < n && status == BAUM_OK; j++) {
     double *column = SUNDenseMatrix_Column(matrix, j);
     if (j >= nq) {
-      column[j - nq] = 1;
+      column[j - nq] = 1.0;
     }
     status = difference(problem, t, moved, j, a, column + nq);
   }
@@ -140,7 +140,7 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
   return 0;
 }
 
-/* ---- one step ---- */
+/* ---- in and out ---- */
 
 static void load(cvode_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
@@ -160,27 +160,9 @@ static void unload(const baum_i_problem *problem, N_Vector from, double *q, doub
 
 static baum_status fail(const cvode_run *run, int flag)
 {
-  double step = 0;
+  double step = 0.0;
   (void)CVodeGetCurrentStep(run->cvode, &step);
   return baum_i_sundials_fail(&run->sundials, FLAGS, flag, step);
-}
-
-static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
-{
-  cvode_run *run = self;
-  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
-  double t = state->t;
-  double target = baum_i_sundials_target(problem, t);
-  int flag = CVode(run->cvode, target, run->y, &t, CV_ONE_STEP);
-  if (flag < 0) {
-    return fail(run, flag);
-  }
-  baum_status status = baum_i_sundials_check_progress(&run->sundials, t);
-  if (status == BAUM_OK) {
-    state->t = t;
-    unload(problem, run->y, state->q, state->v);
-  }
-  return status;
 }
 
 static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
@@ -220,7 +202,33 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   baum_i_sundials_begin(&run->sundials, problem, state->t);
   load(run, problem, state);
   int flag = CVodeReInit(run->cvode, state->t, run->y);
-  return flag < 0 ? fail(run, flag) : BAUM_OK;
+  run->sundials.unfinished = flag != CV_SUCCESS;
+  return flag == CV_SUCCESS ? BAUM_OK : fail(run, flag);
+}
+
+/* ---- one step ---- */
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  cvode_run *run = self;
+  baum_status status = run->sundials.unfinished ? restart(self, problem, state) : BAUM_OK;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
+  double t = state->t;
+  double target = baum_i_sundials_target(problem, t);
+  int flag = CVode(run->cvode, target, run->y, &t, CV_ONE_STEP);
+  if (flag < 0) {
+    return fail(run, flag);
+  }
+  status = baum_i_sundials_check_progress(&run->sundials, t);
+  if (status == BAUM_OK) {
+    run->sundials.unfinished = false;
+    state->t = t;
+    unload(problem, run->y, state->q, state->v);
+  }
+  return status;
 }
 
 /* ---- life ---- */
@@ -300,6 +308,7 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   baum_i_sundials_begin(&run->sundials, problem, start->t);
   load(run, problem, start);
   int flag = start_cvode(run, method, start->t);
+  run->sundials.unfinished = flag != CV_SUCCESS;
   return flag == CV_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }
 

@@ -32,7 +32,7 @@ static const baum_integrator EULER = {
   .order = 1,
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEADBEAT,
-  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1, 1}},
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, 1.0}},
   .predicts_violation = true,
   .step = take_step,
 };

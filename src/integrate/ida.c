@@ -119,7 +119,7 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
   return 0;
 }
 
-/* ---- one step ---- */
+/* ---- in and out ---- */
 
 static void begin(ida_run *run, const baum_i_problem *problem, double t)
 {
@@ -127,8 +127,8 @@ static void begin(ida_run *run, const baum_i_problem *problem, double t)
   bool index3 = problem->formulation == BAUM_FORMULATION_INDEX3;
   bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
   run->dae.index = index3 ? BAUM_RESIDUAL_INDEX3 : BAUM_RESIDUAL_INDEX1;
-  run->dae.alpha = gains ? problem->direction * problem->alpha : 0;
-  run->dae.beta = gains ? problem->beta : 0;
+  run->dae.alpha = gains ? problem->direction * problem->alpha : 0.0;
+  run->dae.beta = gains ? problem->beta : 0.0;
 }
 
 static void unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
@@ -141,27 +141,9 @@ static void unload(const baum_i_problem *problem, N_Vector from, double *q, doub
 
 static baum_status fail(const ida_run *run, int flag)
 {
-  double step = 0;
+  double step = 0.0;
   (void)IDAGetCurrentStep(run->ida, &step);
   return baum_i_sundials_fail(&run->sundials, FLAGS, flag, step);
-}
-
-static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
-{
-  ida_run *run = self;
-  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
-  double t = state->t;
-  double target = baum_i_sundials_target(problem, t);
-  int flag = IDASolve(run->ida, target, &t, run->y, run->dy, IDA_ONE_STEP);
-  if (flag < 0) {
-    return fail(run, flag);
-  }
-  baum_status status = baum_i_sundials_check_progress(&run->sundials, t);
-  if (status == BAUM_OK) {
-    state->t = t;
-    unload(problem, run->y, state->q, state->v);
-  }
-  return status;
 }
 
 static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
@@ -227,7 +209,7 @@ static int give_first_step(ida_run *run)
   const double *v = N_VGetArrayPointer(run->y) + mechanism->nq;
   const double *a = N_VGetArrayPointer(run->dy) + mechanism->nq;
   double rate = fmax(problem->rate, baum_i_state_rate(mechanism, v, a));
-  return IDASetInitStep(run->ida, problem->direction * sqrt(problem->rtol / 2) / rate);
+  return IDASetInitStep(run->ida, problem->direction * sqrt(problem->rtol / 2.0) / rate);
 }
 
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
@@ -245,7 +227,33 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   if (flag == IDA_SUCCESS) {
     flag = give_first_step(run);
   }
+  run->sundials.unfinished = flag != IDA_SUCCESS;
   return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag);
+}
+
+/* ---- one step ---- */
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  ida_run *run = self;
+  baum_status status = run->sundials.unfinished ? restart(self, problem, state) : BAUM_OK;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
+  double t = state->t;
+  double target = baum_i_sundials_target(problem, t);
+  int flag = IDASolve(run->ida, target, &t, run->y, run->dy, IDA_ONE_STEP);
+  if (flag < 0) {
+    return fail(run, flag);
+  }
+  status = baum_i_sundials_check_progress(&run->sundials, t);
+  if (status == BAUM_OK) {
+    run->sundials.unfinished = false;
+    state->t = t;
+    unload(problem, run->y, state->q, state->v);
+  }
+  return status;
 }
 
 /* ---- life ---- */
@@ -285,7 +293,7 @@ static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
   double *id = N_VGetArrayPointer(run->tested);
   int n = mechanism->nq + mechanism->nv + mechanism->nc;
   for (int i = 0; i < n; i++) {
-    id[i] = i < tested ? 1 : 0;
+    id[i] = i < tested ? 1.0 : 0.0;
   }
 }
 
@@ -362,6 +370,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
   }
   choose_tested(run, mechanism);
   int flag = start_ida(run, start->t);
+  run->sundials.unfinished = flag != IDA_SUCCESS;
   return flag == IDA_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }
 

@@ -66,7 +66,7 @@ baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t,
                                         const double *v)
 {
   if (problem->formulation != BAUM_FORMULATION_BAUMGARTE) {
-    return baum_i_acceleration(problem->workspace, t, q, v, 0, 0);
+    return baum_i_acceleration(problem->workspace, t, q, v, 0.0, 0.0);
   }
   double alpha = problem->direction * problem->alpha;
   return baum_i_acceleration(problem->workspace, t, q, v, alpha, problem->beta);

@@ -60,7 +60,7 @@ struct baum_integrator {
 
   /* Variable step; NULL for fixed step. */
   /* One step of its own length in problem->direction; state receives its end. On failure the state is that of the
-   * last good step and the method can only be restarted. */
+   * last good step, from which the next call begins anew. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,

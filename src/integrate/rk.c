@@ -38,7 +38,7 @@ static void combine(const rk_run *run, int count, const double *weights, const d
 {
   int nv = run->nv;
   for (int i = 0; i < nv; i++) {
-    double sum = 0;
+    double sum = 0.0;
     for (int j = 0; j < count; j++) {
       sum += weights[j] * rates[(size_t)j * nv + i];
     }

@@ -9,9 +9,9 @@
  */
 #include "integrate/rk.h"
 
-static const double C[] = {0, 1.0 / 2};
-static const double A[] = {1.0 / 2};
-static const double B[] = {0, 1};
+static const double C[] = {0.0, 1.0 / 2.0};
+static const double A[] = {1.0 / 2.0};
+static const double B[] = {0.0, 1.0};
 
 static const baum_i_rk_table TABLE = {.stages = 2, .c = C, .a = A, .b = B};
 
@@ -26,7 +26,7 @@ static const baum_integrator INTEGRATOR = {
   .order = 2,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
-  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 2, .coefficients = {1, 1, 1.0 / 2}},
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 2, .coefficients = {1.0, 1.0, 1.0 / 2.0}},
   .create = create,
   .destroy = baum_i_rk_destroy,
   .step = baum_i_rk_step,

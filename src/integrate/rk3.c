@@ -10,9 +10,9 @@
  */
 #include "integrate/rk.h"
 
-static const double C[] = {0, 1.0 / 2, 1};
-static const double A[] = {1.0 / 2, -1, 2};
-static const double B[] = {1.0 / 6, 2.0 / 3, 1.0 / 6};
+static const double C[] = {0.0, 1.0 / 2.0, 1.0};
+static const double A[] = {1.0 / 2.0, -1.0, 2.0};
+static const double B[] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 
 static const baum_i_rk_table TABLE = {.stages = 3, .c = C, .a = A, .b = B};
 
@@ -27,7 +27,9 @@ static const baum_integrator INTEGRATOR = {
   .order = 3,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
-  .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 3, .coefficients = {1, 1, 1.0 / 2, 1.0 / 6}},
+  .method = {.kind = BAUM_I_METHOD_ONE_STEP,
+             .degree = 3,
+             .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0}},
   .create = create,
   .destroy = baum_i_rk_destroy,
   .step = baum_i_rk_step,

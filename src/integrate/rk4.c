@@ -11,9 +11,9 @@
  */
 #include "integrate/rk.h"
 
-static const double C[] = {0, 1.0 / 2, 1.0 / 2, 1};
-static const double A[] = {1.0 / 2, 0, 1.0 / 2, 0, 0, 1};
-static const double B[] = {1.0 / 6, 1.0 / 3, 1.0 / 3, 1.0 / 6};
+static const double C[] = {0.0, 1.0 / 2.0, 1.0 / 2.0, 1.0};
+static const double A[] = {1.0 / 2.0, 0.0, 1.0 / 2.0, 0.0, 0.0, 1.0};
+static const double B[] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
 
 static const baum_i_rk_table TABLE = {.stages = 4, .c = C, .a = A, .b = B};
 
@@ -30,7 +30,7 @@ static const baum_integrator INTEGRATOR = {
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 4,
-             .coefficients = {1, 1, 1.0 / 2, 1.0 / 6, 1.0 / 24}},
+             .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}},
   .create = create,
   .destroy = baum_i_rk_destroy,
   .step = baum_i_rk_step,

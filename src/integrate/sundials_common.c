@@ -79,6 +79,7 @@ void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *prob
 {
   sundials->problem = problem;
   sundials->t = t;
+  sundials->unfinished = true;
   sundials->stopped = false;
   sundials->evaluation = BAUM_OK;
   sundials->complaint[0] = '\0';
@@ -160,7 +161,7 @@ baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double
 
 double baum_i_sundials_target(const baum_i_problem *problem, double t)
 {
-  return t + problem->direction * 10 / problem->rate;
+  return t + problem->direction * 10.0 / problem->rate;
 }
 
 void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights)
@@ -168,7 +169,7 @@ void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, dou
   const baum_mechanism *mechanism = problem->workspace->mechanism;
   baum_i_problem_tolerances(problem, v, weights, weights + mechanism->nq);
   for (int i = 0; i < mechanism->nq + mechanism->nv; i++) {
-    weights[i] = 1 / weights[i];
+    weights[i] = 1.0 / weights[i];
   }
 }
 

@@ -21,12 +21,13 @@ enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256 };
 typedef struct baum_i_sundials {
   const char *integrator; /* name in messages */
   SUNContext context;
-  const baum_i_problem *problem;      /* of the call under way */
-  bool stopped;                       /* an evaluation of this call failed for good */
-  baum_status evaluation;             /* the last failing one here and now, or BAUM_OK */
-  double t;                           /* start of the step under way */
-  double evaluated_at;                /* start of the step in which that evaluation failed */
-  char sentence[BAUM_I_MESSAGE_SIZE]; /* of that evaluation */
+  const baum_i_problem *problem; /* of the call under way */
+  bool unfinished;               /* since begin: a start or step that failed must be begun anew */
+  bool stopped;                  /* an evaluation of this call failed for good */
+  baum_status evaluation;        /* the last failing one here and now, or BAUM_OK */
+  double t;                      /* start of the step under way */
+  double evaluated_at;           /* start of the step in which that evaluation failed */
+  char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
 } baum_i_sundials;
 
@@ -41,7 +42,7 @@ typedef struct baum_i_sundials_flag {
 baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* Before a start at t; before a step from t. */
+/* Before a start at t; before a step from t. Clear `unfinished` after success. */
 void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
 void baum_i_sundials_begin_step(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
 

@@ -445,6 +445,32 @@ static void a_restart_begins_anew_after_a_failure_and_backwards(void **state)
   for_each(begin_anew);
 }
 
+/* The next step after a failure goes on from the last good one. */
+static void go_on(const baum_integrator *integrator, baum_formulation formulation)
+{
+  force_fault fault = {.after = 0.7, .answer = -1};
+  baum_mechanism *mechanism = make_faulty_pendulum(&fault);
+  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_run run;
+  double q[2];
+  double v[2];
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
+  fault.after = INFINITY;
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
+  pendulum_motion(1.0, q, v);
+  assert_true(motion_error(2, run.q, run.v, q, v, 4.43) <= allowed(&setup));
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void a_run_goes_on_when_what_failed_is_mended(void **state)
+{
+  (void)state;
+  for_each(go_on);
+}
+
 /* Inside the last step and at its ends; outside it is refused. */
 static void look_inside(const baum_integrator *integrator, baum_formulation formulation)
 {
@@ -583,6 +609,7 @@ int main(void)
     cmocka_unit_test(a_failing_function_leaves_the_last_good_step),
     cmocka_unit_test(a_function_that_stops_is_left_alone),
     cmocka_unit_test(a_restart_begins_anew_after_a_failure_and_backwards),
+    cmocka_unit_test(a_run_goes_on_when_what_failed_is_mended),
     cmocka_unit_test(positions_inside_the_last_step_are_interpolated),
     cmocka_unit_test(too_small_tolerances_are_an_error_of_the_step),
     cmocka_unit_test(fixed_step_methods_have_their_order),
