@@ -1,0 +1,329 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Permanent redundancy: found, named, harmless. Contradictions: found, named, refused. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "dynamics/dynamics.h"
+#include "models.h"
+
+/* ---- mechanisms ---- */
+
+static baum_body_id add_link(baum_mechanism *m, const char *name, double x, double y, double angle)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.name = name;
+  def.mass = 2.0;
+  def.inertia = 0.3;
+  def.position[0] = x;
+  def.position[1] = y;
+  def.angle = angle;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &def, &id), BAUM_OK);
+  return id;
+}
+
+static baum_joint_id add_pin(baum_mechanism *m, const char *name, baum_body_id a, baum_body_id b,
+                             double x, double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  baum_joint_id id;
+  def.name = name;
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, &id), BAUM_OK);
+  return id;
+}
+
+/* Physical pendulum; its pin a number of times. */
+static baum_mechanism *pendulum_with_pins(int pins)
+{
+  static const char *const names[3] = {"pin", "pin again", "pin once more"};
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_body_id link = add_link(m, "link", 0.5, 0.2, 0.3);
+  for (int k = 0; k < pins; k++) {
+    (void)add_pin(m, names[k], BAUM_GROUND, link, 0.0, 0.0);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* Cranks of length 1 at x = 0, 1, 2, ... leaning by angle, joined by one coupler. */
+static baum_mechanism *parallelogram(int cranks, double angle)
+{
+  static const char *const names[3] = {"first", "second", "third"};
+  static const char *const feet[3] = {"foot 1", "foot 2", "foot 3"};
+  static const char *const heads[3] = {"head 1", "head 2", "head 3"};
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  double c = cos(angle);
+  double s = sin(angle);
+  baum_body_id coupler = add_link(m, "coupler", 1.0 + c, s, 0.0);
+  for (int k = 0; k < cranks; k++) {
+    baum_body_id crank = add_link(m, names[k], k + 0.5 * c, 0.5 * s, angle);
+    (void)add_pin(m, feet[k], BAUM_GROUND, crank, k, 0.0);
+    (void)add_pin(m, heads[k], crank, coupler, k + c, s);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* Accelerations and multipliers at the drawn pose with velocities v (nv). */
+static void solve(const baum_mechanism *m, const double *v, double *a, double *lambda)
+{
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  assert_int_equal(baum_i_find_redundancy(w, 0.0, m->drawn_q), BAUM_OK);
+  assert_int_equal(baum_workspace_acceleration(w, 0.0, m->drawn_q, v, 0.0, 0.0, a, lambda),
+                   BAUM_OK);
+  baum_workspace_destroy(w);
+}
+
+/* ---- redundant ---- */
+
+static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state)
+{
+  (void)state;
+  baum_mechanism *once = pendulum_with_pins(1);
+  baum_mechanism *twice = pendulum_with_pins(2);
+  const double v[3] = {-0.2 * 1.5, 0.5 * 1.5, 1.5};
+  double want[3];
+  double got[3];
+  double force[2];
+  double shared[4];
+  solve(once, v, want, force);
+  solve(twice, v, got, shared);
+  for (int i = 0; i < 3; i++) {
+    ASSERT_NEAR(got[i], want[i], 1e-13, 1e-13);
+  }
+  for (int i = 0; i < 2; i++) { /* of all ways to share the force, half and half is the least */
+    ASSERT_NEAR(shared[i], 0.5 * force[i], 1e-12, 1e-12);
+    ASSERT_NEAR(shared[i + 2], 0.5 * force[i], 1e-12, 1e-12);
+  }
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(twice, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.redundant_rows, 2);
+  assert_int_equal(mobility.conflicting_rows, 0);
+  assert_non_null(strstr(mobility.text, "\"pin\", \"pin again\""));
+  baum_mechanism_destroy(once);
+  baum_mechanism_destroy(twice);
+}
+
+static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_named(void **state)
+{
+  (void)state;
+  const double angle = 1.1;
+  const double w = 2.0;
+  baum_mechanism *three = parallelogram(3, angle);
+  double v[12] = {-w * sin(angle), w * cos(angle), 0.0};
+  for (int k = 0; k < 3; k++) {
+    v[3 + 3 * k] = -0.5 * w * sin(angle);
+    v[4 + 3 * k] = 0.5 * w * cos(angle);
+    v[5 + 3 * k] = w;
+  }
+  double a[12];
+  double lambda[12];
+  solve(three, v, a, lambda);
+  /* One freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J = 0.3, length 1. */
+  double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
+  for (int k = 0; k < 3; k++) {
+    ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
+  }
+  ASSERT_NEAR(a[2], 0.0, 0.0, 1e-12);
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(three, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.redundant_rows, 1);
+  assert_false(mobility.near_singular);
+  assert_non_null(strstr(mobility.text, "1 redundant row"));
+  assert_non_null(strstr(mobility.text, "\"foot 3\""));
+  assert_non_null(strstr(mobility.text, "\"head 1\""));
+  baum_mechanism_destroy(three);
+}
+
+static void multipliers_of_least_norm_still_balance_the_forces(void **state)
+{
+  (void)state;
+  baum_mechanism *m = parallelogram(3, 0.7);
+  double v[12] = {0};
+  double a[12];
+  double lambda[12];
+  solve(m, v, a, lambda);
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  double mass[144];
+  double jacobian[144];
+  double force[12];
+  assert_int_equal(baum_workspace_mass(w, 0.0, m->drawn_q, mass), BAUM_OK);
+  assert_int_equal(baum_workspace_jacobian(w, 0.0, m->drawn_q, jacobian), BAUM_OK);
+  assert_int_equal(baum_workspace_force(w, 0.0, m->drawn_q, v, force), BAUM_OK);
+  for (int i = 0; i < 12; i++) {
+    double sum = -force[i];
+    for (int j = 0; j < 12; j++) {
+      sum += mass[12 * i + j] * a[j] + jacobian[12 * j + i] * lambda[j];
+    }
+    ASSERT_NEAR(sum, 0.0, 0.0, 1e-12); /* rounding of forces of 20 N */
+  }
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
+static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
+{
+  (void)state;
+  baum_mechanism *m = parallelogram(2, 0.0);
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.redundant_rows, 0);
+  assert_true(mobility.near_singular);
+  assert_non_null(strstr(mobility.text, "start pose is singular"));
+  baum_mechanism_destroy(m);
+}
+
+static void the_rank_does_not_depend_on_the_unit_of_length(void **state)
+{
+  (void)state;
+  for (int k = -6; k <= 6; k += 3) {
+    double unit = pow(10.0, k);
+    baum_mechanism *m = NULL;
+    assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+    baum_planar_body_def def = baum_planar_body_def_default();
+    def.mass = 3.0;
+    def.inertia = 0.2 * unit * unit;
+    def.position[0] = 0.4 * unit;
+    baum_body_id link;
+    assert_int_equal(baum_mechanism_add_planar_body(m, &def, &link), BAUM_OK);
+    (void)add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+    (void)add_pin(m, "double", BAUM_GROUND, link, 0.0, 0.0);
+    assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+    baum_mobility mobility;
+    assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
+    assert_int_equal(mobility.freedoms, 1);
+    assert_int_equal(mobility.redundant_rows, 2);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static void a_body_without_a_joint_is_named(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_body_id link = add_link(m, "link", 1.0, 0.0, 0.0);
+  (void)add_link(m, "stray", 2.0, 2.0, 0.0);
+  (void)add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.freedoms, 4);
+  assert_int_equal(mobility.free_bodies, 1);
+  assert_non_null(strstr(mobility.text, "\"stray\""));
+  baum_mechanism_destroy(m);
+}
+
+/* ---- contradicting ---- */
+
+static baum_mechanism *contradicting_rods(void)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_body_id body;
+  bob.name = "bob";
+  bob.position[0] = 1.0;
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = body;
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  rod.name = "short";
+  rod.length = 1.0;
+  assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
+  rod.name = "long";
+  rod.length = 1.1;
+  assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static void two_contradicting_rods_are_named_and_refused(void **state)
+{
+  (void)state;
+  baum_mechanism *m = contradicting_rods();
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.conflicting_rows, 2);
+  assert_non_null(strstr(mobility.text, "\"short\""));
+  assert_non_null(strstr(mobility.text, "\"long\""));
+
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  baum_simulation *s = (baum_simulation *)&o;
+  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_ERR_INCONSISTENT);
+  assert_null(s);
+  assert_non_null(strstr(baum_message(), "\"short\""));
+  assert_non_null(strstr(baum_message(), "\"long\""));
+  baum_mechanism_destroy(m);
+}
+
+static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void **state)
+{
+  (void)state;
+  baum_mechanism *m = parallelogram(3, 1.1);
+  const baum_integrator *integrators[] = {baum_rk4(), baum_semi_implicit_euler(),
+                                          baum_cvode_adams(), baum_ida()};
+  double angle[4];
+  for (int k = 0; k < 4; k++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    baum_simulation *s = NULL;
+    char text[320];
+    o.integrator = integrators[k];
+    if (baum_integrator_has_fixed_step(o.integrator)) {
+      o.step = k == 0 ? 1e-3 : 1e-5;
+    } else {
+      o.rtol = 1e-9;
+    }
+    if (k >= 2 && !baum_has("sundials")) {
+      angle[k] = angle[0];
+      continue;
+    }
+    assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(s, 0.3), BAUM_WARNED);
+    assert_int_equal(baum_simulation_warning(s, 0, text, sizeof text), BAUM_OK);
+    assert_non_null(strstr(text, "redundant"));
+    assert_non_null(strstr(text, "\"foot 1\""));
+    angle[k] = baum_simulation_q(s)[5];
+    baum_simulation_destroy(s);
+  }
+  ASSERT_NEAR(angle[1], angle[0], 0.0, 1e-4); /* first order, h = 1e-5, rate 5 1/s */
+  ASSERT_NEAR(angle[2], angle[0], 0.0, 1e-7); /* rtol 1e-9 */
+  ASSERT_NEAR(angle[3], angle[0], 0.0, 1e-6); /* rtol 1e-9, IDA's error above its tolerance */
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_duplicated_joint_changes_no_acceleration_and_is_named),
+    cmocka_unit_test(a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_named),
+    cmocka_unit_test(multipliers_of_least_norm_still_balance_the_forces),
+    cmocka_unit_test(a_flat_parallelogram_is_singular_and_not_redundant),
+    cmocka_unit_test(the_rank_does_not_depend_on_the_unit_of_length),
+    cmocka_unit_test(a_body_without_a_joint_is_named),
+    cmocka_unit_test(two_contradicting_rods_are_named_and_refused),
+    cmocka_unit_test(a_redundant_mechanism_runs_with_a_warning_that_names_its_joints),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
