@@ -104,8 +104,9 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
 
 /** Which equations baum_workspace_residual() evaluates. */
 typedef enum baum_residual {
-  BAUM_RESIDUAL_INDEX1 = 1, /**< q' - v, M v' + J^T lambda - g, J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
-  BAUM_RESIDUAL_INDEX3 = 3  /**< q' - v, M v' + J^T lambda - g, Phi. */
+  BAUM_RESIDUAL_INDEX1 =
+    1, /**< q' - v, M v' + J^T lambda - g, J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
+  BAUM_RESIDUAL_INDEX3 = 3 /**< q' - v, M v' + J^T lambda - g, Phi. */
 } baum_residual;
 
 /** Which equations, and their gains. */

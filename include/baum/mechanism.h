@@ -80,20 +80,22 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 
 /** Generalized coordinates with mass and force given by functions. q' = v. */
 typedef struct baum_coordinates_def {
-  size_t struct_size;   /**< Set by the default. Do not write. */
-  const char *name;     /**< Label in messages. Copied. Default: NULL, "body<k>". */
-  int32_t size;         /**< [-] > 0, number of coordinates. Default: 0, must be set. */
-  const double *q;      /**< (size) drawn positions. Copied. Default: NULL, zeros. */
-  const double *v;      /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
-  const double *scale;  /**< (size) > 0, a relevant change of each coordinate. Copied. Default: NULL, ones. */
-  baum_q_fn *mass;      /**< out (size x size), symmetric. Default: NULL, must be set. */
-  baum_force_fn *force; /**< out (size), applied and velocity terms g. Default: NULL, must be set. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
+  int32_t size;       /**< [-] > 0, number of coordinates. Default: 0, must be set. */
+  const double *q;    /**< (size) drawn positions. Copied. Default: NULL, zeros. */
+  const double *v; /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
+  const double
+    *scale; /**< (size) > 0, a relevant change of each coordinate. Copied. Default: NULL, ones. */
+  baum_q_fn *mass; /**< out (size x size), symmetric. Default: NULL, must be set. */
+  baum_force_fn
+    *force; /**< out (size), applied and velocity terms g. Default: NULL, must be set. */
   baum_force_fn *force_q; /**< out (size x size), dg/dq. Default: NULL, by differences. */
   baum_force_fn *force_v; /**< out (size x size), dg/dv. Default: NULL, by differences. */
-  baum_q_fn *potential; /**< out (1) [J]. Default: NULL, none. */
-  bool constant_mass;   /**< mass() depends on nothing. Default: false. */
-  bool held;            /**< Assembly keeps the drawn positions. Default: false. */
-  void *user;           /**< Passed to the functions, not owned. Default: NULL. */
+  baum_q_fn *potential;   /**< out (1) [J]. Default: NULL, none. */
+  bool constant_mass;     /**< mass() depends on nothing. Default: false. */
+  bool held;              /**< Assembly keeps the drawn positions. Default: false. */
+  void *user;             /**< Passed to the functions, not owned. Default: NULL. */
 } baum_coordinates_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -139,16 +141,17 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /** Constraints Phi(q, t) = 0 over the coordinates of the named bodies. Only phi is required. nv below is the
  *  number of velocities of the named bodies together. */
 typedef struct baum_user_constraint_def {
-  size_t struct_size;         /**< Set by the default. Do not write. */
-  const char *name;           /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  const baum_body_id *bodies; /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
-  int32_t body_count;         /**< [-] > 0. Default: 0, must be set. */
-  int32_t row_count;          /**< [-] > 0. Default: 0, must be set. */
-  baum_q_fn *phi;             /**< out (row_count). Default: NULL, must be set. */
-  baum_q_fn *jacobian;        /**< out (row_count x nv), J. Default: NULL, differences of phi. */
-  baum_q_fn *nu;              /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
-  baum_qv_fn *gamma;          /**< out (row_count), right side of (4). Default: NULL, differences. */
-  void *user;                 /**< Passed to the functions, not owned. Default: NULL. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  const baum_body_id
+    *bodies;           /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
+  int32_t body_count;  /**< [-] > 0. Default: 0, must be set. */
+  int32_t row_count;   /**< [-] > 0. Default: 0, must be set. */
+  baum_q_fn *phi;      /**< out (row_count). Default: NULL, must be set. */
+  baum_q_fn *jacobian; /**< out (row_count x nv), J. Default: NULL, differences of phi. */
+  baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
+  baum_qv_fn *gamma;   /**< out (row_count), right side of (4). Default: NULL, differences. */
+  void *user;          /**< Passed to the functions, not owned. Default: NULL. */
 } baum_user_constraint_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -246,15 +249,16 @@ BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_j
 
 /** Generalized force on the named bodies. nv below is the number of their velocities together. */
 typedef struct baum_user_force_def {
-  size_t struct_size;         /**< Set by the default. Do not write. */
-  const char *name;           /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  const baum_body_id *bodies; /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
-  int32_t body_count;         /**< [-] > 0. Default: 0, must be set. */
-  baum_force_fn *force;       /**< out (nv). Default: NULL, must be set. */
-  baum_force_fn *force_q;     /**< out (nv x nv). Default: NULL, by differences. */
-  baum_force_fn *force_v;     /**< out (nv x nv). Default: NULL, by differences. */
-  baum_q_fn *potential;       /**< out (1) [J]. Default: NULL, none. */
-  void *user;                 /**< Passed to the functions, not owned. Default: NULL. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  const baum_body_id
+    *bodies;              /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
+  int32_t body_count;     /**< [-] > 0. Default: 0, must be set. */
+  baum_force_fn *force;   /**< out (nv). Default: NULL, must be set. */
+  baum_force_fn *force_q; /**< out (nv x nv). Default: NULL, by differences. */
+  baum_force_fn *force_v; /**< out (nv x nv). Default: NULL, by differences. */
+  baum_q_fn *potential;   /**< out (1) [J]. Default: NULL, none. */
+  void *user;             /**< Passed to the functions, not owned. Default: NULL. */
 } baum_user_force_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

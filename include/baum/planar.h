@@ -59,19 +59,21 @@ static inline baum_planar_body_def baum_planar_body_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_body(baum_mechanism *mechanism,
-  const baum_planar_body_def *def, baum_body_id *id);
+                                                    const baum_planar_body_def *def,
+                                                    baum_body_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_body(const baum_mechanism *mechanism,
-  baum_body_id id, baum_planar_body_def *out, size_t caller_size);
+                                                    baum_body_id id, baum_planar_body_def *out,
+                                                    size_t caller_size);
 
 /** Replace a definition.
  *  @return as baum_mechanism_add_planar_body()
  */
 BAUM_API baum_status baum_mechanism_set_planar_body(baum_mechanism *mechanism, baum_body_id id,
-  const baum_planar_body_def *def);
+                                                    const baum_planar_body_def *def);
 
 /* ---- particle in the plane ---------------------------------------------------------------------- */
 
@@ -107,19 +109,22 @@ static inline baum_planar_particle_def baum_planar_particle_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_particle(baum_mechanism *mechanism,
-  const baum_planar_particle_def *def, baum_body_id *id);
+                                                        const baum_planar_particle_def *def,
+                                                        baum_body_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_particle(const baum_mechanism *mechanism,
-  baum_body_id id, baum_planar_particle_def *out, size_t caller_size);
+                                                        baum_body_id id,
+                                                        baum_planar_particle_def *out,
+                                                        size_t caller_size);
 
 /** Replace a definition.
  *  @return as baum_mechanism_add_planar_particle()
  */
 BAUM_API baum_status baum_mechanism_set_planar_particle(baum_mechanism *mechanism, baum_body_id id,
-  const baum_planar_particle_def *def);
+                                                        const baum_planar_particle_def *def);
 
 /* ---- revolute joint (pin) ----------------------------------------------------------------------- */
 
@@ -156,19 +161,22 @@ static inline baum_planar_revolute_def baum_planar_revolute_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_revolute(baum_mechanism *mechanism,
-  const baum_planar_revolute_def *def, baum_joint_id *id);
+                                                        const baum_planar_revolute_def *def,
+                                                        baum_joint_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_revolute(const baum_mechanism *mechanism,
-  baum_joint_id id, baum_planar_revolute_def *out, size_t caller_size);
+                                                        baum_joint_id id,
+                                                        baum_planar_revolute_def *out,
+                                                        size_t caller_size);
 
 /** Replace a definition; the bodies must stay.
  *  @return as baum_mechanism_add_planar_revolute()
  */
 BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanism, baum_joint_id id,
-  const baum_planar_revolute_def *def);
+                                                        const baum_planar_revolute_def *def);
 
 /* ---- translational joint (slider) --------------------------------------------------------------- */
 
@@ -182,15 +190,17 @@ typedef struct baum_planar_translational_def {
   double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double axis[2];      /**< [-] not zero; axes as the points: ground with `point`, else body_a. Default: (1, 0). */
-  double angle;        /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
+  double axis
+    [2]; /**< [-] not zero; axes as the points: ground with `point`, else body_a. Default: (1, 0). */
+  double angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
 } baum_planar_translational_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
  *  @param[out] def          NULL is ignored
  *  @param      caller_size  sizeof *def
  */
-BAUM_API void baum_planar_translational_def_init(baum_planar_translational_def *def, size_t caller_size);
+BAUM_API void baum_planar_translational_def_init(baum_planar_translational_def *def,
+                                                 size_t caller_size);
 
 /** The default definition of a translational joint (slider). */
 static inline baum_planar_translational_def baum_planar_translational_def_default(void)
@@ -207,20 +217,22 @@ static inline baum_planar_translational_def baum_planar_translational_def_defaul
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
  *              unchanged on failure
  */
-BAUM_API baum_status baum_mechanism_add_planar_translational(baum_mechanism *mechanism,
-  const baum_planar_translational_def *def, baum_joint_id *id);
+BAUM_API baum_status baum_mechanism_add_planar_translational(
+  baum_mechanism *mechanism, const baum_planar_translational_def *def, baum_joint_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_translational(const baum_mechanism *mechanism,
-  baum_joint_id id, baum_planar_translational_def *out, size_t caller_size);
+                                                             baum_joint_id id,
+                                                             baum_planar_translational_def *out,
+                                                             size_t caller_size);
 
 /** Replace a definition; the bodies must stay.
  *  @return as baum_mechanism_add_planar_translational()
  */
-BAUM_API baum_status baum_mechanism_set_planar_translational(baum_mechanism *mechanism, baum_joint_id id,
-  const baum_planar_translational_def *def);
+BAUM_API baum_status baum_mechanism_set_planar_translational(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_planar_translational_def *def);
 
 /* ---- distance joint (massless rod) -------------------------------------------------------------- */
 
@@ -259,19 +271,22 @@ static inline baum_planar_distance_def baum_planar_distance_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_distance(baum_mechanism *mechanism,
-  const baum_planar_distance_def *def, baum_joint_id *id);
+                                                        const baum_planar_distance_def *def,
+                                                        baum_joint_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_distance(const baum_mechanism *mechanism,
-  baum_joint_id id, baum_planar_distance_def *out, size_t caller_size);
+                                                        baum_joint_id id,
+                                                        baum_planar_distance_def *out,
+                                                        size_t caller_size);
 
 /** Replace a definition; the bodies must stay.
  *  @return as baum_mechanism_add_planar_distance()
  */
 BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanism, baum_joint_id id,
-  const baum_planar_distance_def *def);
+                                                        const baum_planar_distance_def *def);
 
 /* ---- fixed joint (weld) ------------------------------------------------------------------------- */
 
@@ -284,7 +299,7 @@ typedef struct baum_planar_fixed_def {
   double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double angle;        /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
+  double angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
 } baum_planar_fixed_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -309,19 +324,21 @@ static inline baum_planar_fixed_def baum_planar_fixed_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_fixed(baum_mechanism *mechanism,
-  const baum_planar_fixed_def *def, baum_joint_id *id);
+                                                     const baum_planar_fixed_def *def,
+                                                     baum_joint_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_fixed(const baum_mechanism *mechanism,
-  baum_joint_id id, baum_planar_fixed_def *out, size_t caller_size);
+                                                     baum_joint_id id, baum_planar_fixed_def *out,
+                                                     size_t caller_size);
 
 /** Replace a definition; the bodies must stay.
  *  @return as baum_mechanism_add_planar_fixed()
  */
 BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, baum_joint_id id,
-  const baum_planar_fixed_def *def);
+                                                     const baum_planar_fixed_def *def);
 
 /* ---- spring-damper between two points ----------------------------------------------------------- */
 
@@ -362,19 +379,21 @@ static inline baum_planar_spring_def baum_planar_spring_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_spring(baum_mechanism *mechanism,
-  const baum_planar_spring_def *def, baum_force_id *id);
+                                                      const baum_planar_spring_def *def,
+                                                      baum_force_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_spring(const baum_mechanism *mechanism,
-  baum_force_id id, baum_planar_spring_def *out, size_t caller_size);
+                                                      baum_force_id id, baum_planar_spring_def *out,
+                                                      size_t caller_size);
 
 /** Replace a definition; the bodies must stay.
  *  @return as baum_mechanism_add_planar_spring()
  */
 BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism, baum_force_id id,
-  const baum_planar_spring_def *def);
+                                                      const baum_planar_spring_def *def);
 
 /* ---- constant load ------------------------------------------------------------------------------ */
 
@@ -412,19 +431,21 @@ static inline baum_planar_load_def baum_planar_load_def_default(void)
  *              unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_load(baum_mechanism *mechanism,
-  const baum_planar_load_def *def, baum_force_id *id);
+                                                    const baum_planar_load_def *def,
+                                                    baum_force_id *id);
 
 /** Read a definition back; its name stays owned by the mechanism.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_load(const baum_mechanism *mechanism,
-  baum_force_id id, baum_planar_load_def *out, size_t caller_size);
+                                                    baum_force_id id, baum_planar_load_def *out,
+                                                    size_t caller_size);
 
 /** Replace a definition; the body must stay.
  *  @return as baum_mechanism_add_planar_load()
  */
 BAUM_API baum_status baum_mechanism_set_planar_load(baum_mechanism *mechanism, baum_force_id id,
-  const baum_planar_load_def *def);
+                                                    const baum_planar_load_def *def);
 
 #ifdef __cplusplus
 }

@@ -76,9 +76,10 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 
 /** What to do with the drawn pose. */
 typedef enum baum_start {
-  BAUM_START_ASSEMBLE = 0, /**< Assemble; refuse displacements above a quarter of the length scale. */
-  BAUM_START_EXACT = 1,    /**< Refuse a pose or velocities that do not fulfil the constraints. */
-  BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero. */
+  BAUM_START_ASSEMBLE =
+    0,                  /**< Assemble; refuse displacements above a quarter of the length scale. */
+  BAUM_START_EXACT = 1, /**< Refuse a pose or velocities that do not fulfil the constraints. */
+  BAUM_START_AS_GIVEN = 2 /**< Take them as they are, free velocities zero. */
 } baum_start;
 
 /** Which solver of the equations (7) is used. */
@@ -99,18 +100,18 @@ typedef struct baum_simulation_options {
   const baum_integrator *integrator; /**< Default: NULL, must be set. */
   baum_formulation formulation;      /**< Default: BAUM_FORMULATION_DEFAULT. */
   baum_gains gains;                  /**< Only for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
-  bool allow_unstable;               /**< Run with gains that are known to be unstable. Default: false. */
-  double step;                       /**< [s] > 0, fixed-step integrators. Default: NaN, not given. */
-  double rtol;                       /**< [-] > 0, relative to the scales of q and v. Default: NaN, not given. */
-  double atol;                       /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
-  double start_time;                 /**< [s] Default: 0. */
-  baum_start start;                  /**< Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver;                /**< Default: BAUM_SOLVER_AUTO. */
-  bool check_derivatives;            /**< Compare user derivatives with differences. Default: true. */
-  int64_t max_steps;                 /**< [-] > 0, of one call before it fails. Default: 1000000000. */
-  baum_progress_fn *progress;        /**< Default: NULL, none. */
-  double progress_interval;          /**< [s] of wall time, >= 0. Default: 0.05. */
-  void *user;                        /**< Passed to progress, not owned. Default: NULL. */
+  bool allow_unstable; /**< Run with gains that are known to be unstable. Default: false. */
+  double step;         /**< [s] > 0, fixed-step integrators. Default: NaN, not given. */
+  double rtol;         /**< [-] > 0, relative to the scales of q and v. Default: NaN, not given. */
+  double atol;         /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
+  double start_time;   /**< [s] Default: 0. */
+  baum_start start;    /**< Default: BAUM_START_ASSEMBLE. */
+  baum_solver solver;  /**< Default: BAUM_SOLVER_AUTO. */
+  bool check_derivatives;     /**< Compare user derivatives with differences. Default: true. */
+  int64_t max_steps;          /**< [-] > 0, of one call before it fails. Default: 1000000000. */
+  baum_progress_fn *progress; /**< Default: NULL, none. */
+  double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
+  void *user;                 /**< Passed to progress, not owned. Default: NULL. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -190,25 +191,26 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 /** What a channel holds; in brackets its number of columns. Accelerations, multipliers and reactions come from
  *  one solution of (5) at the present state, without stabilization terms. */
 typedef enum baum_quantity {
-  BAUM_Q = 1,                 /**< Positions (nq). */
-  BAUM_V = 2,                 /**< Velocities (nv). */
-  BAUM_A = 3,                 /**< Accelerations (nv). */
-  BAUM_LAMBDA = 4,            /**< Multipliers of `joint`, or of all (nc). */
-  BAUM_PHI = 5,               /**< Constraint violation of `joint`, or of all (nc). */
-  BAUM_PHI_RATE = 6,          /**< Its rate J v - nu. */
-  BAUM_ENERGY = 7,            /**< Kinetic and potential energy [J] (2). */
-  BAUM_BODY_POSE = 8,         /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
-  BAUM_BODY_VELOCITY = 9,     /**< Likewise velocities. */
-  BAUM_JOINT_REACTION = 10,   /**< Force and moment on body_b (3); user constraint: -J^T lambda. */
-  BAUM_JOINT_COORDINATE = 11  /**< Coordinate and rate of a revolute or translational joint (2). */
+  BAUM_Q = 1,         /**< Positions (nq). */
+  BAUM_V = 2,         /**< Velocities (nv). */
+  BAUM_A = 3,         /**< Accelerations (nv). */
+  BAUM_LAMBDA = 4,    /**< Multipliers of `joint`, or of all (nc). */
+  BAUM_PHI = 5,       /**< Constraint violation of `joint`, or of all (nc). */
+  BAUM_PHI_RATE = 6,  /**< Its rate J v - nu. */
+  BAUM_ENERGY = 7,    /**< Kinetic and potential energy [J] (2). */
+  BAUM_BODY_POSE = 8, /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
+  BAUM_BODY_VELOCITY = 9,    /**< Likewise velocities. */
+  BAUM_JOINT_REACTION = 10,  /**< Force and moment on body_b (3); user constraint: -J^T lambda. */
+  BAUM_JOINT_COORDINATE = 11 /**< Coordinate and rate of a revolute or translational joint (2). */
 } baum_quantity;
 
 /** One group of columns. */
 typedef struct baum_channel {
   baum_quantity quantity; /**< What. */
   baum_body_id body;      /**< For BAUM_BODY_*. */
-  baum_joint_id joint;    /**< For BAUM_JOINT_*; optional for BAUM_LAMBDA, BAUM_PHI, BAUM_PHI_RATE. */
-  double point[2];        /**< [m] body axes, for BAUM_BODY_* of a planar body; zero is the centre of mass. */
+  baum_joint_id joint; /**< For BAUM_JOINT_*; optional for BAUM_LAMBDA, BAUM_PHI, BAUM_PHI_RATE. */
+  double
+    point[2]; /**< [m] body axes, for BAUM_BODY_* of a planar body; zero is the centre of mass. */
 } baum_channel;
 
 /** Number of columns of some channels together.
@@ -242,13 +244,14 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
 
 /** What a run has cost and how well constraints were kept, since it was created. */
 typedef struct baum_counters {
-  size_t struct_size;           /**< Set by baum_simulation_counters(). */
-  int64_t steps;                /**< [-] accepted. */
-  int64_t rejected;             /**< [-] steps that failed an error test or an iteration. */
-  int64_t short_steps;          /**< [-] shorter steps of a fixed-step method to a target off its grid. */
-  int64_t evaluations;          /**< [-] of (7) or of the residual. */
-  int64_t factorizations;       /**< [-] refactorizations of the matrix in (7) and of IDA's or CVODE's. */
-  int64_t full_factorizations;  /**< [-] those among them that chose new pivots, which may allocate. */
+  size_t struct_size;     /**< Set by baum_simulation_counters(). */
+  int64_t steps;          /**< [-] accepted. */
+  int64_t rejected;       /**< [-] steps that failed an error test or an iteration. */
+  int64_t short_steps;    /**< [-] shorter steps of a fixed-step method to a target off its grid. */
+  int64_t evaluations;    /**< [-] of (7) or of the residual. */
+  int64_t factorizations; /**< [-] refactorizations of the matrix in (7) and of IDA's or CVODE's. */
+  int64_t
+    full_factorizations; /**< [-] those among them that chose new pivots, which may allocate. */
   int64_t nonlinear_iterations; /**< [-] of CVODE, IDA. */
   int64_t restarts;             /**< [-] of a multistep method. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
@@ -256,14 +259,15 @@ typedef struct baum_counters {
   double wall;                  /**< [s] inside advance_to, step and sample. */
   double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
-  baum_joint_id max_phi_joint;      /**< Joint of max_phi. */
+  baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  double predicted_phi;         /**< Both Eulers, stable gains >= 0.1/h: largest (alpha/beta^2) h |gamma_i|; else NaN. */
-  double predicted_phi_rate;    /**< Likewise largest (h/2) |gamma_i|; else NaN. */
-  double energy_change;         /**< [J] total energy now minus at start, drivers and dampers included. */
-  double start_change;          /**< [-] largest displacement at assembly relative to the scale. */
-  double alpha;                 /**< [1/s] in use. */
-  double beta;                  /**< [1/s] in use. */
+  double
+    predicted_phi; /**< Both Eulers, stable gains >= 0.1/h: largest (alpha/beta^2) h |gamma_i|; else NaN. */
+  double predicted_phi_rate; /**< Likewise largest (h/2) |gamma_i|; else NaN. */
+  double energy_change; /**< [J] total energy now minus at start, drivers and dampers included. */
+  double start_change;  /**< [-] largest displacement at assembly relative to the scale. */
+  double alpha;         /**< [1/s] in use. */
+  double beta;          /**< [1/s] in use. */
 } baum_counters;
 
 /** Read the counters.

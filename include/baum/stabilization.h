@@ -31,7 +31,8 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero; fixed step only. */
-  BAUM_GAINS_AUTO = 6       /**< alpha = beta = 2 x the fastest angular rate at start, capped to be stable. */
+  BAUM_GAINS_AUTO =
+    6 /**< alpha = beta = 2 x the fastest angular rate at start, capped to be stable. */
 } baum_gain_rule;
 
 /** A rule with its numbers. Make it with one of the functions below; all-zero is BAUM_GAINS_DEFAULT. */
@@ -71,8 +72,9 @@ BAUM_API baum_gains baum_gains_auto(void);
 
 /** What becomes of a violation. */
 typedef enum baum_stability {
-  BAUM_STABLE = 0,       /**< Every violation decays: spectral radius < 1. */
-  BAUM_MARGINAL = 1,     /**< Some violation neither decays nor grows faster than linearly: radius = 1. */
+  BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
+  BAUM_MARGINAL =
+    1, /**< Some violation neither decays nor grows faster than linearly: radius = 1. */
   BAUM_UNSTABLE = 2,     /**< Some violation grows exponentially: radius > 1. */
   BAUM_VARIABLE_STEP = 3 /**< The method chooses its step, so there is no fixed region. */
 } baum_stability;
@@ -82,7 +84,7 @@ typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
   baum_stability stability; /**< Class. */
   double spectral_radius;   /**< [-] largest |z|; NaN for BAUM_VARIABLE_STEP. */
-  double z[2][2];           /**< [-] the two largest roots, real and imaginary part; NaN likewise. */
+  double z[2][2]; /**< [-] the two largest roots, real and imaginary part; NaN likewise. */
 } baum_amplification;
 
 /** Amplification at a point of the plane of Fig. 1.

@@ -19,23 +19,23 @@ extern "C" {
 #endif
 
 /** The one list of statuses: name, value, text. Values are part of the ABI: never renumbered, never reused. */
-#define BAUM_STATUS_LIST(X)                                                                        \
-  X(BAUM_OK, 0, "done")                                                                            \
-  X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                           \
-  X(BAUM_STOP_EVENT, 2, "an event function changed sign")                                          \
-  X(BAUM_WARNED, 10, "reached the end with warnings")                                              \
-  X(BAUM_ERR_ARGUMENT, -1, "an argument is NULL, out of range or not finite")                      \
-  X(BAUM_ERR_STATE, -2, "the call is not allowed at this stage")                                   \
-  X(BAUM_ERR_MEMORY, -3, "out of memory")                                                          \
-  X(BAUM_ERR_STRUCT, -4, "struct_size is not that of a struct initialised by this library")        \
-  X(BAUM_ERR_UNSUPPORTED, -5, "not supported by this build or this pair of settings")              \
-  X(BAUM_ERR_INCONSISTENT, -10, "the start or the constraints are inconsistent")                   \
-  X(BAUM_ERR_SINGULAR, -11, "the equations of motion cannot be solved here")                       \
-  X(BAUM_ERR_UNSTABLE, -12, "the gains are unstable with this integrator and step")                \
-  X(BAUM_ERR_STEP, -20, "the step size fell below its minimum")                                    \
-  X(BAUM_ERR_CONVERGENCE, -21, "an iteration did not converge")                                    \
-  X(BAUM_ERR_INTEGRATOR, -22, "the integrator failed")                                             \
-  X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                                    \
+#define BAUM_STATUS_LIST(X)                                                                 \
+  X(BAUM_OK, 0, "done")                                                                     \
+  X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
+  X(BAUM_STOP_EVENT, 2, "an event function changed sign")                                   \
+  X(BAUM_WARNED, 10, "reached the end with warnings")                                       \
+  X(BAUM_ERR_ARGUMENT, -1, "an argument is NULL, out of range or not finite")               \
+  X(BAUM_ERR_STATE, -2, "the call is not allowed at this stage")                            \
+  X(BAUM_ERR_MEMORY, -3, "out of memory")                                                   \
+  X(BAUM_ERR_STRUCT, -4, "struct_size is not that of a struct initialised by this library") \
+  X(BAUM_ERR_UNSUPPORTED, -5, "not supported by this build or this pair of settings")       \
+  X(BAUM_ERR_INCONSISTENT, -10, "the start or the constraints are inconsistent")            \
+  X(BAUM_ERR_SINGULAR, -11, "the equations of motion cannot be solved here")                \
+  X(BAUM_ERR_UNSTABLE, -12, "the gains are unstable with this integrator and step")         \
+  X(BAUM_ERR_STEP, -20, "the step size fell below its minimum")                             \
+  X(BAUM_ERR_CONVERGENCE, -21, "an iteration did not converge")                             \
+  X(BAUM_ERR_INTEGRATOR, -22, "the integrator failed")                                      \
+  X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                             \
   X(BAUM_ERR_CALLBACK, -30, "a user function reported a failure")
 
 /** Result of every fallible call. */

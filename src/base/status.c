@@ -5,7 +5,7 @@
 const char *baum_status_name(baum_status status)
 {
   switch (status) {
-#define BAUM_X(name, value, text)                                                                  \
+#define BAUM_X(name, value, text) \
   case name: return #name;
     BAUM_STATUS_LIST(BAUM_X)
 #undef BAUM_X
@@ -16,7 +16,7 @@ const char *baum_status_name(baum_status status)
 const char *baum_status_text(baum_status status)
 {
   switch (status) {
-#define BAUM_X(name, value, text)                                                                  \
+#define BAUM_X(name, value, text) \
   case name: return text;
     BAUM_STATUS_LIST(BAUM_X)
 #undef BAUM_X

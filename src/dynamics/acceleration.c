@@ -23,11 +23,12 @@ static baum_status fail_singular(const baum_workspace *w)
   if (row >= 0) {
     (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
   }
-  return baum_i_fail(BAUM_ERR_SINGULAR,
-                     "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
-                     "matrix is not positive where the constraints leave freedom); largest right side in "
-                     "%s",
-                     w->point.t, label);
+  return baum_i_fail(
+    BAUM_ERR_SINGULAR,
+    "t = %.9g s: the equations of motion are singular (J has lost rank, or the mass "
+    "matrix is not positive where the constraints leave freedom); largest right side in "
+    "%s",
+    w->point.t, label);
 }
 
 static baum_status fail_not_finite(baum_workspace *w)

@@ -18,11 +18,13 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU = 1e-10;         /* S relative: slows Newton down by this factor only */
-static const double STEP_LIMIT = 0.25;  /* largest change of a coordinate in one step, of its scale */
-static const double CONVERGED = 1e-11;  /* a Newton step below this leaves its square */
-static const double ROUNDING = 1e-13;   /* violation, as a displacement, that counts as none */
-static const double CONSISTENT = 1e-9;  /* violation, likewise, above which rows contradict each other */
+static const double MU = 1e-10; /* S relative: slows Newton down by this factor only */
+static const double STEP_LIMIT =
+  0.25; /* largest change of a coordinate in one step, of its scale */
+static const double CONVERGED = 1e-11; /* a Newton step below this leaves its square */
+static const double ROUNDING = 1e-13;  /* violation, as a displacement, that counts as none */
+static const double CONSISTENT =
+  1e-9; /* violation, likewise, above which rows contradict each other */
 
 /* Memory of one assembly. */
 typedef struct assembly {
@@ -224,7 +226,8 @@ static baum_status assemble_positions(assembly *s)
   }
   baum_status status = baum_i_position_stage(s->w, s->t, s->q);
   if (status == BAUM_OK && !(worst_displacement(s, s->w->phi) <= CONSISTENT)) {
-    return fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,", "left");
+    return fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
+                             "left");
   }
   return status;
 }
@@ -285,7 +288,8 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   measure_rows(w, w->shift, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size)) {
-    return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints", "per s left");
+    return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",
+                             "per s left");
   }
   return BAUM_OK;
 }

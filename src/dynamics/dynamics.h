@@ -21,12 +21,13 @@
 
 /* Dependent rows: found once, at the assembled start pose and its neighbours. */
 typedef struct baum_i_redundancy {
-  int rank;                /* of J at the neighbours */
-  int rank_at_start;       /* at the start pose itself; less: it is singular */
-  int count;               /* dropped rows, nc - rank */
-  unsigned char *dropped;  /* (nc) 1 where a row is left out */
-  double *combination;     /* (count x nc) orthonormal null vectors of J^T in scaled rows; rows of the array */
-  double *row_scale;       /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
+  int rank;               /* of J at the neighbours */
+  int rank_at_start;      /* at the start pose itself; less: it is singular */
+  int count;              /* dropped rows, nc - rank */
+  unsigned char *dropped; /* (nc) 1 where a row is left out */
+  double *
+    combination; /* (count x nc) orthonormal null vectors of J^T in scaled rows; rows of the array */
+  double *row_scale; /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
 } baum_i_redundancy;
 
 struct baum_workspace {
@@ -51,15 +52,15 @@ struct baum_workspace {
   double *work_c;   /* (2 nc) */
   double *shift;    /* (nc) regularization of assembly */
 
-  double *mass_q;   /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
+  double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
-  double *jw_q;     /* (jacobian_size) */
+  double *jw_q; /* (jacobian_size) */
   double *gamma_q;
   double *gamma_v;
   double *nu_q;
-  double *jtl_q;    /* (joint_square_size) */
-  double *force_q;  /* (force_square_size) */
+  double *jtl_q;   /* (joint_square_size) */
+  double *force_q; /* (force_square_size) */
   double *force_v;
 
   int64_t evaluations;   /* solutions and residuals */

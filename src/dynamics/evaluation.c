@@ -155,8 +155,7 @@ baum_status baum_workspace_mass(baum_workspace *workspace, double t, const doubl
     const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
     for (int i = 0; i < block->size; i++) {
       memcpy(mass + (size_t)(block->first + i) * nv + block->first,
-             workspace->mass + block->value + i * block->size,
-             (size_t)block->size * sizeof *mass);
+             workspace->mass + block->value + i * block->size, (size_t)block->size * sizeof *mass);
     }
   }
   return BAUM_OK;
@@ -268,8 +267,7 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
     return fail_null(call, w ? "dae" : "the workspace");
   }
   if (dae->index != BAUM_RESIDUAL_INDEX1 && dae->index != BAUM_RESIDUAL_INDEX3) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call,
-                       (int)dae->index);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call, (int)dae->index);
   }
   int size = 2 * w->mechanism->nv + w->mechanism->nc;
   baum_status status =

@@ -70,10 +70,11 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
     }
     last = size;
   }
-  return baum_i_fail(BAUM_ERR_CONVERGENCE,
-                     "t = %.9g s: projection of the positions does not converge (last change %.3g of "
-                     "the scale): the step is too large or the pose is near a singular one",
-                     t, last);
+  return baum_i_fail(
+    BAUM_ERR_CONVERGENCE,
+    "t = %.9g s: projection of the positions does not converge (last change %.3g of "
+    "the scale): the step is too large or the pose is near a singular one",
+    t, last);
 }
 
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)

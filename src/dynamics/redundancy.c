@@ -23,9 +23,9 @@ static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the
 
 typedef struct search {
   baum_workspace *w;
-  double *column_scale; /* (nv) M^-1/2 */
-  double *q;            /* (nv) neighbour */
-  double *x;            /* (nv) direction */
+  double *column_scale;       /* (nv) M^-1/2 */
+  double *q;                  /* (nv) neighbour */
+  double *x;                  /* (nv) direction */
   unsigned char *independent; /* (nc) of the pose last looked at */
 } search;
 
@@ -136,7 +136,7 @@ static baum_status look_at_neighbour(const search *s, double t, const double *q,
     keep_set(&w->redundancy, s, rank);
   }
   return status == BAUM_ERR_MEMORY || (status == BAUM_ERR_CALLBACK && !w->point.retry) ? status
-                                                                                        : BAUM_OK;
+                                                                                       : BAUM_OK;
 }
 
 static baum_status look_around(const search *s, double t, const double *q)

@@ -59,9 +59,8 @@ static baum_status make_arrays(baum_workspace *w)
   w->point.frames = baum_i_alloc((size_t)w->mechanism->body_count + 1, sizeof *w->point.frames);
   w->redundancy.dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
   w->redundancy.row_scale = baum_i_alloc((size_t)w->mechanism->nc, sizeof(double));
-  return w->point.frames && w->redundancy.dropped && w->redundancy.row_scale
-           ? BAUM_OK
-           : baum_i_fail_memory();
+  return w->point.frames && w->redundancy.dropped && w->redundancy.row_scale ? BAUM_OK
+                                                                             : baum_i_fail_memory();
 }
 
 static baum_status make_structure(baum_workspace *w)

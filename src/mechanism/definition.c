@@ -121,8 +121,8 @@ typedef struct kind {
 
 static kind body_kind(const baum_i_body_type *type)
 {
-  return (kind){"body", sizeof(baum_i_body), offsetof(baum_i_body, span), &type->definition, NULL,
-                type->size};
+  return (kind){"body", sizeof(baum_i_body), offsetof(baum_i_body, span), &type->definition,
+                NULL,   type->size};
 }
 
 static kind joint_kind(const baum_i_joint_type *type)
@@ -431,9 +431,8 @@ baum_status baum_i_get_joint(const baum_mechanism *mechanism, const baum_i_joint
 {
   kind k = joint_kind(type);
   baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK
-           ? get(&k, &mechanism->joints[id.index1 - 1]->element, out, caller_size)
-           : status;
+  return status == BAUM_OK ? get(&k, &mechanism->joints[id.index1 - 1]->element, out, caller_size)
+                           : status;
 }
 
 baum_status baum_i_set_joint(baum_mechanism *mechanism, const baum_i_joint_type *type,
@@ -441,9 +440,8 @@ baum_status baum_i_set_joint(baum_mechanism *mechanism, const baum_i_joint_type 
 {
   kind k = joint_kind(type);
   baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK
-           ? set(mechanism, &k, &mechanism->joints[id.index1 - 1]->element, def)
-           : status;
+  return status == BAUM_OK ? set(mechanism, &k, &mechanism->joints[id.index1 - 1]->element, def)
+                           : status;
 }
 
 /* ---- forces ---- */
@@ -494,9 +492,8 @@ baum_status baum_i_get_force(const baum_mechanism *mechanism, const baum_i_force
 {
   kind k = force_kind(type);
   baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK
-           ? get(&k, &mechanism->forces[id.index1 - 1]->element, out, caller_size)
-           : status;
+  return status == BAUM_OK ? get(&k, &mechanism->forces[id.index1 - 1]->element, out, caller_size)
+                           : status;
 }
 
 baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type *type,
@@ -504,7 +501,6 @@ baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type 
 {
   kind k = force_kind(type);
   baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK
-           ? set(mechanism, &k, &mechanism->forces[id.index1 - 1]->element, def)
-           : status;
+  return status == BAUM_OK ? set(mechanism, &k, &mechanism->forces[id.index1 - 1]->element, def)
+                           : status;
 }

@@ -36,25 +36,25 @@ baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type 
                              baum_force_id id, const void *def);
 
 /* FAMILY is body, joint or force; NAME as in baum_NAME_def; TYPE the type struct. */
-#define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                          \
-  void baum_##NAME##_def_init(baum_##NAME##_def *def, size_t caller_size)                          \
-  {                                                                                                \
-    baum_i_definition_init(&(TYPE).definition, def, caller_size);                                  \
-  }                                                                                                \
-  baum_status baum_mechanism_add_##NAME(baum_mechanism *mechanism, const baum_##NAME##_def *def,   \
-                                        baum_##FAMILY##_id *id)                                    \
-  {                                                                                                \
-    return baum_i_add_##FAMILY(mechanism, &(TYPE), def, id);                                       \
-  }                                                                                                \
-  baum_status baum_mechanism_get_##NAME(const baum_mechanism *mechanism, baum_##FAMILY##_id id,    \
-                                        baum_##NAME##_def *out, size_t caller_size)                \
-  {                                                                                                \
-    return baum_i_get_##FAMILY(mechanism, &(TYPE), id, out, caller_size);                          \
-  }                                                                                                \
-  baum_status baum_mechanism_set_##NAME(baum_mechanism *mechanism, baum_##FAMILY##_id id,          \
-                                        const baum_##NAME##_def *def)                              \
-  {                                                                                                \
-    return baum_i_set_##FAMILY(mechanism, &(TYPE), id, def);                                       \
+#define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                        \
+  void baum_##NAME##_def_init(baum_##NAME##_def *def, size_t caller_size)                        \
+  {                                                                                              \
+    baum_i_definition_init(&(TYPE).definition, def, caller_size);                                \
+  }                                                                                              \
+  baum_status baum_mechanism_add_##NAME(baum_mechanism *mechanism, const baum_##NAME##_def *def, \
+                                        baum_##FAMILY##_id *id)                                  \
+  {                                                                                              \
+    return baum_i_add_##FAMILY(mechanism, &(TYPE), def, id);                                     \
+  }                                                                                              \
+  baum_status baum_mechanism_get_##NAME(const baum_mechanism *mechanism, baum_##FAMILY##_id id,  \
+                                        baum_##NAME##_def *out, size_t caller_size)              \
+  {                                                                                              \
+    return baum_i_get_##FAMILY(mechanism, &(TYPE), id, out, caller_size);                        \
+  }                                                                                              \
+  baum_status baum_mechanism_set_##NAME(baum_mechanism *mechanism, baum_##FAMILY##_id id,        \
+                                        const baum_##NAME##_def *def)                            \
+  {                                                                                              \
+    return baum_i_set_##FAMILY(mechanism, &(TYPE), id, def);                                     \
   }
 
 /* ---- checks that definitions share; each returns BAUM_OK or BAUM_ERR_ARGUMENT with its sentence ---- */

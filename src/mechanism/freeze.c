@@ -333,8 +333,8 @@ static void draw_bodies(baum_mechanism *mechanism)
     if (body->type->lower) {
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
-    body->type->drawn(body->element.def, mechanism->drawn_q + body->q,
-                      mechanism->drawn_v + body->v, &held);
+    body->type->drawn(body->element.def, mechanism->drawn_q + body->q, mechanism->drawn_v + body->v,
+                      &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);
     for (int j = 0; j < body->nv; j++) {
       mechanism->held[body->q + j] = held;
@@ -348,15 +348,15 @@ static baum_status lower(baum_mechanism *mechanism)
   for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
     const baum_i_joint *joint = mechanism->joints[i];
     if (joint->type->lower) {
-      status = joint->type->lower(mechanism, joint,
-                                  mechanism->parameters + joint->element.parameter);
+      status =
+        joint->type->lower(mechanism, joint, mechanism->parameters + joint->element.parameter);
     }
   }
   for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
     const baum_i_force *force = mechanism->forces[i];
     if (force->type->lower) {
-      status = force->type->lower(mechanism, force,
-                                  mechanism->parameters + force->element.parameter);
+      status =
+        force->type->lower(mechanism, force, mechanism->parameters + force->element.parameter);
     }
   }
   return status;

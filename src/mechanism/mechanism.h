@@ -45,10 +45,10 @@ typedef struct baum_i_def_head {
 /* What all elements have; first member of each. */
 typedef struct baum_i_element {
   const baum_i_definition *definition;
-  void *def;       /* own copy; its name points to `name` or is NULL */
-  char *name;      /* given, or "body<k>", "joint<k>", "force<k>" */
-  int index;       /* in its family; bodies from 1 */
-  int parameter;   /* start of its numbers in the parameter array; set at freeze */
+  void *def;     /* own copy; its name points to `name` or is NULL */
+  char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */
+  int index;     /* in its family; bodies from 1 */
+  int parameter; /* start of its numbers in the parameter array; set at freeze */
 } baum_i_element;
 
 /* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its bodies one after
@@ -76,10 +76,10 @@ typedef struct baum_i_body {
   baum_i_element element;
   const baum_i_body_type *type;
   baum_i_span span; /* itself; columns set at freeze */
-  int q;      /* first position */
-  int v;      /* first velocity */
-  int nv;     /* number of both */
-  int mass;   /* start of its nv x nv values in the mass blocks */
+  int q;            /* first position */
+  int v;            /* first velocity */
+  int nv;           /* number of both */
+  int mass;         /* start of its nv x nv values in the mass blocks */
 } baum_i_body;
 
 typedef struct baum_i_joint {
@@ -121,9 +121,9 @@ typedef struct baum_i_force_group {
 
 /* Place of a body's axes: every planar element reads this instead of q. */
 typedef struct baum_i_frame {
-  double x, y;     /* origin */
-  double c, s;     /* cos, sin of the angle */
-  double angle;    /* continuous */
+  double x, y;      /* origin */
+  double c, s;      /* cos, sin of the angle */
+  double angle;     /* continuous */
   double vx, vy, w; /* velocities; zero until baum_i_point_set_velocity() */
 } baum_i_frame;
 
@@ -156,7 +156,7 @@ typedef struct baum_i_joint_blocks {
 
 /* Blocks of a body, nv x nv at its `mass`. Set, not added. */
 typedef struct baum_i_body_blocks {
-  double *ma_q;    /* (M a)_q */
+  double *ma_q; /* (M a)_q */
   double *force_q;
   double *force_v;
 } baum_i_body_blocks;
@@ -171,15 +171,20 @@ struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
   int parameter_count;
-  bool scleronomic; /* mass and force of the type never depend on t */
-  int (*size)(const void *def);                                 /* nv */
+  bool scleronomic;             /* mass and force of the type never depend on t */
+  int (*size)(const void *def); /* nv */
   bool (*constant_mass)(const void *def);
-  void (*lower)(const baum_i_body *body, double *parameters);   /* numbers of this body; NULL: none */
-  void (*drawn)(const void *def, double *q, double *v, bool *held); /* start pose, given velocities or NaN */
-  void (*scale)(const void *def, double length, double *scale); /* (nv) relevant change of each coordinate */
-  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);   /* sets blocks */
-  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force); /* adds to (nv) */
-  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum); /* adds; NULL: 0 */
+  void (*lower)(const baum_i_body *body, double *parameters); /* numbers of this body; NULL: none */
+  void (*drawn)(const void *def, double *q, double *v,
+                bool *held); /* start pose, given velocities or NaN */
+  void (*scale)(const void *def, double length,
+                double *scale); /* (nv) relevant change of each coordinate */
+  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point,
+                      double *mass); /* sets blocks */
+  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point,
+                       double *force); /* adds to (nv) */
+  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point,
+                           double *sum); /* adds; NULL: 0 */
   /* NULL: all blocks are zero. a (nv). */
   baum_status (*linearize)(const baum_i_body_group *group, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
@@ -192,7 +197,7 @@ typedef struct baum_i_coordinate {
   double value;
   double rate;
   double gradient[6];
-  double gamma;          /* so that gradient a = (coordinate)'' + gamma */
+  double gamma; /* so that gradient a = (coordinate)'' + gamma */
 } baum_i_coordinate;
 
 /* Second derivatives of a coordinate: for w and a multiplier l, as in baum_i_joint_blocks. */
@@ -209,14 +214,20 @@ struct baum_i_joint_type {
   bool planar;      /* two planar bodies: reaction is force and moment */
   bool scleronomic; /* Phi never depends on t */
   int (*rows)(const void *def);
-  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span); /* fills count; and bodies if
+  void (*bodies)(const baum_mechanism *mechanism, const void *def,
+                 baum_i_span *span); /* fills count; and bodies if
                                                                                           not NULL */
   /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the sentence. */
-  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint, double *parameters);
-  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point, double *phi);           /* sets (nc) */
-  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point, double *jacobian); /* sets blocks */
-  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point, double *nu); /* sets; NULL: zeros */
-  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point, double *gamma);       /* sets (nc) */
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                       double *parameters);
+  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point,
+                     double *phi); /* sets (nc) */
+  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point,
+                          double *jacobian); /* sets blocks */
+  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point,
+                    double *nu); /* sets; NULL: zeros */
+  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point,
+                       double *gamma); /* sets (nc) */
   /* w (nv), lambda (nc); blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_joint_group *group, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -225,19 +236,23 @@ struct baum_i_joint_type {
   /* Only joints with a coordinate, else NULL. */
   const char *coordinate_unit; /* "rad", "m" */
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
-  void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point, const double w[6],
-                               double lambda, baum_i_coordinate_blocks *out);
+  void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
+                               const double w[6], double lambda, baum_i_coordinate_blocks *out);
   baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
-  double (*noise)(const void *def); /* relative error of derivatives by differences; NULL: none are taken */
+  double (*noise)(
+    const void *def); /* relative error of derivatives by differences; NULL: none are taken */
 };
 
 struct baum_i_force_type {
   baum_i_definition definition;
   int parameter_count;
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
-  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force, double *parameters);
-  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);    /* adds to (nv) */
-  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);  /* adds; NULL: 0 */
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
+                       double *parameters);
+  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point,
+                       double *force); /* adds to (nv) */
+  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point,
+                           double *sum); /* adds; NULL: 0 */
   baum_status (*linearize)(const baum_i_force_group *group, baum_i_point *point,
                            const baum_i_force_blocks *blocks); /* blocks arrive zeroed */
   baum_status (*check)(const baum_i_force *force, baum_i_point *point);
@@ -252,7 +267,7 @@ struct baum_mechanism {
   double gravity[3];
   double given_scale; /* NaN: not set */
 
-  int body_count; /* without ground */
+  int body_count;       /* without ground */
   baum_i_body **bodies; /* (body_count + 1), [0] is ground */
   int joint_count;
   baum_i_joint **joints;
@@ -267,12 +282,12 @@ struct baum_mechanism {
   int force_square_size;
   int scratch_size;
   bool constant_mass;
-  double length;      /* scale L */
+  double length; /* scale L */
   double *parameters;
-  double *drawn_q;    /* (nq) */
-  double *drawn_v;    /* (nv) NaN where free */
-  bool *held;         /* (nq) */
-  double *scale;      /* (nv) relevant change of each coordinate */
+  double *drawn_q; /* (nq) */
+  double *drawn_v; /* (nv) NaN where free */
+  bool *held;      /* (nq) */
+  double *scale;   /* (nv) relevant change of each coordinate */
   int body_group_count;
   baum_i_body_group *body_groups;
   int joint_group_count;

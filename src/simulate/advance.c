@@ -101,8 +101,8 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
   memcpy(trial->q, state->q, (size_t)m->nq * sizeof(double));
   memcpy(trial->v, state->v, (size_t)m->nv * sizeof(double));
   trial->t = state->t;
-  status = run->integrator->step(run->self, &run->problem, trial, t_next - state->t,
-                                 run->acceleration);
+  status =
+    run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
   trial->t = t_next;
   if (status == BAUM_OK) {
     status = check_finite(run, trial);
@@ -218,8 +218,8 @@ static void catch_up(baum_simulation *run)
 
 static baum_status interpolate(baum_simulation *run, double t)
 {
-  baum_status status = run->integrator->interpolate(run->self, &run->problem, t, run->trial.q,
-                                                    run->trial.v);
+  baum_status status =
+    run->integrator->interpolate(run->self, &run->problem, t, run->trial.q, run->trial.v);
   if (status == BAUM_OK) {
     run->trial.t = t;
     status = check_finite(run, &run->trial);
@@ -374,10 +374,11 @@ static baum_status check_times(const baum_simulation *run, const double *times, 
   double last = run->state.t;
   for (int64_t k = 0; k < n; k++) {
     if (!isfinite(times[k]) || direction * (times[k] - last) < 0.0) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "%s: times[%lld] is %.9g s after %.9g s; times must be finite and go one way "
-                         "from the present time",
-                         call, (long long)k, times[k], last);
+      return baum_i_fail(
+        BAUM_ERR_ARGUMENT,
+        "%s: times[%lld] is %.9g s after %.9g s; times must be finite and go one way "
+        "from the present time",
+        call, (long long)k, times[k], last);
     }
     last = times[k];
   }
@@ -390,8 +391,7 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   const char *call = "baum_simulation_sample";
   if (!run || n < 0 || (n > 0 && (!times || !rows))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       run ? "times or rows are NULL, or n is negative"
-                           : "the simulation is NULL");
+                       run ? "times or rows are NULL, or n is negative" : "the simulation is NULL");
   }
   if (baum_i_output_width(run->workspace->mechanism, channels, count) < 0) {
     return BAUM_ERR_ARGUMENT;

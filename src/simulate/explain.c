@@ -35,7 +35,8 @@ static void say_mechanism(baum_simulation *run)
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_redundancy *r = &run->workspace->redundancy;
   int rank = m->nc > 0 ? r->rank : 0;
-  say(run, "mechanism     %d bodies, %d joints, %d forces; %d velocities, %d constraint rows, %d %s\n",
+  say(run,
+      "mechanism     %d bodies, %d joints, %d forces; %d velocities, %d constraint rows, %d %s\n",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank,
       m->nv - rank == 1 ? "freedom" : "freedoms");
   if (r->count > 0) {
@@ -60,8 +61,9 @@ static void say_integrator(baum_simulation *run)
   if (!isnan(o->atol)) {
     say(run, ", atol %.3g", o->atol);
   }
-  say(run, "; positions relative to the scale, velocities to the scale times %.4g 1/s or the present "
-           "velocity\n",
+  say(run,
+      "; positions relative to the scale, velocities to the scale times %.4g 1/s or the present "
+      "velocity\n",
       run->problem.rate);
 }
 

@@ -86,10 +86,11 @@ static void observe_singular(baum_simulation *run, double t)
     if (row >= 0) {
       (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
     }
-    baum_i_run_warn(run,
-                    "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
-                    "%s; the motion after it may be on another branch",
-                    t, label);
+    baum_i_run_warn(
+      run,
+      "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
+      "%s; the motion after it may be on another branch",
+      t, label);
   }
   run->near_singular_seen = w->near_singular;
 }
@@ -132,10 +133,9 @@ static void predict(const baum_simulation *run, baum_counters *c)
   double alpha = run->problem.alpha;
   double beta = run->problem.beta;
   double h = run->options.step;
-  bool predicted = run->integrator->predicts_violation &&
-                   run->problem.formulation == BAUM_FORMULATION_BAUMGARTE &&
-                   run->gains.amplification.stability == BAUM_STABLE &&
-                   fmin(alpha, beta) * h >= STEADY_GAIN;
+  bool predicted =
+    run->integrator->predicts_violation && run->problem.formulation == BAUM_FORMULATION_BAUMGARTE &&
+    run->gains.amplification.stability == BAUM_STABLE && fmin(alpha, beta) * h >= STEADY_GAIN;
   c->predicted_phi = predicted ? alpha / (beta * beta) * h * run->largest_gamma : (double)NAN;
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
@@ -150,8 +150,8 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   double kinetic = 0.0;
   double potential = 0.0;
   const baum_i_state *state = &simulation->state;
-  baum_status status = baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic,
-                                     &potential);
+  baum_status status =
+    baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential);
   if (status != BAUM_OK) {
     return status;
   }

@@ -62,8 +62,8 @@ static baum_status check_tolerance(const baum_simulation_options *o)
       name);
   }
   if (isnan(o->rtol)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "simulation options: rtol is not given, and %s needs it", name);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: rtol is not given, and %s needs it",
+                       name);
   }
   if (!(o->rtol > 0.0 && o->rtol < 1.0)) {
     return refuse("rtol", "", o->rtol, "must be > 0 and < 1");

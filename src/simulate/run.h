@@ -29,21 +29,21 @@ struct baum_simulation {
   baum_i_problem problem;
   void *self; /* of the integrator; may be NULL for a fixed-step one */
 
-  double *memory;         /* all arrays below */
-  baum_i_state state;     /* reported */
-  baum_i_state ahead;     /* variable step: end of the last internal step */
-  baum_i_state trial;     /* a step under way, or a sample beside the motion */
-  double *acceleration;   /* (nv) at the start of a step */
+  double *memory;       /* all arrays below */
+  baum_i_state state;   /* reported */
+  baum_i_state ahead;   /* variable step: end of the last internal step */
+  baum_i_state trial;   /* a step under way, or a sample beside the motion */
+  double *acceleration; /* (nv) at the start of a step */
 
   baum_i_grid grid;
   baum_counters counters;
-  int64_t evaluations_before;  /* of the workspace, when the run was ready */
+  int64_t evaluations_before; /* of the workspace, when the run was ready */
   int64_t restarted_rejected;
   double start_energy;
-  double largest_gamma;        /* of rows that do not depend on time, over all steps */
-  int64_t near_singular_seen;  /* workspace->near_singular at the last look */
+  double largest_gamma;       /* of rows that do not depend on time, over all steps */
+  int64_t near_singular_seen; /* workspace->near_singular at the last look */
 
-  int64_t signalled;           /* warnings that a status has announced */
+  int64_t signalled; /* warnings that a status has announced */
   char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];

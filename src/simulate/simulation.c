@@ -74,8 +74,7 @@ static baum_status choose_problem(baum_simulation *run)
     .atol = isnan(o->atol) ? 0.0 : o->atol,
     .max_steps = o->max_steps,
   };
-  baum_status status =
-    baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
+  baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
   if (status != BAUM_OK) {
     return status;
   }
@@ -91,8 +90,7 @@ static void warn_redundancy(baum_simulation *run)
   baum_workspace *w = run->workspace;
   const baum_i_redundancy *r = &w->redundancy;
   const baum_i_state *start = &run->trial;
-  if (r->count > 0 &&
-      baum_i_reported_acceleration(w, start->t, start->q, start->v) == BAUM_OK) {
+  if (r->count > 0 && baum_i_reported_acceleration(w, start->t, start->q, start->v) == BAUM_OK) {
     char names[160];
     baum_i_redundancy_text(w, names, sizeof names);
     baum_i_run_warn(run,
@@ -122,14 +120,16 @@ static void warn_settings(baum_simulation *run)
 {
   double noise = difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
-    baum_i_run_warn(run,
-                    "rtol %.1g is below %.1g, about the error of derivatives by differences of user "
-                    "constraints: give jacobian and gamma, or a larger rtol",
-                    run->options.rtol, noise);
+    baum_i_run_warn(
+      run,
+      "rtol %.1g is below %.1g, about the error of derivatives by differences of user "
+      "constraints: give jacobian and gamma, or a larger rtol",
+      run->options.rtol, noise);
   }
   if (run->options.formulation == BAUM_FORMULATION_INDEX3) {
-    baum_i_run_warn(run, "index 3 is for comparison: its velocities are outside of the error test and "
-                         "the motion error is far above rtol");
+    baum_i_run_warn(run,
+                    "index 3 is for comparison: its velocities are outside of the error test and "
+                    "the motion error is far above rtol");
   }
 }
 
@@ -148,8 +148,7 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
 {
   const baum_simulation_options *o = &run->options;
-  baum_status status =
-    o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
+  baum_status status = o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
   if (status == BAUM_OK) {
     status = baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace);
   }

@@ -59,11 +59,12 @@ static baum_status check_displacement(baum_simulation *run, const double *drawn,
       char joint[BAUM_I_LABEL_SIZE];
       (void)baum_i_label(&m->bodies[owner(m, i)]->element, "body", body);
       name_worst_joint(run, run->trial.t, drawn, joint);
-      return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                         "t = %.9g s: assembly would move %s by %.3g %s, more than %.3g; the drawing "
-                         "fits least in %s; draw the start pose closer",
-                         run->trial.t, body, move * m->scale[i], is_angle(m, i) ? "rad" : "m",
-                         limit * m->scale[i], joint);
+      return baum_i_fail(
+        BAUM_ERR_INCONSISTENT,
+        "t = %.9g s: assembly would move %s by %.3g %s, more than %.3g; the drawing "
+        "fits least in %s; draw the start pose closer",
+        run->trial.t, body, move * m->scale[i], is_angle(m, i) ? "rad" : "m", limit * m->scale[i],
+        joint);
     }
   }
   return BAUM_OK;
@@ -74,8 +75,8 @@ static baum_status start_assembled(baum_simulation *run, const double *q, const 
   const baum_mechanism *m = run->workspace->mechanism;
   memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
   double largest = 0.0;
-  baum_status status = baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v,
-                                       m->held, NULL);
+  baum_status status =
+    baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held, NULL);
   if (status == BAUM_OK) {
     status = check_displacement(run, q, &largest);
   }
@@ -190,8 +191,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   status = baum_i_run_start(simulation, t, q, v);
   if (status == BAUM_OK && simulation->integrator->restart) {
-    status = simulation->integrator->restart(simulation->self, &simulation->problem,
-                                             &simulation->trial);
+    status =
+      simulation->integrator->restart(simulation->self, &simulation->problem, &simulation->trial);
     simulation->counters.restarts++;
   }
   if (status == BAUM_OK) {

@@ -89,7 +89,8 @@ static void check_against_lu(model *m, double gain)
     largest = fmax(largest, fabs(want[i]));
   }
   for (size_t i = 0; i < n; i++) {
-    ASSERT_NEAR(got[i], want[i], 1e-9, 1e-10 * largest); /* condition of these systems: 1e5 at most */
+    ASSERT_NEAR(got[i], want[i], 1e-9,
+                1e-10 * largest); /* condition of these systems: 1e5 at most */
   }
   baum_workspace_destroy(w);
   model_destroy(m);
@@ -182,8 +183,8 @@ static void reactions_on_each_body_balance_inertia_and_weight(void **state)
   assert_int_equal(baum_simulation_get(s, channels, 6, row), BAUM_OK);
   const double *a = row + 3; /* of the rod */
   const double *q = row + 9 + 3;
-  const double *on_rod = row + 18;     /* pin with the crank: body_b is the rod */
-  const double *on_slider = row + 21;  /* pin with the slider: body_b is the slider */
+  const double *on_rod = row + 18;    /* pin with the crank: body_b is the rod */
+  const double *on_slider = row + 21; /* pin with the slider: body_b is the slider */
   const double *near = row + 24;
   const double *far = row + 27;
   double size = fabs(on_rod[0]) + fabs(on_rod[1]);

@@ -98,8 +98,8 @@ static void given_velocities_that_contradict_are_refused_and_named(void **state)
   s.v[0] = 3.0; /* the crank's centre cannot move along the crank */
   assert_int_equal(baum_workspace_assemble(s.w, 0.0, s.q, s.v, NULL, 0), BAUM_ERR_INCONSISTENT);
   assert_non_null(strstr(baum_message(), "velocities"));
-  assert_non_null(strstr(baum_message(), baum_mechanism_joint_name(s.m.mechanism,
-                                                                   s.m.joints[MODEL_PIN_GROUND])));
+  assert_non_null(
+    strstr(baum_message(), baum_mechanism_joint_name(s.m.mechanism, s.m.joints[MODEL_PIN_GROUND])));
   assert_memory_equal(q, s.q, sizeof q);
   assert_true(s.v[0] == 3.0);
   close_scene(&s);
