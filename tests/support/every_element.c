@@ -1,0 +1,580 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "every_element.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+/* ---- functions of the user ---- */
+
+static const double CIRCLE_RADIUS = 0.3;
+
+/* The answer of a function, after which `out` is spoiled if the fault says so. */
+static int answer(void *user, double t, double *out)
+{
+  every_fault *fault = user;
+  if (!fault) {
+    return 0;
+  }
+  fault->calls++;
+  bool late = fault->from > 0 ? fault->calls >= fault->from : t > fault->after;
+  if (!fault->fails || !late) {
+    return 0;
+  }
+  if (fault->answer == 0) {
+    out[0] = (double)NAN;
+  }
+  return fault->answer;
+}
+
+/* Of the slider (x, y, angle) and the bob (x, y). */
+static int circle_phi(double t, const double *q, double *out, void *user)
+{
+  double x = q[3] - q[0];
+  double y = q[4] - q[1];
+  out[0] = 0.5 * (x * x + y * y - CIRCLE_RADIUS * CIRCLE_RADIUS);
+  return answer(user, t, out);
+}
+
+static int circle_jacobian(double t, const double *q, double *out, void *user)
+{
+  out[0] = q[0] - q[3];
+  out[1] = q[1] - q[4];
+  out[3] = q[3] - q[0];
+  out[4] = q[4] - q[1];
+  return answer(user, t, out);
+}
+
+static int circle_nu(double t, const double *q, double *out, void *user)
+{
+  (void)q;
+  return answer(user, t, out);
+}
+
+static int circle_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)q;
+  double x = v[3] - v[0];
+  double y = v[4] - v[1];
+  out[0] = -(x * x + y * y);
+  return answer(user, t, out);
+}
+
+static int masses_mass(double t, const double *q, double *out, void *user)
+{
+  (void)q;
+  out[0] = 2.0;
+  out[3] = 1.0;
+  return answer(user, t, out);
+}
+
+static int masses_force(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)v;
+  (void)inputs;
+  out[0] = -8.0 * q[0] + 4.0 * (q[1] - q[0]);
+  out[1] = -4.0 * (q[1] - q[0]);
+  return answer(user, t, out);
+}
+
+static int masses_potential(double t, const double *q, double *out, void *user)
+{
+  out[0] = 4.0 * q[0] * q[0] + 2.0 * (q[1] - q[0]) * (q[1] - q[0]);
+  return answer(user, t, out);
+}
+
+static int drag_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user)
+{
+  (void)q;
+  (void)inputs;
+  out[0] = -0.1 * v[0];
+  out[1] = -0.1 * v[1];
+  return answer(user, t, out);
+}
+
+static int drag_force_q(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  return answer(user, t, out);
+}
+
+static int drag_force_v(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  out[0] = -0.1;
+  out[3] = -0.1;
+  return answer(user, t, out);
+}
+
+/* ---- definitions ---- */
+
+#define GOOD(NAME)                                                 \
+  static baum_##NAME##_def NAME##_def(const every_element *parts); \
+  static void good_##NAME(const every_element *parts, any_def *to) \
+  {                                                                \
+    baum_##NAME##_def def = NAME##_def(parts);                     \
+    memset(to, 0, sizeof *to);                                     \
+    memcpy(to, &def, sizeof def);                                  \
+  }                                                                \
+  static baum_##NAME##_def NAME##_def(const every_element *parts)
+
+static const double CRANK_ANGLE = 0.5;
+
+GOOD(planar_body)
+{
+  (void)parts;
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.name = "crank";
+  def.mass = 0.5;
+  def.inertia = 1e-3;
+  def.position[0] = 0.05 * cos(CRANK_ANGLE);
+  def.position[1] = 0.05 * sin(CRANK_ANGLE);
+  def.angle = CRANK_ANGLE;
+  return def;
+}
+
+GOOD(planar_particle)
+{
+  (void)parts;
+  baum_planar_particle_def def = baum_planar_particle_def_default();
+  def.name = "bob";
+  def.mass = 0.2;
+  def.position[0] = 0.4;
+  def.position[1] = -CIRCLE_RADIUS;
+  return def;
+}
+
+GOOD(coordinates)
+{
+  static const double q[2] = {0.1, -0.05};
+  static const double v[2] = {0.0, (double)NAN};
+  static const double scale[2] = {0.2, 0.2};
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.name = "masses";
+  def.size = 2;
+  def.q = q;
+  def.v = v;
+  def.scale = scale;
+  def.mass = masses_mass;
+  def.force = masses_force;
+  def.potential = masses_potential;
+  def.constant_mass = true;
+  def.user = parts->fault;
+  return def;
+}
+
+GOOD(planar_revolute)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  def.name = "pin";
+  def.body_a = BAUM_GROUND;
+  def.body_b = parts->crank;
+  def.point[0] = 0.0;
+  def.point[1] = 0.0;
+  return def;
+}
+
+GOOD(planar_distance)
+{
+  baum_planar_distance_def def = baum_planar_distance_def_default();
+  def.name = "rod";
+  def.body_a = parts->crank;
+  def.body_b = parts->slider;
+  def.point_a[0] = 0.05;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  return def;
+}
+
+GOOD(planar_translational)
+{
+  baum_planar_translational_def def = baum_planar_translational_def_default();
+  def.name = "guide";
+  def.body_a = BAUM_GROUND;
+  def.body_b = parts->slider;
+  def.point[0] = 0.4;
+  def.point[1] = 0.0;
+  return def;
+}
+
+GOOD(planar_fixed)
+{
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  def.name = "weld";
+  def.body_a = parts->slider;
+  def.body_b = parts->tool;
+  def.point[0] = 0.45;
+  def.point[1] = 0.0;
+  return def;
+}
+
+GOOD(driver)
+{
+  baum_driver_def def = baum_driver_def_default();
+  def.name = "motor";
+  def.joint = parts->pin;
+  def.value = CRANK_ANGLE;
+  def.rate = 2.0;
+  def.acceleration = 0.3;
+  return def;
+}
+
+GOOD(user_constraint)
+{
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.name = "circle";
+  def.bodies = parts->circle_bodies;
+  def.body_count = 2;
+  def.row_count = 1;
+  def.phi = circle_phi;
+  def.jacobian = circle_jacobian;
+  def.nu = circle_nu;
+  def.gamma = circle_gamma;
+  def.user = parts->fault;
+  return def;
+}
+
+GOOD(planar_spring)
+{
+  baum_planar_spring_def def = baum_planar_spring_def_default();
+  def.name = "spring";
+  def.body_a = BAUM_GROUND;
+  def.body_b = parts->bob;
+  def.point_a[0] = 0.8;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  def.stiffness = 3.0;
+  def.damping = 0.02;
+  def.free_length = 0.3;
+  return def;
+}
+
+GOOD(planar_load)
+{
+  baum_planar_load_def def = baum_planar_load_def_default();
+  def.name = "load";
+  def.body = parts->tool;
+  def.point[0] = 0.01;
+  def.force[0] = -0.5;
+  def.torque = 0.1;
+  return def;
+}
+
+GOOD(user_force)
+{
+  baum_user_force_def def = baum_user_force_def_default();
+  def.name = "drag";
+  def.bodies = parts->drag_bodies;
+  def.body_count = 1;
+  def.force = drag_force;
+  def.force_q = drag_force_q;
+  def.force_v = drag_force_v;
+  def.user = parts->fault;
+  return def;
+}
+
+/* ---- fields ---- */
+
+#define FIELD(STRUCT, NAME, TYPE)                                            \
+  {                                                                          \
+#NAME, offsetof(STRUCT, NAME), sizeof(((STRUCT *)0)->NAME), FIELD_##TYPE \
+  }
+
+static const element_field planar_body_fields[] = {
+  FIELD(baum_planar_body_def, struct_size, SIZE),
+  FIELD(baum_planar_body_def, name, NAME),
+  FIELD(baum_planar_body_def, mass, NUMBERS),
+  FIELD(baum_planar_body_def, inertia, NUMBERS),
+  FIELD(baum_planar_body_def, position, NUMBERS),
+  FIELD(baum_planar_body_def, angle, NUMBERS),
+  FIELD(baum_planar_body_def, velocity, NUMBERS),
+  FIELD(baum_planar_body_def, angular_velocity, NUMBERS),
+  FIELD(baum_planar_body_def, held, FLAG),
+};
+
+static const element_field planar_particle_fields[] = {
+  FIELD(baum_planar_particle_def, struct_size, SIZE),
+  FIELD(baum_planar_particle_def, name, NAME),
+  FIELD(baum_planar_particle_def, mass, NUMBERS),
+  FIELD(baum_planar_particle_def, position, NUMBERS),
+  FIELD(baum_planar_particle_def, velocity, NUMBERS),
+  FIELD(baum_planar_particle_def, held, FLAG),
+};
+
+static const element_field coordinates_fields[] = {
+  FIELD(baum_coordinates_def, struct_size, SIZE),
+  FIELD(baum_coordinates_def, name, NAME),
+  FIELD(baum_coordinates_def, size, INTEGER),
+  FIELD(baum_coordinates_def, q, ARRAY),
+  FIELD(baum_coordinates_def, v, ARRAY),
+  FIELD(baum_coordinates_def, scale, ARRAY),
+  FIELD(baum_coordinates_def, mass, FUNCTION),
+  FIELD(baum_coordinates_def, force, FUNCTION),
+  FIELD(baum_coordinates_def, force_q, FUNCTION),
+  FIELD(baum_coordinates_def, force_v, FUNCTION),
+  FIELD(baum_coordinates_def, potential, FUNCTION),
+  FIELD(baum_coordinates_def, constant_mass, FLAG),
+  FIELD(baum_coordinates_def, held, FLAG),
+  FIELD(baum_coordinates_def, user, FUNCTION),
+};
+
+static const element_field planar_revolute_fields[] = {
+  FIELD(baum_planar_revolute_def, struct_size, SIZE),
+  FIELD(baum_planar_revolute_def, name, NAME),
+  FIELD(baum_planar_revolute_def, body_a, ID),
+  FIELD(baum_planar_revolute_def, body_b, ID),
+  FIELD(baum_planar_revolute_def, point, NUMBERS),
+  FIELD(baum_planar_revolute_def, point_a, NUMBERS),
+  FIELD(baum_planar_revolute_def, point_b, NUMBERS),
+};
+
+static const element_field planar_distance_fields[] = {
+  FIELD(baum_planar_distance_def, struct_size, SIZE),
+  FIELD(baum_planar_distance_def, name, NAME),
+  FIELD(baum_planar_distance_def, body_a, ID),
+  FIELD(baum_planar_distance_def, body_b, ID),
+  FIELD(baum_planar_distance_def, point, NUMBERS),
+  FIELD(baum_planar_distance_def, point_a, NUMBERS),
+  FIELD(baum_planar_distance_def, point_b, NUMBERS),
+  FIELD(baum_planar_distance_def, length, NUMBERS),
+};
+
+static const element_field planar_translational_fields[] = {
+  FIELD(baum_planar_translational_def, struct_size, SIZE),
+  FIELD(baum_planar_translational_def, name, NAME),
+  FIELD(baum_planar_translational_def, body_a, ID),
+  FIELD(baum_planar_translational_def, body_b, ID),
+  FIELD(baum_planar_translational_def, point, NUMBERS),
+  FIELD(baum_planar_translational_def, point_a, NUMBERS),
+  FIELD(baum_planar_translational_def, point_b, NUMBERS),
+  FIELD(baum_planar_translational_def, axis, NUMBERS),
+  FIELD(baum_planar_translational_def, angle, NUMBERS),
+};
+
+static const element_field planar_fixed_fields[] = {
+  FIELD(baum_planar_fixed_def, struct_size, SIZE), FIELD(baum_planar_fixed_def, name, NAME),
+  FIELD(baum_planar_fixed_def, body_a, ID),        FIELD(baum_planar_fixed_def, body_b, ID),
+  FIELD(baum_planar_fixed_def, point, NUMBERS),    FIELD(baum_planar_fixed_def, point_a, NUMBERS),
+  FIELD(baum_planar_fixed_def, point_b, NUMBERS),  FIELD(baum_planar_fixed_def, angle, NUMBERS),
+};
+
+static const element_field driver_fields[] = {
+  FIELD(baum_driver_def, struct_size, SIZE), FIELD(baum_driver_def, name, NAME),
+  FIELD(baum_driver_def, joint, ID),         FIELD(baum_driver_def, value, NUMBERS),
+  FIELD(baum_driver_def, rate, NUMBERS),     FIELD(baum_driver_def, acceleration, NUMBERS),
+  FIELD(baum_driver_def, law, FUNCTION),     FIELD(baum_driver_def, user, FUNCTION),
+};
+
+static const element_field user_constraint_fields[] = {
+  FIELD(baum_user_constraint_def, struct_size, SIZE),
+  FIELD(baum_user_constraint_def, name, NAME),
+  FIELD(baum_user_constraint_def, bodies, ARRAY),
+  FIELD(baum_user_constraint_def, body_count, INTEGER),
+  FIELD(baum_user_constraint_def, row_count, INTEGER),
+  FIELD(baum_user_constraint_def, phi, FUNCTION),
+  FIELD(baum_user_constraint_def, jacobian, FUNCTION),
+  FIELD(baum_user_constraint_def, nu, FUNCTION),
+  FIELD(baum_user_constraint_def, gamma, FUNCTION),
+  FIELD(baum_user_constraint_def, user, FUNCTION),
+};
+
+static const element_field planar_spring_fields[] = {
+  FIELD(baum_planar_spring_def, struct_size, SIZE),
+  FIELD(baum_planar_spring_def, name, NAME),
+  FIELD(baum_planar_spring_def, body_a, ID),
+  FIELD(baum_planar_spring_def, body_b, ID),
+  FIELD(baum_planar_spring_def, point, NUMBERS),
+  FIELD(baum_planar_spring_def, point_a, NUMBERS),
+  FIELD(baum_planar_spring_def, point_b, NUMBERS),
+  FIELD(baum_planar_spring_def, stiffness, NUMBERS),
+  FIELD(baum_planar_spring_def, damping, NUMBERS),
+  FIELD(baum_planar_spring_def, free_length, NUMBERS),
+};
+
+static const element_field planar_load_fields[] = {
+  FIELD(baum_planar_load_def, struct_size, SIZE),  FIELD(baum_planar_load_def, name, NAME),
+  FIELD(baum_planar_load_def, body, ID),           FIELD(baum_planar_load_def, point, NUMBERS),
+  FIELD(baum_planar_load_def, force, NUMBERS),     FIELD(baum_planar_load_def, torque, NUMBERS),
+  FIELD(baum_planar_load_def, follows_body, FLAG),
+};
+
+static const element_field user_force_fields[] = {
+  FIELD(baum_user_force_def, struct_size, SIZE), FIELD(baum_user_force_def, name, NAME),
+  FIELD(baum_user_force_def, bodies, ARRAY),     FIELD(baum_user_force_def, body_count, INTEGER),
+  FIELD(baum_user_force_def, force, FUNCTION),   FIELD(baum_user_force_def, force_q, FUNCTION),
+  FIELD(baum_user_force_def, force_v, FUNCTION), FIELD(baum_user_force_def, potential, FUNCTION),
+  FIELD(baum_user_force_def, user, FUNCTION),
+};
+
+const element_field option_fields[OPTION_FIELDS] = {
+  FIELD(baum_simulation_options, struct_size, SIZE),
+  FIELD(baum_simulation_options, integrator, FUNCTION),
+  FIELD(baum_simulation_options, formulation, INTEGER),
+  FIELD(baum_simulation_options, gains, GAINS),
+  FIELD(baum_simulation_options, allow_unstable, FLAG),
+  FIELD(baum_simulation_options, step, NUMBERS),
+  FIELD(baum_simulation_options, rtol, NUMBERS),
+  FIELD(baum_simulation_options, atol, NUMBERS),
+  FIELD(baum_simulation_options, start_time, NUMBERS),
+  FIELD(baum_simulation_options, start, INTEGER),
+  FIELD(baum_simulation_options, solver, INTEGER),
+  FIELD(baum_simulation_options, check_derivatives, FLAG),
+  FIELD(baum_simulation_options, max_steps, INTEGER),
+  FIELD(baum_simulation_options, progress, FUNCTION),
+  FIELD(baum_simulation_options, progress_interval, NUMBERS),
+  FIELD(baum_simulation_options, user, FUNCTION),
+};
+
+/* ---- the table ---- */
+
+#define KIND_FUNCTIONS(FAMILY, NAME)                                                       \
+  static void init_##NAME(any_def *def, size_t caller_size)                                \
+  {                                                                                        \
+    baum_##NAME##_def_init((void *)def, caller_size);                                      \
+  }                                                                                        \
+  static baum_status add_##NAME(baum_mechanism *mechanism, const any_def *def, any_id *id) \
+  {                                                                                        \
+    baum_##FAMILY##_id found = {id ? id->index1 : 0, id ? id->tag : 0};                    \
+    baum_status status =                                                                   \
+      baum_mechanism_add_##NAME(mechanism, (const void *)def, id ? &found : NULL);         \
+    if (id) {                                                                              \
+      *id = (any_id){found.index1, found.tag};                                             \
+    }                                                                                      \
+    return status;                                                                         \
+  }                                                                                        \
+  static baum_status get_##NAME(const baum_mechanism *mechanism, any_id id, any_def *out,  \
+                                size_t caller_size)                                        \
+  {                                                                                        \
+    baum_##FAMILY##_id typed = {id.index1, id.tag};                                        \
+    return baum_mechanism_get_##NAME(mechanism, typed, (void *)out, caller_size);          \
+  }                                                                                        \
+  static baum_status set_##NAME(baum_mechanism *mechanism, any_id id, const any_def *def)  \
+  {                                                                                        \
+    baum_##FAMILY##_id typed = {id.index1, id.tag};                                        \
+    return baum_mechanism_set_##NAME(mechanism, typed, (const void *)def);                 \
+  }
+
+#define KIND(FAMILY, NAME, TITLE, PART)                                                    \
+  {                                                                                        \
+#NAME, TITLE, #FAMILY, sizeof(baum_##NAME##_def), init_##NAME, add_##NAME, get_##NAME, \
+      set_##NAME, good_##NAME, offsetof(every_element, PART), NAME##_fields,               \
+      sizeof NAME##_fields / sizeof *NAME##_fields                                         \
+  }
+
+KIND_FUNCTIONS(body, planar_body)
+KIND_FUNCTIONS(body, planar_particle)
+KIND_FUNCTIONS(body, coordinates)
+KIND_FUNCTIONS(joint, planar_revolute)
+KIND_FUNCTIONS(joint, planar_distance)
+KIND_FUNCTIONS(joint, planar_translational)
+KIND_FUNCTIONS(joint, planar_fixed)
+KIND_FUNCTIONS(joint, driver)
+KIND_FUNCTIONS(joint, user_constraint)
+KIND_FUNCTIONS(force, planar_spring)
+KIND_FUNCTIONS(force, planar_load)
+KIND_FUNCTIONS(force, user_force)
+
+const element_kind element_kinds[ELEMENT_KINDS] = {
+  KIND(body, planar_body, "planar body", crank),
+  KIND(body, planar_particle, "planar particle", bob),
+  KIND(body, coordinates, "user coordinates", masses),
+  KIND(joint, planar_revolute, "planar revolute joint", pin),
+  KIND(joint, planar_distance, "planar distance joint", rod),
+  KIND(joint, planar_translational, "planar translational joint", guide),
+  KIND(joint, planar_fixed, "planar fixed joint", weld),
+  KIND(joint, driver, "driver", motor),
+  KIND(joint, user_constraint, "user constraint", circle),
+  KIND(force, planar_spring, "planar spring", spring),
+  KIND(force, planar_load, "planar load", load),
+  KIND(force, user_force, "user force", drag),
+};
+
+any_id every_element_id(const every_element *parts, const element_kind *kind)
+{
+  any_id id;
+  memcpy(&id, (const char *)parts + kind->id, sizeof id);
+  return id;
+}
+
+/* ---- building ---- */
+
+static baum_status add_block(every_element *parts, const char *name, double x, double y,
+                             baum_body_id *id)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.name = name;
+  def.mass = 0.7;
+  def.inertia = 2e-3;
+  def.position[0] = x;
+  def.position[1] = y;
+  return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
+}
+
+static baum_status add_kind(every_element *parts, const element_kind *kind)
+{
+  any_def def;
+  any_id id = {0, 0};
+  parts->circle_bodies[0] = parts->slider;
+  parts->circle_bodies[1] = parts->bob;
+  parts->drag_bodies[0] = parts->bob;
+  kind->good(parts, &def);
+  baum_status status = kind->add(parts->mechanism, &def, &id);
+  if (status == BAUM_OK) {
+    memcpy((char *)parts + kind->id, &id, sizeof id);
+  }
+  return status;
+}
+
+static baum_status add_all(every_element *parts)
+{
+  baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);
+  for (int k = 0; k < ELEMENT_KINDS && status == BAUM_OK; k++) {
+    status = add_kind(parts, &element_kinds[k]);
+    if (k == 0 && status == BAUM_OK) {
+      status = add_block(parts, "slider", 0.4, 0.0, &parts->slider);
+    }
+    if (k == 0 && status == BAUM_OK) {
+      status = add_block(parts, "tool", 0.45, 0.05, &parts->tool);
+    }
+  }
+  return status;
+}
+
+baum_status every_element_build(every_element *parts)
+{
+  every_fault *fault = parts->fault;
+  memset(parts, 0, sizeof *parts);
+  parts->fault = fault;
+  baum_status status = baum_mechanism_create(&parts->mechanism);
+  if (status == BAUM_OK) {
+    status = add_all(parts);
+  }
+  if (status != BAUM_OK) {
+    baum_mechanism_destroy(parts->mechanism);
+    parts->mechanism = NULL;
+  }
+  return status;
+}
+
+every_element every_element_make(every_fault *fault)
+{
+  every_element parts = {.fault = fault};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
+  return parts;
+}

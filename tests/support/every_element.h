@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One mechanism with an element of every kind, and the kinds as a table: what tests of the interface go through.
+ *
+ *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on a circle about the
+ *   slider (user constraint); two masses in a row (user coordinates); spring, load, drag (user force).
+ *
+ * 13 coordinates, 10 rows, 3 freedoms; drawn in its exact start pose.
+ */
+#ifndef BAUM_TEST_EVERY_ELEMENT_H
+#define BAUM_TEST_EVERY_ELEMENT_H
+
+#include <baum/baum.h>
+
+/* Any id, for functions that serve all kinds. */
+typedef struct any_id {
+  int32_t index1;
+  uint32_t tag;
+} any_id;
+
+/* How the functions of the elements fail, and how often they are called. All zero: they do not. */
+typedef struct every_fault {
+  int answer;    /* returned by the faulty call; 0: it gives NaN instead, when `fails` */
+  bool fails;    /* at all */
+  double after;  /* fails when t is above this */
+  int64_t from;  /* or from this call on, when > 0 */
+  int64_t calls; /* of all functions together */
+} every_fault;
+
+typedef struct every_element {
+  baum_mechanism *mechanism;
+  baum_body_id crank;
+  baum_body_id slider;
+  baum_body_id tool;
+  baum_body_id bob;
+  baum_body_id masses;
+  baum_joint_id pin;
+  baum_joint_id rod;
+  baum_joint_id guide;
+  baum_joint_id weld;
+  baum_joint_id motor;
+  baum_joint_id circle;
+  baum_force_id spring;
+  baum_force_id load;
+  baum_force_id drag;
+  every_fault *fault;            /* `user` of all functions; may be NULL */
+  baum_body_id circle_bodies[2]; /* of the definitions */
+  baum_body_id drag_bodies[1];
+} every_element;
+
+enum { EVERY_NV = 13, EVERY_NC = 10, EVERY_DEF_SIZE = 256 };
+
+/* A definition of any kind. */
+typedef union any_def {
+  struct {
+    size_t struct_size;
+    const char *name;
+  } head;
+  double numbers[EVERY_DEF_SIZE / sizeof(double)];
+  unsigned char bytes[EVERY_DEF_SIZE];
+} any_def;
+
+typedef enum field_type {
+  FIELD_SIZE,     /* struct_size */
+  FIELD_NAME,     /* copied text */
+  FIELD_NUMBERS,  /* double or double[2] */
+  FIELD_INTEGER,  /* int32_t, int64_t or an enum */
+  FIELD_FLAG,     /* bool */
+  FIELD_ID,       /* of a body or joint */
+  FIELD_FUNCTION, /* or a pointer that is not looked into */
+  FIELD_ARRAY,    /* copied doubles or ids, or NULL */
+  FIELD_GAINS
+} field_type;
+
+typedef struct element_field {
+  const char *name;
+  size_t offset;
+  size_t size;
+  field_type type;
+} element_field;
+
+typedef struct element_kind {
+  const char *name;  /* baum_<name>_def */
+  const char *title; /* in sentences */
+  const char *family;
+  size_t size;
+  void (*init)(any_def *def, size_t caller_size);
+  baum_status (*add)(baum_mechanism *mechanism, const any_def *def, any_id *id);
+  baum_status (*get)(const baum_mechanism *mechanism, any_id id, any_def *out, size_t caller_size);
+  baum_status (*set)(baum_mechanism *mechanism, any_id id, const any_def *def);
+  /* The definition that every_element_build() uses; its parts must be in `parts` already. */
+  void (*good)(const every_element *parts, any_def *def);
+  size_t id;                   /* offset in every_element */
+  const element_field *fields; /* all of the struct, in its order */
+  int field_count;
+} element_kind;
+
+enum { ELEMENT_KINDS = 12 };
+extern const element_kind element_kinds[ELEMENT_KINDS];
+
+enum { OPTION_FIELDS = 16 };
+extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_options */
+
+any_id every_element_id(const every_element *parts, const element_kind *kind);
+
+/* Build it, not frozen; on failure there is no mechanism. parts->fault is read, the rest written. */
+baum_status every_element_build(every_element *parts);
+
+/* The same, frozen; fails the test on failure. */
+every_element every_element_make(every_fault *fault);
+
+#endif
