@@ -139,7 +139,7 @@ static kind force_kind(const baum_i_force_type *type)
 
 static baum_i_span *span_of(const kind *k, void *item)
 {
-  return (baum_i_span *)((char *)item + k->span);
+  return (baum_i_span *)(void *)((char *)item + k->span);
 }
 
 /* Check a definition for the number-th element of its family. */
@@ -192,7 +192,7 @@ static baum_status make_span(const baum_mechanism *mechanism, const kind *k, con
 static void item_free(void *item, size_t span)
 {
   if (item) {
-    free_span((baum_i_span *)((char *)item + span));
+    free_span((baum_i_span *)(void *)((char *)item + span));
     release(item);
     baum_i_free(item);
   }

@@ -124,7 +124,7 @@ typedef struct baum_i_frame {
   double x, y;      /* origin */
   double c, s;      /* cos, sin of the angle */
   double angle;     /* continuous */
-  double vx, vy, w; /* velocities; zero until baum_i_point_set_velocity() */
+  double vx, vy, w; /* velocities; zero at position level */
 } baum_i_frame;
 
 /* Where functions are evaluated. Belongs to a workspace; one thread at a time. */
