@@ -49,8 +49,6 @@ typedef struct ida_run {
   baum_i_statistics before; /* up to the last restart */
 } ida_run;
 
-static const double MULTIPLIER_WEIGHT = 1e-10;
-
 static const baum_i_sundials_flag FLAGS[] = {
   {IDA_TOO_MUCH_ACC, BAUM_ERR_STEP,
    "rtol and atol ask for more digits than double precision has; raise rtol"},
@@ -106,15 +104,28 @@ static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Ve
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
+/* Next to nothing beside a relative error of 1, in whatever units. */
+static double multiplier_weight(const double *lambda, int nc)
+{
+  double largest = 1.0;
+  for (int i = 0; i < nc; i++) {
+    largest = fmax(largest, fabs(lambda[i]));
+  }
+  return 1e-10 / largest;
+}
+
 static int weigh(N_Vector y, N_Vector weights, void *user)
 {
   const ida_run *run = user;
   const baum_i_problem *problem = run->sundials.problem;
   const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *v = N_VGetArrayPointer(y) + mechanism->nq;
   double *w = N_VGetArrayPointer(weights);
-  baum_i_sundials_weights(problem, N_VGetArrayPointer(y) + mechanism->nq, w);
+  double *multipliers = w + mechanism->nq + mechanism->nv;
+  baum_i_sundials_weights(problem, v, w);
+  double weight = multiplier_weight(v + mechanism->nv, mechanism->nc);
   for (int i = 0; i < mechanism->nc; i++) {
-    w[mechanism->nq + mechanism->nv + i] = MULTIPLIER_WEIGHT;
+    multipliers[i] = weight;
   }
   return 0;
 }

@@ -51,6 +51,13 @@ baum_status integrator_run_to(integrator_run *run, double t);
 baum_status integrator_run_restart(integrator_run *run, double t, const double *q, const double *v,
                                    double direction);
 
+/* q and v (2) of a known motion. */
+typedef void motion_fn(double t, double q[2], double v[2]);
+
+/* By what factor the largest error up to t falls when rtol falls tenfold: slope of log error over log rtol, from
+ * seven tolerances between 1e-4 and 1e-10. */
+double tolerance_factor(const integrator_setup *setup, double t, motion_fn *motion, double rate);
+
 /* ---- mechanisms; destroy them ---- */
 
 /* Point of 1 kg on a rod of 1 m about the origin, at rest level with it, gravity 9.81. */

@@ -275,8 +275,6 @@ static void for_each(battery_fn *test)
   }
 }
 
-typedef void motion_fn(double t, double q[2], double v[2]);
-
 /* Error at t, forward or backward. */
 static double error_at(baum_mechanism *mechanism, const integrator_setup *setup, double t,
                        motion_fn *motion, double rate)

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "integrator_run.h"
+#include "models.h"
+
+static int need_sundials(void **state)
+{
+  (void)state;
+  if (!baum_has("sundials")) {
+    skip();
+  }
+  return 0;
+}
+
+/* ---- accuracy ---- */
+
+/* Adams' order rises with the tolerance; BDF's ends at 5, with an error like rtol^(5/6): 6.8 for each decade. */
+static void error_falls_with_the_tolerance(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_setup setup =
+    integrator_setup_make(mechanism, baum_cvode_adams(), BAUM_FORMULATION_BAUMGARTE);
+  setup.gain = 2.0 * 4.43;
+  double adams = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
+  setup.integrator = baum_cvode_bdf();
+  double bdf = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
+  if (!(adams >= 7.0 && bdf >= 6.0)) {
+    fail_msg("factors %.2f and %.2f", adams, bdf);
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
+/* The slider-crank driven at 150 rad/s for a turn: the crank's angle is known. */
+static void a_driven_slider_crank_follows_its_driver(void **state)
+{
+  (void)state;
+  model scene;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &scene), BAUM_OK);
+  const baum_integrator *const both[] = {baum_cvode_adams(), baum_cvode_bdf()};
+  for (int k = 0; k < 2; k++) {
+    integrator_setup setup =
+      integrator_setup_make(scene.mechanism, both[k], BAUM_FORMULATION_BAUMGARTE);
+    setup.gain = 300.0;
+    setup.rtol = 1e-8;
+    integrator_run run;
+    assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+    double start = run.state_q[2];
+    double turn = 6.283185307179586 / 150.0;
+    assert_int_equal(integrator_run_to(&run, turn), BAUM_OK);
+    ASSERT_NEAR(run.q[2] - start, 6.283185307179586, 0.0, 1e-6);
+    ASSERT_NEAR(run.v[2], 150.0, 1e-6, 0.0);
+    integrator_run_close(&run);
+  }
+  model_destroy(&scene);
+}
+
+/* ---- stiffness ---- */
+
+static int64_t evaluations_of(baum_mechanism *mechanism, const baum_integrator *integrator,
+                              double q[2])
+{
+  integrator_setup setup =
+    integrator_setup_make(mechanism, integrator, BAUM_FORMULATION_UNSTABILIZED);
+  integrator_run run;
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
+  q[0] = run.q[0];
+  q[1] = run.q[1];
+  int64_t evaluations = run.workspace->evaluations;
+  integrator_run_close(&run);
+  return evaluations;
+}
+
+/* Rates of 1e4 1/s bind an explicit method to steps of some 1e-4 s, also without any constraint. */
+static void bdf_takes_stiff_forces_in_its_stride(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_stiff();
+  double adams_q[2];
+  double bdf_q[2];
+  int64_t adams = evaluations_of(mechanism, baum_cvode_adams(), adams_q);
+  int64_t bdf = evaluations_of(mechanism, baum_cvode_bdf(), bdf_q);
+  if (!(bdf < 1000 && adams > 10 * bdf)) {
+    fail_msg("evaluations: %ld and %ld", (long)adams, (long)bdf);
+  }
+  ASSERT_NEAR(bdf_q[0], adams_q[0], 0.0, 1e-3);
+  ASSERT_NEAR(bdf_q[1], adams_q[1], 0.0, 1e-3);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- what it says ---- */
+
+static void statistics_add_up(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_setup setup =
+    integrator_setup_make(mechanism, baum_cvode_bdf(), BAUM_FORMULATION_BAUMGARTE);
+  integrator_run run;
+  baum_i_statistics once;
+  baum_i_statistics twice;
+  double start_q[2] = {1.0, 0.0};
+  double start_v[2] = {0.0, 0.0};
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
+  setup.integrator->statistics(run.self, &once);
+  assert_true(once.nonlinear_iterations >= run.steps);
+  assert_true(once.factorizations > 0 && once.factorizations < once.nonlinear_iterations);
+  assert_int_equal(integrator_run_restart(&run, 0.0, start_q, start_v, 1.0), BAUM_OK);
+  assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
+  setup.integrator->statistics(run.self, &twice);
+  assert_int_equal(twice.nonlinear_iterations, 2 * once.nonlinear_iterations);
+  assert_int_equal(twice.factorizations, 2 * once.factorizations);
+  assert_int_equal(twice.rejected, 2 * once.rejected);
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* A force 2 / (0.1 - t)^3, whose motion 1 / (0.1 - t) ends at 0.1 s. */
+static int burst(double t, const double *q, const double *v, const double *inputs, double *out,
+                 void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  double left = 0.1 - t;
+  out[0] = 2.0 / (left * left * left);
+  return 0;
+}
+
+static baum_mechanism *make_bursting(void)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  baum_user_force_def force = baum_user_force_def_default();
+  baum_body_id id;
+  particle.position[0] = 10.0;
+  particle.velocity[0] = 100.0;
+  particle.velocity[1] = 0.0;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &id), BAUM_OK);
+  force.bodies = &id;
+  force.body_count = 1;
+  force.force = burst;
+  assert_int_equal(baum_mechanism_add_user_force(mechanism, &force, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  return mechanism;
+}
+
+static void a_motion_that_ends_is_told_in_a_sentence_with_time_and_step(void **state)
+{
+  (void)state;
+  const baum_integrator *const both[] = {baum_cvode_adams(), baum_cvode_bdf()};
+  for (int k = 0; k < 2; k++) {
+    baum_mechanism *mechanism = make_bursting();
+    integrator_setup setup = integrator_setup_make(mechanism, both[k], BAUM_FORMULATION_BAUMGARTE);
+    integrator_run run;
+    assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+    baum_status status = integrator_run_to(&run, 1.0);
+    if (status != BAUM_ERR_STEP && status != BAUM_ERR_CONVERGENCE) {
+      fail_msg("%s: %s", baum_status_name(status), status ? baum_message() : "");
+    }
+    assert_non_null(strstr(baum_message(), both[k]->name));
+    assert_non_null(strstr(baum_message(), "step"));
+    assert_true(strncmp(baum_message(), "t = 0.", 6) == 0);
+    assert_true(run.state.t < 0.1);
+    ASSERT_NEAR(run.state_q[0], 1.0 / (0.1 - run.state.t), 1e-3, 0.0);
+    integrator_run_close(&run);
+    baum_mechanism_destroy(mechanism);
+  }
+}
+
+/* Standard error goes to a file while everything that fails is made to fail. */
+static void sundials_never_prints(void **state)
+{
+  FILE *file = tmpfile();
+  assert_non_null(file);
+  (void)fflush(stderr);
+  int kept = dup(STDERR_FILENO);
+  assert_true(kept >= 0 && dup2(fileno(file), STDERR_FILENO) >= 0);
+  a_motion_that_ends_is_told_in_a_sentence_with_time_and_step(state);
+  (void)fflush(stderr);
+  assert_true(dup2(kept, STDERR_FILENO) >= 0);
+  (void)close(kept);
+  assert_int_equal(lseek(fileno(file), 0, SEEK_END), 0);
+  (void)fclose(file);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup(error_falls_with_the_tolerance, need_sundials),
+    cmocka_unit_test_setup(a_driven_slider_crank_follows_its_driver, need_sundials),
+    cmocka_unit_test_setup(bdf_takes_stiff_forces_in_its_stride, need_sundials),
+    cmocka_unit_test_setup(statistics_add_up, need_sundials),
+    cmocka_unit_test_setup(a_motion_that_ends_is_told_in_a_sentence_with_time_and_step,
+                           need_sundials),
+    cmocka_unit_test_setup(sundials_never_prints, need_sundials),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
