@@ -1,0 +1,263 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "assert_near.h"
+#include "integrate/ida.h"
+#include "integrator_run.h"
+#include "models.h"
+
+/* ---- accuracy ---- */
+
+static void error_falls_with_the_tolerance(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), BAUM_FORMULATION_BAUMGARTE);
+  setup.gain = 2.0 * 4.43;
+  double index1 = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
+  /* At index 3 velocities and multipliers are not tested, and it shows. */
+  setup.formulation = BAUM_FORMULATION_INDEX3;
+  double index3 = tolerance_factor(&setup, 2.0, pendulum_motion, 4.43);
+  if (!(index1 >= 7.0 && index3 >= 4.0)) {
+    fail_msg("factors %.2f and %.2f", index1, index3);
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
+static double largest_violation(baum_formulation formulation)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), formulation);
+  integrator_run run;
+  double largest = 0.0;
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  while (run.state.t < 5.0) {
+    assert_int_equal(integrator_run_step(&run), BAUM_OK);
+    largest = fmax(largest, fabs(hypot(run.state_q[0], run.state_q[1]) - 1.0));
+  }
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+  return largest;
+}
+
+/* Index 3 has Phi = 0 among its equations, to the accuracy of Newton's iteration, about the tolerance; index 1 only
+ * its second derivative. */
+static void violation_is_as_the_formulation_says(void **state)
+{
+  (void)state;
+  double unstabilized = largest_violation(BAUM_FORMULATION_UNSTABILIZED);
+  double baumgarte = largest_violation(BAUM_FORMULATION_BAUMGARTE);
+  double index3 = largest_violation(BAUM_FORMULATION_INDEX3);
+  if (!(index3 <= 5e-6 && baumgarte <= 1e-4 && unstabilized > 2.0 * baumgarte)) {
+    fail_msg("%.2g, %.2g, %.2g", index3, baumgarte, unstabilized);
+  }
+}
+
+/* ---- exact Jacobian ---- */
+
+typedef struct cost {
+  int64_t steps;
+  baum_i_statistics statistics;
+  double q[RUN_SIZE_MAX];
+} cost;
+
+static cost run_it(const integrator_setup *setup, bool differences, double t)
+{
+  integrator_run run;
+  cost out;
+  assert_int_equal(integrator_run_open(&run, setup), BAUM_OK);
+  if (differences) {
+    baum_ida()->destroy(run.self);
+    assert_int_equal(baum_i_ida_create_with_differences(&run.problem, &run.state, &run.self),
+                     BAUM_OK);
+  }
+  assert_int_equal(integrator_run_to(&run, t), BAUM_OK);
+  out.steps = run.steps;
+  baum_ida()->statistics(run.self, &out.statistics);
+  memcpy(out.q, run.q, sizeof out.q);
+  integrator_run_close(&run);
+  return out;
+}
+
+/* The exact Jacobian may not need more than the dense one from IDA's own differences, which knows nothing of ours. A
+ * term left out or with a wrong sign costs 2 to 40 times as much. */
+static void compare_jacobians(const char *name, baum_mechanism *mechanism,
+                              baum_formulation formulation, double gain, double t)
+{
+  integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), formulation);
+  setup.gain = gain;
+  cost exact = run_it(&setup, false, t);
+  cost differences = run_it(&setup, true, t);
+  double steps = (double)exact.steps / (double)differences.steps;
+  double iterations = (double)exact.statistics.nonlinear_iterations /
+                      (double)differences.statistics.nonlinear_iterations;
+  if (!(steps <= 1.15 && iterations <= 1.15)) {
+    fail_msg("%s, %s: %.2f x the steps, %.2f x the iterations", name,
+             baum_formulation_name(formulation), steps, iterations);
+  }
+  double tolerance = formulation == BAUM_FORMULATION_INDEX3 ? 0.1 : 1e-3;
+  for (int i = 0; i < mechanism->nq; i++) {
+    ASSERT_NEAR(exact.q[i], differences.q[i], 0.0, tolerance * mechanism->scale[i]);
+  }
+}
+
+static void compare_both_indices(const char *name, baum_status status, model *scene, double gain,
+                                 double t)
+{
+  if (status != BAUM_OK) {
+    fail_msg("%s: %s", name, baum_message());
+  }
+  compare_jacobians(name, scene->mechanism, BAUM_FORMULATION_BAUMGARTE, gain, t);
+  compare_jacobians(name, scene->mechanism, BAUM_FORMULATION_INDEX3, gain, t);
+  model_destroy(scene);
+}
+
+static void the_exact_jacobian_is_as_good_as_differences(void **state)
+{
+  (void)state;
+  model scene;
+  model_slider_crank free_crank = {.driven = false};
+  model_slider_crank driven_crank = {.driven = true};
+  compare_both_indices("pendulum", model_pendulum_rod(&MODEL_PENDULUM_SUNDIALS, &scene), &scene,
+                       10.0, 2.0);
+  compare_both_indices("circle", model_pendulum_circle(&MODEL_PENDULUM_SUNDIALS, &scene), &scene,
+                       10.0, 2.0);
+  compare_both_indices("slider-crank", model_slider_crank_build(free_crank, &scene), &scene, 300.0,
+                       0.05);
+  compare_both_indices("driven slider-crank", model_slider_crank_build(driven_crank, &scene),
+                       &scene, 300.0, 0.05);
+  compare_both_indices("four-bar", model_four_bar(&scene), &scene, 10.0, 2.0);
+  compare_both_indices("Andrews", model_andrews_bodies(&scene), &scene, 1e3, 0.01);
+  compare_both_indices("car axis", model_car_axis(true, &scene), &scene, 10.0, 0.5);
+}
+
+/* ---- units ---- */
+
+/* Free swing of a point of m kg: the multipliers are m times as large, the motion is the same, and so are the steps. */
+static int64_t steps_with_mass(double mass)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_body_id id;
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  particle.mass = mass;
+  particle.position[0] = 1.0;
+  particle.velocity[0] = particle.velocity[1] = 0.0;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &id), BAUM_OK);
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = id;
+  rod.point_a[0] = rod.point_a[1] = rod.point_b[0] = rod.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_distance(mechanism, &rod, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), BAUM_FORMULATION_INDEX3);
+  cost out = run_it(&setup, false, 2.0);
+  baum_mechanism_destroy(mechanism);
+  return out.steps;
+}
+
+static void the_unit_of_mass_makes_no_difference(void **state)
+{
+  (void)state;
+  int64_t kilograms = steps_with_mass(1.0);
+  for (int k = -9; k <= 12; k += 3) {
+    double ratio = (double)steps_with_mass(pow(10.0, k)) / (double)kilograms;
+    if (!(ratio > 0.9 && ratio < 1.1)) {
+      fail_msg("1e%d kg: %.2f times the steps", k, ratio);
+    }
+  }
+}
+
+/* ---- start ---- */
+
+/* A consistent start and a given first step: no rejected step among the first ten, at any tolerance; at index 3 two,
+ * because a smaller first step would be worse. */
+static void the_start_is_smooth(void **state)
+{
+  (void)state;
+  static const baum_formulation FORMS[] = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_INDEX3};
+  model scene;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &scene),
+                   BAUM_OK);
+  for (int f = 0; f < 2; f++) {
+    for (double rtol = 1e-3; rtol > 0.9e-10; rtol *= 0.1) {
+      integrator_setup setup = integrator_setup_make(scene.mechanism, baum_ida(), FORMS[f]);
+      integrator_run run;
+      baum_i_statistics statistics;
+      setup.gain = 300.0;
+      setup.rtol = rtol;
+      assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+      for (int k = 0; k < 10; k++) {
+        assert_int_equal(integrator_run_step(&run), BAUM_OK);
+      }
+      setup.integrator->statistics(run.self, &statistics);
+      if (statistics.rejected > 2 * f) {
+        fail_msg("%s, rtol %g: %ld rejected", baum_formulation_name(FORMS[f]), rtol,
+                 (long)statistics.rejected);
+      }
+      integrator_run_close(&run);
+    }
+  }
+  model_destroy(&scene);
+}
+
+/* Create evaluates the start; what fails there is told, and nothing is left behind. */
+static void a_start_that_cannot_be_evaluated_is_refused(void **state)
+{
+  (void)state;
+  force_fault fault = {.after = 1.0, .answer = -1};
+  baum_mechanism *mechanism = make_faulty_pendulum(&fault);
+  integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), BAUM_FORMULATION_BAUMGARTE);
+  integrator_run run;
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  run.state.t = 2.0;
+  int unwanted = 0;
+  void *self = &unwanted;
+  assert_int_equal(baum_ida()->create(&run.problem, &run.state, &self), BAUM_ERR_CALLBACK);
+  assert_null(self);
+  assert_non_null(strstr(baum_message(), "faulty"));
+  assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
+  run.state.t = 0.0;
+  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* begins anew by itself */
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(error_falls_with_the_tolerance),
+    cmocka_unit_test(violation_is_as_the_formulation_says),
+    cmocka_unit_test(the_exact_jacobian_is_as_good_as_differences),
+    cmocka_unit_test(the_unit_of_mass_makes_no_difference),
+    cmocka_unit_test(the_start_is_smooth),
+    cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+static void there_is_nothing_to_test_without_sundials(void **state)
+{
+  (void)state;
+  skip();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(there_is_nothing_to_test_without_sundials)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
