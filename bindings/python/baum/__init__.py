@@ -1,0 +1,45 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Dynamics of constrained multibody systems.
+
+    import baum, numpy as np
+
+    m = baum.Mechanism()
+    bob = m.planar_particle("bob", mass=1, position=(1, 0))
+    m.constraint("circle", [bob], rows=1, phi=lambda t, q: q @ q - 1)
+    run = m.freeze().simulate(np.linspace(0, 10, 101), "cvode_adams", rtol=1e-6, record=["circle.phi", "energy"])
+    run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
+
+The library that does the work is found beside this package, in the build tree, or by the system's loader;
+the environment variable BAUM_LIBRARY names another.
+"""
+from . import _abi, _lib
+from .channels import Channel, a, energy, lambda_, phi, phi_rate, q, v
+from .elements import Body, Force, Joint
+from .errors import Error, Retry, Status, Warning
+from .gains import Gains, auto, deadbeat, fixed, frequency, scaled, taylor
+from .integrators import (
+    Amplification, Integrator, integrators, stability, stability_deadbeat, stability_limit,
+    stability_nearest,
+)
+from .mechanism import Mechanism, Mobility, Sizes
+from .run import Counters, Run
+from .simulation import Simulation
+from .workspace import Workspace
+
+__version__ = _abi.VERSION
+library = _lib.path
+library_version = _lib.version
+
+
+def has(feature):
+    """Whether the library was built with "sundials" or "gsl"."""
+    return _lib.lib.baum_has(feature.encode())
+
+
+__all__ = [
+    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Integrator", "Joint",
+    "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes", "Status", "Warning", "Workspace",
+    "a", "auto", "deadbeat", "energy", "fixed", "frequency", "has", "integrators", "lambda_", "library",
+    "library_version", "phi", "phi_rate", "q", "scaled", "stability", "stability_deadbeat",
+    "stability_limit", "stability_nearest", "taylor", "v",
+]

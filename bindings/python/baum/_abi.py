@@ -1,0 +1,654 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The C interface of baum 0.1.0. Made by tools/generate_abi.py from the headers; do not edit.
+
+Addresses of numbers (double *) are c_void_p, handles likewise; strings are c_char_p.
+"""
+import enum
+from ctypes import (
+    CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int, c_int32, c_int64,
+    c_size_t, c_uint32, c_void_p,
+)
+
+VERSION = "0.1.0"
+
+
+class baum_status(enum.IntEnum):
+    BAUM_OK = 0
+    BAUM_STOP_CANCELLED = 1
+    BAUM_STOP_EVENT = 2
+    BAUM_WARNED = 10
+    BAUM_ERR_ARGUMENT = -1
+    BAUM_ERR_STATE = -2
+    BAUM_ERR_MEMORY = -3
+    BAUM_ERR_STRUCT = -4
+    BAUM_ERR_UNSUPPORTED = -5
+    BAUM_ERR_INCONSISTENT = -10
+    BAUM_ERR_SINGULAR = -11
+    BAUM_ERR_UNSTABLE = -12
+    BAUM_ERR_STEP = -20
+    BAUM_ERR_CONVERGENCE = -21
+    BAUM_ERR_INTEGRATOR = -22
+    BAUM_ERR_NOT_FINITE = -23
+    BAUM_ERR_CALLBACK = -30
+
+
+class baum_body_id(Structure):
+    _fields_ = [
+        ("index1", c_int32),
+        ("tag", c_uint32),
+    ]
+
+
+class baum_joint_id(Structure):
+    _fields_ = [
+        ("index1", c_int32),
+        ("tag", c_uint32),
+    ]
+
+
+class baum_force_id(Structure):
+    _fields_ = [
+        ("index1", c_int32),
+        ("tag", c_uint32),
+    ]
+
+
+BAUM_GROUND = baum_body_id(-1, 0)
+baum_q_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p)
+baum_qv_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p)
+baum_force_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p)
+baum_law_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p)
+
+
+class baum_coordinates_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("size", c_int32),
+        ("q", c_void_p),
+        ("v", c_void_p),
+        ("scale", c_void_p),
+        ("mass", baum_q_fn),
+        ("force", baum_force_fn),
+        ("force_q", baum_force_fn),
+        ("force_v", baum_force_fn),
+        ("potential", baum_q_fn),
+        ("constant_mass", c_bool),
+        ("held", c_bool),
+        ("user", c_void_p),
+    ]
+
+
+class baum_user_constraint_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("bodies", POINTER(baum_body_id)),
+        ("body_count", c_int32),
+        ("row_count", c_int32),
+        ("phi", baum_q_fn),
+        ("jacobian", baum_q_fn),
+        ("nu", baum_q_fn),
+        ("gamma", baum_qv_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_driver_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint", baum_joint_id),
+        ("value", c_double),
+        ("rate", c_double),
+        ("acceleration", c_double),
+        ("law", baum_law_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_user_force_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("bodies", POINTER(baum_body_id)),
+        ("body_count", c_int32),
+        ("force", baum_force_fn),
+        ("force_q", baum_force_fn),
+        ("force_v", baum_force_fn),
+        ("potential", baum_q_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_mobility(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("freedoms", c_int32),
+        ("redundant_rows", c_int32),
+        ("conflicting_rows", c_int32),
+        ("free_bodies", c_int32),
+        ("near_singular", c_bool),
+        ("worst_phi", c_double),
+        ("worst_joint", baum_joint_id),
+        ("text", c_char * 1024),
+    ]
+
+
+class baum_residual(enum.IntEnum):
+    BAUM_RESIDUAL_INDEX1 = 1
+    BAUM_RESIDUAL_INDEX3 = 3
+
+
+class baum_dae(Structure):
+    _fields_ = [
+        ("index", c_int),
+        ("alpha", c_double),
+        ("beta", c_double),
+    ]
+
+
+class baum_sparse(Structure):
+    _fields_ = [
+        ("columns", POINTER(c_int32)),
+        ("rows", POINTER(c_int32)),
+        ("values", c_void_p),
+        ("nonzeros", c_int32),
+    ]
+
+
+class baum_planar_body_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("mass", c_double),
+        ("inertia", c_double),
+        ("position", c_double * 2),
+        ("angle", c_double),
+        ("velocity", c_double * 2),
+        ("angular_velocity", c_double),
+        ("held", c_bool),
+    ]
+
+
+class baum_planar_particle_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("mass", c_double),
+        ("position", c_double * 2),
+        ("velocity", c_double * 2),
+        ("held", c_bool),
+    ]
+
+
+class baum_planar_revolute_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+    ]
+
+
+class baum_planar_translational_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("axis", c_double * 2),
+        ("angle", c_double),
+    ]
+
+
+class baum_planar_distance_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("length", c_double),
+    ]
+
+
+class baum_planar_fixed_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("angle", c_double),
+    ]
+
+
+class baum_planar_spring_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_length", c_double),
+    ]
+
+
+class baum_planar_load_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body", baum_body_id),
+        ("point", c_double * 2),
+        ("force", c_double * 2),
+        ("torque", c_double),
+        ("follows_body", c_bool),
+    ]
+
+
+class baum_gain_rule(enum.IntEnum):
+    BAUM_GAINS_DEFAULT = 0
+    BAUM_GAINS_FIXED = 1
+    BAUM_GAINS_SCALED = 2
+    BAUM_GAINS_TAYLOR = 3
+    BAUM_GAINS_FREQUENCY = 4
+    BAUM_GAINS_DEADBEAT = 5
+    BAUM_GAINS_AUTO = 6
+
+
+class baum_gains(Structure):
+    _fields_ = [
+        ("rule", c_int32),
+        ("value", c_double * 2),
+    ]
+
+
+class baum_stability(enum.IntEnum):
+    BAUM_STABLE = 0
+    BAUM_MARGINAL = 1
+    BAUM_UNSTABLE = 2
+    BAUM_VARIABLE_STEP = 3
+
+
+class baum_amplification(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("stability", c_int),
+        ("spectral_radius", c_double),
+        ("z", (c_double * 2) * 2),
+    ]
+
+
+class baum_formulation(enum.IntEnum):
+    BAUM_FORMULATION_DEFAULT = 0
+    BAUM_FORMULATION_UNSTABILIZED = 1
+    BAUM_FORMULATION_BAUMGARTE = 2
+    BAUM_FORMULATION_PROJECTION = 3
+    BAUM_FORMULATION_INDEX2 = 4
+    BAUM_FORMULATION_GGL = 5
+    BAUM_FORMULATION_INDEX3 = 6
+
+
+class baum_start(enum.IntEnum):
+    BAUM_START_ASSEMBLE = 0
+    BAUM_START_EXACT = 1
+    BAUM_START_AS_GIVEN = 2
+
+
+class baum_solver(enum.IntEnum):
+    BAUM_SOLVER_AUTO = 0
+    BAUM_SOLVER_KLU = 1
+    BAUM_SOLVER_QR = 2
+
+
+baum_progress_fn = CFUNCTYPE(c_int, c_void_p, c_double, c_void_p)
+
+
+class baum_simulation_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("integrator", c_void_p),
+        ("formulation", c_int),
+        ("gains", baum_gains),
+        ("allow_unstable", c_bool),
+        ("step", c_double),
+        ("rtol", c_double),
+        ("atol", c_double),
+        ("start_time", c_double),
+        ("start", c_int),
+        ("solver", c_int),
+        ("check_derivatives", c_bool),
+        ("max_steps", c_int64),
+        ("progress", baum_progress_fn),
+        ("progress_interval", c_double),
+        ("user", c_void_p),
+    ]
+
+
+class baum_quantity(enum.IntEnum):
+    BAUM_Q = 1
+    BAUM_V = 2
+    BAUM_A = 3
+    BAUM_LAMBDA = 4
+    BAUM_PHI = 5
+    BAUM_PHI_RATE = 6
+    BAUM_ENERGY = 7
+    BAUM_BODY_POSE = 8
+    BAUM_BODY_VELOCITY = 9
+    BAUM_JOINT_REACTION = 10
+    BAUM_JOINT_COORDINATE = 11
+
+
+class baum_channel(Structure):
+    _fields_ = [
+        ("quantity", c_int),
+        ("body", baum_body_id),
+        ("joint", baum_joint_id),
+        ("point", c_double * 2),
+    ]
+
+
+class baum_counters(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("steps", c_int64),
+        ("rejected", c_int64),
+        ("short_steps", c_int64),
+        ("evaluations", c_int64),
+        ("factorizations", c_int64),
+        ("full_factorizations", c_int64),
+        ("nonlinear_iterations", c_int64),
+        ("restarts", c_int64),
+        ("near_singular", c_int64),
+        ("warnings", c_int64),
+        ("wall", c_double),
+        ("max_phi", c_double),
+        ("max_phi_rate", c_double),
+        ("max_phi_joint", baum_joint_id),
+        ("max_phi_rate_joint", baum_joint_id),
+        ("predicted_phi", c_double),
+        ("predicted_phi_rate", c_double),
+        ("energy_change", c_double),
+        ("start_change", c_double),
+        ("alpha", c_double),
+        ("beta", c_double),
+    ]
+
+
+# Result and arguments of every function.
+PROTOTYPES = {
+    "baum_status_name": (c_char_p, [c_int]),
+    "baum_status_text": (c_char_p, [c_int]),
+    "baum_message": (c_char_p, []),
+    "baum_coordinates_def_init": (None, [POINTER(baum_coordinates_def), c_size_t]),
+    "baum_mechanism_add_coordinates": (c_int, [
+        c_void_p, POINTER(baum_coordinates_def), POINTER(baum_body_id),
+    ]),
+    "baum_mechanism_get_coordinates": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_coordinates_def), c_size_t,
+    ]),
+    "baum_mechanism_set_coordinates": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_coordinates_def),
+    ]),
+    "baum_user_constraint_def_init": (None, [POINTER(baum_user_constraint_def), c_size_t]),
+    "baum_mechanism_add_user_constraint": (c_int, [
+        c_void_p, POINTER(baum_user_constraint_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_user_constraint": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_user_constraint_def), c_size_t,
+    ]),
+    "baum_mechanism_set_user_constraint": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_user_constraint_def),
+    ]),
+    "baum_driver_def_init": (None, [POINTER(baum_driver_def), c_size_t]),
+    "baum_mechanism_add_driver": (c_int, [
+        c_void_p, POINTER(baum_driver_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_driver": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_driver_def), c_size_t,
+    ]),
+    "baum_mechanism_set_driver": (c_int, [c_void_p, baum_joint_id, POINTER(baum_driver_def)]),
+    "baum_user_force_def_init": (None, [POINTER(baum_user_force_def), c_size_t]),
+    "baum_mechanism_add_user_force": (c_int, [
+        c_void_p, POINTER(baum_user_force_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_user_force": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_user_force_def), c_size_t,
+    ]),
+    "baum_mechanism_set_user_force": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_user_force_def),
+    ]),
+    "baum_mechanism_create": (c_int, [POINTER(c_void_p)]),
+    "baum_mechanism_copy": (c_int, [c_void_p, POINTER(c_void_p)]),
+    "baum_mechanism_destroy": (None, [c_void_p]),
+    "baum_mechanism_set_gravity": (c_int, [c_void_p, c_double, c_double, c_double]),
+    "baum_mechanism_get_gravity": (c_int, [c_void_p, c_void_p]),
+    "baum_mechanism_set_scale": (c_int, [c_void_p, c_double]),
+    "baum_mechanism_get_scale": (c_int, [c_void_p, c_void_p]),
+    "baum_mechanism_freeze": (c_int, [c_void_p]),
+    "baum_mechanism_is_frozen": (c_bool, [c_void_p]),
+    "baum_mechanism_sizes": (c_int, [
+        c_void_p, POINTER(c_int32), POINTER(c_int32), POINTER(c_int32),
+    ]),
+    "baum_mechanism_rows": (c_int, [c_void_p, baum_joint_id, POINTER(c_int32), POINTER(c_int32)]),
+    "baum_mechanism_columns": (c_int, [c_void_p, baum_body_id, POINTER(c_int32), POINTER(c_int32)]),
+    "baum_mechanism_body_name": (c_char_p, [c_void_p, baum_body_id]),
+    "baum_mechanism_joint_name": (c_char_p, [c_void_p, baum_joint_id]),
+    "baum_mechanism_mobility": (c_int, [c_void_p, POINTER(baum_mobility), c_size_t]),
+    "baum_mechanism_check_derivatives": (c_int, [c_void_p]),
+    "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
+    "baum_workspace_destroy": (None, [c_void_p]),
+    "baum_workspace_drawn": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_phi": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_jacobian": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_nu": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_gamma": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_mass": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_force": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_energy": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_acceleration": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, c_double, c_double, c_void_p, c_void_p,
+    ]),
+    "baum_workspace_reaction": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, baum_joint_id, c_void_p,
+    ]),
+    "baum_workspace_residual": (c_int, [
+        c_void_p, POINTER(baum_dae), c_double, c_void_p, c_void_p, c_void_p,
+    ]),
+    "baum_workspace_residual_jacobian": (c_int, [
+        c_void_p, POINTER(baum_dae), c_double, c_double, c_void_p, c_void_p, POINTER(baum_sparse),
+    ]),
+    "baum_workspace_assemble": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, POINTER(baum_body_id), c_int32,
+    ]),
+    "baum_workspace_project": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_planar_body_def_init": (None, [POINTER(baum_planar_body_def), c_size_t]),
+    "baum_mechanism_add_planar_body": (c_int, [
+        c_void_p, POINTER(baum_planar_body_def), POINTER(baum_body_id),
+    ]),
+    "baum_mechanism_get_planar_body": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_planar_body_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_body": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_planar_body_def),
+    ]),
+    "baum_planar_particle_def_init": (None, [POINTER(baum_planar_particle_def), c_size_t]),
+    "baum_mechanism_add_planar_particle": (c_int, [
+        c_void_p, POINTER(baum_planar_particle_def), POINTER(baum_body_id),
+    ]),
+    "baum_mechanism_get_planar_particle": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_planar_particle_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_particle": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_planar_particle_def),
+    ]),
+    "baum_planar_revolute_def_init": (None, [POINTER(baum_planar_revolute_def), c_size_t]),
+    "baum_mechanism_add_planar_revolute": (c_int, [
+        c_void_p, POINTER(baum_planar_revolute_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_revolute": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_revolute_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_revolute": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_revolute_def),
+    ]),
+    "baum_planar_translational_def_init": (None, [
+        POINTER(baum_planar_translational_def), c_size_t,
+    ]),
+    "baum_mechanism_add_planar_translational": (c_int, [
+        c_void_p, POINTER(baum_planar_translational_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_translational": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_translational_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_translational": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_translational_def),
+    ]),
+    "baum_planar_distance_def_init": (None, [POINTER(baum_planar_distance_def), c_size_t]),
+    "baum_mechanism_add_planar_distance": (c_int, [
+        c_void_p, POINTER(baum_planar_distance_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_distance_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_distance_def),
+    ]),
+    "baum_planar_fixed_def_init": (None, [POINTER(baum_planar_fixed_def), c_size_t]),
+    "baum_mechanism_add_planar_fixed": (c_int, [
+        c_void_p, POINTER(baum_planar_fixed_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_fixed": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_fixed_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_fixed": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_fixed_def),
+    ]),
+    "baum_planar_spring_def_init": (None, [POINTER(baum_planar_spring_def), c_size_t]),
+    "baum_mechanism_add_planar_spring": (c_int, [
+        c_void_p, POINTER(baum_planar_spring_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_planar_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_spring_def),
+    ]),
+    "baum_planar_load_def_init": (None, [POINTER(baum_planar_load_def), c_size_t]),
+    "baum_mechanism_add_planar_load": (c_int, [
+        c_void_p, POINTER(baum_planar_load_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_planar_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_load_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_load_def),
+    ]),
+    "baum_gains_fixed": (baum_gains, [c_double, c_double]),
+    "baum_gains_scaled": (baum_gains, [c_double, c_double]),
+    "baum_gains_taylor": (baum_gains, []),
+    "baum_gains_frequency": (baum_gains, [c_double, c_double]),
+    "baum_gains_deadbeat": (baum_gains, []),
+    "baum_gains_auto": (baum_gains, []),
+    "baum_stability_at": (c_int, [
+        c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
+    ]),
+    "baum_stability_limit": (c_int, [c_void_p, c_double, c_void_p]),
+    "baum_stability_deadbeat": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_stability_nearest": (c_int, [c_void_p, c_double, c_double, c_void_p, c_void_p]),
+    "baum_euler": (c_void_p, []),
+    "baum_semi_implicit_euler": (c_void_p, []),
+    "baum_rk2": (c_void_p, []),
+    "baum_rk3": (c_void_p, []),
+    "baum_rk4": (c_void_p, []),
+    "baum_cvode_adams": (c_void_p, []),
+    "baum_cvode_bdf": (c_void_p, []),
+    "baum_ida": (c_void_p, []),
+    "baum_integrator_at": (c_void_p, [c_int32]),
+    "baum_integrator_name": (c_char_p, [c_void_p]),
+    "baum_integrator_order": (c_int32, [c_void_p]),
+    "baum_integrator_has_fixed_step": (c_bool, [c_void_p]),
+    "baum_formulation_name": (c_char_p, [c_int]),
+    "baum_integrator_offers": (c_bool, [c_void_p, c_int]),
+    "baum_simulation_options_init": (None, [POINTER(baum_simulation_options), c_size_t]),
+    "baum_simulation_create": (c_int, [
+        c_void_p, POINTER(baum_simulation_options), POINTER(c_void_p),
+    ]),
+    "baum_simulation_destroy": (None, [c_void_p]),
+    "baum_simulation_advance_to": (c_int, [c_void_p, c_double]),
+    "baum_simulation_step": (c_int, [c_void_p, c_int64]),
+    "baum_simulation_cancel": (None, [c_void_p]),
+    "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_simulation_time": (c_double, [c_void_p]),
+    "baum_simulation_q": (c_void_p, [c_void_p]),
+    "baum_simulation_v": (c_void_p, [c_void_p]),
+    "baum_channels_width": (c_int32, [c_void_p, POINTER(baum_channel), c_int32]),
+    "baum_simulation_get": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_void_p]),
+    "baum_simulation_sample": (c_int, [
+        c_void_p, c_void_p, c_int64, POINTER(baum_channel), c_int32, c_void_p, POINTER(c_int64),
+    ]),
+    "baum_simulation_counters": (c_int, [c_void_p, POINTER(baum_counters), c_size_t]),
+    "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
+    "baum_simulation_explain": (c_char_p, [c_void_p]),
+    "baum_simulation_message": (c_char_p, [c_void_p]),
+    "baum_version": (c_char_p, []),
+    "baum_has": (c_bool, [c_char_p]),
+}
+
+# Structs that the caller fills, and the function that sets their defaults.
+DEFAULTS = {
+    baum_coordinates_def: "baum_coordinates_def_init",
+    baum_user_constraint_def: "baum_user_constraint_def_init",
+    baum_driver_def: "baum_driver_def_init",
+    baum_user_force_def: "baum_user_force_def_init",
+    baum_planar_body_def: "baum_planar_body_def_init",
+    baum_planar_particle_def: "baum_planar_particle_def_init",
+    baum_planar_revolute_def: "baum_planar_revolute_def_init",
+    baum_planar_translational_def: "baum_planar_translational_def_init",
+    baum_planar_distance_def: "baum_planar_distance_def_init",
+    baum_planar_fixed_def: "baum_planar_fixed_def_init",
+    baum_planar_spring_def: "baum_planar_spring_def_init",
+    baum_planar_load_def: "baum_planar_load_def_init",
+    baum_simulation_options: "baum_simulation_options_init",
+}
+
+STRUCTS = [
+    baum_body_id,
+    baum_joint_id,
+    baum_force_id,
+    baum_coordinates_def,
+    baum_user_constraint_def,
+    baum_driver_def,
+    baum_user_force_def,
+    baum_mobility,
+    baum_dae,
+    baum_sparse,
+    baum_planar_body_def,
+    baum_planar_particle_def,
+    baum_planar_revolute_def,
+    baum_planar_translational_def,
+    baum_planar_distance_def,
+    baum_planar_fixed_def,
+    baum_planar_spring_def,
+    baum_planar_load_def,
+    baum_gains,
+    baum_amplification,
+    baum_simulation_options,
+    baum_channel,
+    baum_counters,
+]

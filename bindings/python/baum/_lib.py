@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Find and load the C library, and make sure that it is the one this package was made for."""
+import ctypes
+import ctypes.util
+import os
+import sys
+from pathlib import Path
+
+from . import _abi
+
+if sys.platform == "darwin":
+    NAMES = ["libbaum.dylib", "libbaum.0.dylib"]
+elif os.name == "nt":
+    NAMES = ["baum.dll", "libbaum.dll"]
+else:
+    NAMES = ["libbaum.so", "libbaum.so.0"]
+
+PACKAGE = Path(__file__).resolve().parent
+
+
+def _folders():
+    """Where a library may lie beside this package: in it, in its environment, in the build tree."""
+    yield PACKAGE
+    tree = PACKAGE.parents[2]
+    if (tree / "include" / "baum" / "baum.h").exists():
+        yield from (tree / "build" / "dev", tree / "build" / "release")
+    if sys.prefix != sys.base_prefix:
+        yield Path(sys.prefix) / "lib"
+
+
+def _candidates():
+    """Paths and names to try, in order. BAUM_LIBRARY is the only one when it is set."""
+    named = os.environ.get("BAUM_LIBRARY")
+    if named:
+        yield named
+        return
+    for folder in _folders():
+        for name in NAMES:
+            if (folder / name).exists():
+                yield str(folder / name)
+    yield from reversed(NAMES)
+    found = ctypes.util.find_library("baum")
+    if found:
+        yield found
+
+
+def _open():
+    """The first candidate that loads."""
+    failures = []
+    for candidate in _candidates():
+        try:
+            return ctypes.CDLL(candidate), candidate
+        except OSError as error:
+            failures.append(f"  {candidate}: {error}")
+    raise ImportError("baum: the C library was not found; install it, or name it in BAUM_LIBRARY. "
+                      "Tried:\n" + "\n".join(failures))
+
+
+def _check_version(library, path):
+    """Refuse a library of another interface: before 1.0 major and minor must agree."""
+    try:
+        library.baum_version.restype = ctypes.c_char_p
+        version = library.baum_version().decode()
+    except AttributeError:
+        raise ImportError(f"baum: {path} is not the library baum") from None
+    if version.split(".")[:2] != _abi.VERSION.split(".")[:2]:
+        raise ImportError(f"baum: the library {path} has version {version}, "
+                          f"this Python package has version {_abi.VERSION}")
+    return version
+
+
+def _declare(library, path):
+    """Give every function its result and arguments."""
+    for name, (result, arguments) in _abi.PROTOTYPES.items():
+        try:
+            function = getattr(library, name)
+        except AttributeError:
+            raise ImportError(f"baum: the library {path} has no function {name}") from None
+        function.restype = result
+        function.argtypes = arguments
+
+
+def _check_structs(library, path):
+    """Compare the size of every definition with that of the library."""
+    for struct, name in _abi.DEFAULTS.items():
+        room = (ctypes.c_char * (4 * ctypes.sizeof(struct)))()
+        getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))
+        size = struct.from_buffer(room).struct_size
+        if size != ctypes.sizeof(struct):
+            raise ImportError(f"baum: {struct.__name__} has {size} bytes in the library {path} "
+                              f"and {ctypes.sizeof(struct)} in this Python package")
+
+
+lib, path = _open()
+version = _check_version(lib, path)
+_declare(lib, path)
+_check_structs(lib, path)
+
+
+def default(struct):
+    """A new definition or options struct with the library's defaults."""
+    filled = struct()
+    getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
+    return filled

@@ -1,0 +1,165 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Functions of the user as the library wants them.
+
+A Python function takes (t, q), (t, q, v) or (t) and returns its value. Here it gets a shell that the library
+can call: it shows q and v as read-only arrays, checks what comes back and writes it where it belongs, and
+keeps an exception until the run that it stopped is back. q and v are only valid during the call.
+
+Instead of a Python function there may be the address of a compiled one (an int, a ctypes function pointer,
+or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and costs nothing.
+"""
+import ctypes
+
+import numpy as np
+
+from . import _abi, _calls
+from .errors import Retry
+
+FINE, RETRY, STOP = 0, 1, -1
+CACHED = 64
+NUMERIC = "fiub"
+DOUBLE = np.dtype(np.float64)
+
+
+class _Views(dict):
+    """Arrays on memory of the library, by address. The library reuses few addresses, so making an array,
+    which is slow, is rare. An array is only a window: one that is met again is right again."""
+
+    def __init__(self, shape, writeable):
+        super().__init__()
+        self._shape = shape
+        self._type = ctypes.c_double * int(np.prod(shape))
+        self._writeable = writeable
+
+    def __missing__(self, address):
+        if len(self) >= CACHED:
+            self.clear()
+        view = np.frombuffer(self._type.from_address(address)).reshape(self._shape)
+        view.flags.writeable = self._writeable
+        self[address] = view
+        return view
+
+
+def _without_ones(shape):
+    return tuple(size for size in shape if size != 1)
+
+
+def _checked(value, shape, label):
+    """A returned value as an array of that shape; sides of length 1 may be left out. Else TypeError, ValueError."""
+    wanted = _without_ones(shape)
+    asked = "a number" if not wanted else f"an array of shape {shape}"
+    try:
+        array = np.asarray(value)
+    except ValueError:
+        raise ValueError(f"{label} must return {asked}, not {value!r}") from None
+    if array.dtype.kind not in NUMERIC:
+        raise TypeError(f"{label} must return {asked}, not {value!r}")
+    if _without_ones(array.shape) != wanted:
+        raise ValueError(f"{label} must return {asked}, not one of shape {array.shape}")
+    return array.reshape(shape)
+
+
+def _writer(shape, label):
+    """A function that writes a returned value to an address, quickly if it is what it should be."""
+    views = _Views(shape, writeable=True)
+    single = int(np.prod(shape)) == 1
+    first = (0,) * len(shape)
+
+    def write(address, value):
+        if single and isinstance(value, float):
+            views[address][first] = value
+        elif type(value) is np.ndarray and value.shape == shape and value.dtype is DOUBLE:
+            views[address][...] = value
+        else:
+            views[address][...] = _checked(value, shape, label)
+
+    return write
+
+
+def _shell_q(function, write, nq, nv):
+    q_at = _Views((nq,), writeable=False)
+
+    def shell(t, q, out, user):
+        try:
+            write(out, function(t, q_at[q]))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _shell_qv(function, write, nq, nv):
+    q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
+
+    def shell(t, q, v, out, user):
+        try:
+            write(out, function(t, q_at[q], v_at[v]))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _shell_force(function, write, nq, nv):
+    q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
+
+    def shell(t, q, v, inputs, out, user):
+        try:
+            write(out, function(t, q_at[q], v_at[v]))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _shell_law(function, write, nq, nv):
+    def shell(t, s, user):
+        try:
+            write(s, function(t))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _answer(error):
+    """What the library is told about an exception."""
+    if isinstance(error, Retry):
+        return RETRY
+    _calls.raise_later(error)
+    return STOP
+
+
+SHELLS = {
+    _abi.baum_q_fn: _shell_q,
+    _abi.baum_qv_fn: _shell_qv,
+    _abi.baum_force_fn: _shell_force,
+    _abi.baum_law_fn: _shell_law,
+}
+
+
+def address_of(function):
+    """The address of a compiled function, or None for a Python function."""
+    if isinstance(function, int) and not isinstance(function, bool):
+        return function
+    if isinstance(function, ctypes._CFuncPtr):
+        return ctypes.cast(function, ctypes.c_void_p).value
+    address = getattr(function, "address", None)
+    return address if isinstance(address, int) else None
+
+
+def wrap(kind, function, label, shape, nq=0, nv=0):
+    """A function pointer of type `kind` for a Python function or an address. The caller keeps it alive.
+
+    label names the function in messages; shape is that of its value; nq, nv are the lengths of q and v.
+    """
+    address = address_of(function)
+    if address is not None:
+        return kind(address)
+    if not callable(function):
+        raise TypeError(f"{label}: a function or the address of one is wanted, not {function!r}")
+    return kind(SHELLS[kind](function, _writer(shape, label), nq, nv))

@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Integrators by name, and what they make of Baumgarte's gains."""
+import ctypes
+from collections import namedtuple
+
+from . import _abi, _calls
+from ._lib import lib
+from ._values import number
+
+
+def _names(enum, prefix):
+    """The values of an enum of the library by their names in lower case."""
+    return {value.name[len(prefix):].lower(): value for value in enum}
+
+
+FORMULATIONS = _names(_abi.baum_formulation, "BAUM_FORMULATION_")
+STABILITIES = {value: name for name, value in _names(_abi.baum_stability, "BAUM_").items()}
+
+
+class Integrator:
+    """A method: name, order (0 when it varies), whether it takes `step` or `rtol`, and its formulations."""
+
+    def __init__(self, address):
+        self.address = address
+        self.name = lib.baum_integrator_name(address).decode()
+        self.order = lib.baum_integrator_order(address)
+        self.fixed_step = lib.baum_integrator_has_fixed_step(address)
+        self.formulations = tuple(name for name, value in FORMULATIONS.items()
+                                  if name != "default" and lib.baum_integrator_offers(address, value))
+
+    def __repr__(self):
+        return f"<integrator {self.name}>"
+
+
+def _find_all():
+    found = []
+    while True:
+        address = lib.baum_integrator_at(len(found))
+        if not address:
+            return {one.name: one for one in found}
+        found.append(Integrator(address))
+
+
+_ALL = _find_all()
+
+
+def integrators():
+    """All integrators by name."""
+    return dict(_ALL)
+
+
+def lookup(value):
+    """The Integrator for one or its name."""
+    if isinstance(value, Integrator):
+        return value
+    try:
+        return _ALL[value]
+    except (KeyError, TypeError):
+        raise ValueError(f"no integrator {value!r}; there are: {', '.join(_ALL)}") from None
+
+
+class Amplification(namedtuple("Amplification", "stability spectral_radius roots")):
+    """What becomes of a violation: "stable", "marginal", "unstable" or "variable_step"; the largest |z|; the two
+    roots z. Numbers are NaN for a variable step."""
+
+    __slots__ = ()
+
+
+def stability(integrator, alpha_h, beta2_h2):
+    """Amplification at a point (alpha h, (beta h)^2) of the plane of Fig. 1."""
+    out = _abi.baum_amplification()
+    _calls.make(lib.baum_stability_at, lookup(integrator).address, number(alpha_h, "alpha_h"),
+                number(beta2_h2, "beta2_h2"), ctypes.byref(out), ctypes.sizeof(out))
+    roots = tuple(complex(*root) for root in out.z)
+    return Amplification(STABILITIES[out.stability], out.spectral_radius, roots)
+
+
+def stability_limit(integrator, damping_ratio=1.0):
+    """Largest alpha h for which alpha = damping_ratio x beta is stable; 0 when nothing is."""
+    return _numbers(lib.baum_stability_limit, 1, integrator, number(damping_ratio, "damping_ratio"))[0]
+
+
+def stability_deadbeat(integrator):
+    """The point (alpha h, (beta h)^2) of fastest decay."""
+    return _numbers(lib.baum_stability_deadbeat, 2, integrator)
+
+
+def stability_nearest(integrator, alpha_h, beta2_h2):
+    """The nearest point that damps well, itself when it does."""
+    return _numbers(lib.baum_stability_nearest, 2, integrator, number(alpha_h, "alpha_h"),
+                    number(beta2_h2, "beta2_h2"))
+
+
+def _numbers(function, count, integrator, *arguments):
+    """Call a function that gives `count` numbers."""
+    outs = [ctypes.c_double() for _ in range(count)]
+    _calls.make(function, lookup(integrator).address, *arguments, *map(ctypes.byref, outs))
+    return tuple(out.value for out in outs)

@@ -1,0 +1,270 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""One run of a frozen mechanism."""
+import ctypes
+import time
+
+import numpy as np
+
+from . import _abi, _calls
+from .channels import Layout, q as ALL_Q, v as ALL_V
+from .errors import Error, Status, warn
+from .gains import Gains
+from .integrators import FORMULATIONS, Integrator, lookup
+from ._lib import default, lib
+from .run import Counters, Run
+from ._values import address, integer, number, vector
+
+STARTS = {"assemble": _abi.baum_start.BAUM_START_ASSEMBLE, "exact": _abi.baum_start.BAUM_START_EXACT,
+          "as_given": _abi.baum_start.BAUM_START_AS_GIVEN}
+SOLVERS = {"auto": _abi.baum_solver.BAUM_SOLVER_AUTO, "klu": _abi.baum_solver.BAUM_SOLVER_KLU,
+           "qr": _abi.baum_solver.BAUM_SOLVER_QR}
+WARNING_SIZE = 4096
+AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
+
+
+def _word(words, label):
+    """A converter from one of some words."""
+    def convert(value):
+        if value not in words:
+            raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
+        return words[value]
+    return convert
+
+
+def _number(name):
+    return lambda value: number(value, name)
+
+
+def _gains(value):
+    if not isinstance(value, Gains):
+        raise TypeError(f"gains: something like baum.fixed(5, 5) is wanted, not {value!r}")
+    return value.struct
+
+
+CONVERT = {
+    "formulation": _word(FORMULATIONS, "formulation"),
+    "gains": _gains,
+    "allow_unstable": bool,
+    "step": _number("step"),
+    "rtol": _number("rtol"),
+    "atol": _number("atol"),
+    "start_time": _number("start_time"),
+    "start": _word(STARTS, "start"),
+    "solver": _word(SOLVERS, "solver"),
+    "check_derivatives": bool,
+    "max_steps": lambda value: integer(value, "max_steps"),
+    "progress_interval": _number("progress_interval"),
+}
+
+
+def make_options(method, values):
+    """The library's options from keyword arguments; None keeps a default."""
+    options = default(_abi.baum_simulation_options)
+    if isinstance(method, (str, Integrator)):
+        options.integrator = lookup(method).address
+    elif method is not None:
+        raise TypeError(f"integrator: a name is wanted, not {method!r}")
+    for name, value in values.items():
+        if name not in CONVERT:
+            raise TypeError(f"no option {name!r}; there are: integrator, progress, {', '.join(CONVERT)}")
+        if value is not None:
+            setattr(options, name, CONVERT[name](value))
+    return options
+
+
+def _progress(holder):
+    """A progress function of the library that calls holder[0](t), which may change from call to call."""
+    def call(simulation, t, user):
+        try:
+            return int(holder[0] is not None and bool(holder[0](t)))
+        except BaseException as error:
+            _calls.raise_later(error)
+            return 1
+
+    return _abi.baum_progress_fn(call)
+
+
+class Simulation:
+    """One run.
+
+    integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte", "projection",
+    "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte"; allow_unstable: run with gains that are
+    known to be unstable. step [s] for fixed-step methods; rtol, atol for the others. start_time [s], default 0.
+    start: "assemble", "exact", "as_given". solver: "auto", "klu", "qr". check_derivatives: compare given
+    derivatives with differences first. max_steps of one call. progress(t) is called every progress_interval
+    seconds of wall time, and cancels when it returns something true.
+
+    Warnings of the run become Python warnings of the category baum.Warning. One thread at a time may use it,
+    but for cancel().
+    """
+
+    def __init__(self, mechanism, integrator=None, *, progress=None, **options):
+        self.mechanism = mechanism
+        self._own_progress = progress
+        self._progress = [progress]
+        self._keep = _progress(self._progress)
+        self._layouts = {}
+        self._warned = 0
+        self._seconds_per_step = None
+        struct = make_options(integrator, options)
+        struct.progress = self._keep
+        out = ctypes.c_void_p()
+        _calls.interruptible(_calls.make, lib.baum_simulation_create, mechanism.handle, ctypes.byref(struct),
+                             ctypes.byref(out))
+        self._owner = _calls.Handle(out.value, lib.baum_simulation_destroy, "simulation")
+        self._sizes = mechanism.sizes
+        self._warn()
+
+    def __repr__(self):
+        return f"<simulation at t = {self.time:g} s>"
+
+    # ---- moving -------------------------------------------------------------------------------------
+
+    def advance_to(self, t, progress=None):
+        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED or STOP_CANCELLED."""
+        return self._run(progress, lib.baum_simulation_advance_to, number(t, "t"))
+
+    def step(self, count=1, progress=None):
+        """Take whole steps forward. Returns the Status."""
+        count = integer(count, "count")
+        begun = time.perf_counter()
+        try:
+            return self._run(progress, lib.baum_simulation_step, count, at_once=self._is_short(count))
+        finally:
+            self._seconds_per_step = (time.perf_counter() - begun) / max(count, 1)
+
+    def _is_short(self, count):
+        seconds = self._seconds_per_step
+        return seconds is not None and seconds * count < AT_ONCE and not self.mechanism.has_python
+
+    def sample(self, times, record=()):
+        """Advance through times [s] and return a Run: q, v and the channels in `record` at each of them. A failure is
+        raised with what was recorded so far as `run`."""
+        times = vector(np.atleast_1d(times), None, "times")
+        layout = self._layout([ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in record)])
+        rows = layout.rows(len(times))
+        done = ctypes.c_int64()
+        arguments = (address(times), len(times), layout.structs, layout.count, address(rows),
+                     ctypes.byref(done))
+        try:
+            status = self._run(None, lib.baum_simulation_sample, *arguments)
+        except Error as error:
+            error.run = self._make_run(layout, times, rows, done.value, error.status)
+            raise
+        return self._make_run(layout, times, rows, done.value, status)
+
+    def _make_run(self, layout, times, rows, done, status):
+        account = (self.counters, self.explain, self.warnings)
+        return Run(self.mechanism, layout, times[:done], rows[:done], status, account)
+
+    def set_state(self, t, q, v=None):
+        """Replace time [s] and state, which is handled as the option `start` says. v, or parts of it, may be left
+        free: None or NaN."""
+        nq, nv, _ = self._sizes
+        q = vector(q, nq, "q")
+        v = np.full(nv, np.nan) if v is None else vector(v, nv, "v")
+        self._call(lib.baum_simulation_set_state, number(t, "t"), address(q), address(v))
+        self._warn()
+
+    def cancel(self):
+        """Ask a run to stop after its present step. From any thread or signal handler."""
+        lib.baum_simulation_cancel(self._owner._address)
+
+    def _run(self, progress, function, *arguments, at_once=False):
+        """A call that moves the run."""
+        self._progress[0] = progress or self._own_progress
+        try:
+            if at_once:
+                status = self._owner.call(function, *arguments)
+            else:
+                status = _calls.interruptible(self._owner.call, function, *arguments,
+                                              cancel=self.cancel)
+        except Error:
+            self._warn()
+            raise
+        finally:
+            self._progress[0] = self._own_progress
+        if status != Status.OK:
+            self._warn()
+        return status
+
+    def _call(self, function, *arguments):
+        """A short call; in a thread of its own only when it may come back through Python."""
+        if self.mechanism.has_python:
+            return _calls.interruptible(self._owner.call, function, *arguments)
+        return self._owner.call(function, *arguments)
+
+    # ---- reading ------------------------------------------------------------------------------------
+
+    @property
+    def time(self):
+        """Present time [s]."""
+        return lib.baum_simulation_time(self._owner._address)
+
+    @property
+    def q(self):
+        """Present positions (nq), a copy."""
+        return self._copy(lib.baum_simulation_q, self._sizes.nq)
+
+    @property
+    def v(self):
+        """Present velocities (nv), a copy."""
+        return self._copy(lib.baum_simulation_v, self._sizes.nv)
+
+    def _copy(self, function, size):
+        place = function(self._owner._address)
+        return np.array((ctypes.c_double * size).from_address(place))
+
+    def get(self, *channels):
+        """A channel at the present state: an array of its columns; a tuple of arrays for several."""
+        channels = [self.mechanism.channel(channel) for channel in channels]
+        layout = self._layout(channels)
+        row = layout.rows(1)
+        self._call(lib.baum_simulation_get, layout.structs, layout.count, address(row))
+        parts = tuple(row[0, layout.slices[channel.key]] for channel in channels)
+        return parts[0] if len(parts) == 1 else parts
+
+    def _layout(self, channels):
+        key = tuple(channel.key for channel in channels)
+        if key not in self._layouts:
+            self._layouts[key] = Layout(self.mechanism, channels)
+        return self._layouts[key]
+
+    @property
+    def counters(self):
+        """What the run has cost and how well constraints were kept."""
+        struct = _abi.baum_counters()
+        self._call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
+        values = [getattr(struct, name) for name in Counters._fields]
+        return Counters(*(self.mechanism.find("joint", value) if isinstance(value, ctypes.Structure)
+                          else value for value in values))
+
+    @property
+    def warnings(self):
+        """Sentences of all warnings so far."""
+        return self._warnings_from(0)
+
+    def _warnings_from(self, first):
+        text = ctypes.create_string_buffer(WARNING_SIZE)
+        found = []
+        for k in range(first, self.counters.warnings):
+            self._owner.call(lib.baum_simulation_warning, k, text, WARNING_SIZE)
+            found.append(text.value.decode(errors="replace"))
+        return found
+
+    def _warn(self):
+        """Hand warnings that are new to Python."""
+        new = self._warnings_from(self._warned)
+        self._warned += len(new)
+        for text in new:
+            warn(text)
+
+    @property
+    def explain(self):
+        """In words: formulation, integrator, gains and why, stability, solver, redundancy, tolerances."""
+        return lib.baum_simulation_explain(self._owner._address).decode(errors="replace")
+
+    @property
+    def message(self):
+        """The sentence of the last failure or stop, "" at first."""
+        return lib.baum_simulation_message(self._owner._address).decode(errors="replace")

@@ -1,0 +1,266 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Write baum/_abi.py: the public headers as ctypes.
+
+usage: generate_abi.py [--check] [INCLUDE_DIR [OUTPUT]]
+
+Reads baum/baum.h and what it includes. It knows the C that those headers use and refuses anything
+else, so a declaration is never dropped in silence. --check writes nothing and fails when the output
+would change.
+"""
+import argparse
+import re
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[3]
+OUTPUT = Path(__file__).resolve().parents[1] / "baum" / "_abi.py"
+WIDTH = 100
+
+HEAD = '''\
+# SPDX-License-Identifier: BSD-3-Clause
+"""The C interface of baum {version}. Made by tools/generate_abi.py from the headers; do not edit.
+
+Addresses of numbers (double *) are c_void_p, handles likewise; strings are c_char_p.
+"""
+import enum
+from ctypes import (
+    CFUNCTYPE, POINTER, Structure, c_bool, c_char, c_char_p, c_double, c_int, c_int32, c_int64,
+    c_size_t, c_uint32, c_void_p,
+)
+'''
+
+NUMBERS = {
+    "int": "c_int", "int32_t": "c_int32", "int64_t": "c_int64", "uint32_t": "c_uint32",
+    "size_t": "c_size_t", "double": "c_double", "bool": "c_bool", "char": "c_char",
+}
+
+
+# ---- from files to declarations -------------------------------------------------------------------
+
+def read_headers(include, name="baum/baum.h", seen=None):
+    """Text of a header and of those it includes, each once, included ones first."""
+    seen = set() if seen is None else seen
+    seen.add(name)
+    text = (include / name).read_text(encoding="utf-8")
+    parts = [read_headers(include, wanted, seen)
+             for wanted in re.findall(r"#include <(baum/\w+\.h)>", text) if wanted not in seen]
+    return "\n".join([*parts, text])
+
+
+def strip(text):
+    """Without comments, preprocessor lines, extern "C" and inline functions."""
+    text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
+    text = re.sub(r"//[^\n]*", " ", text)
+    text = re.sub(r"#ifdef __cplusplus\n.*?#endif", " ", text, flags=re.S)
+    text = expand_status(text)
+    text = re.sub(r"\\\n", " ", text)
+    text = re.sub(r"^[ \t]*#.*$", " ", text, flags=re.M)
+    return re.sub(r"static inline [^{;]*\{.*?\n\}", " ", text, flags=re.S)
+
+
+def expand_status(text):
+    """The one X-macro of the interface: the enumerators of baum_status."""
+    rows = re.findall(r'X\((BAUM_\w+), *(-?\d+), *"', text)
+    names = ", ".join(f"{name} = {value}" for name, value in rows)
+    text = re.sub(r"#define BAUM_STATUS_LIST\(X\)(.*\\\n)*.*", " ", text)
+    return re.sub(r"#define BAUM_X.*\n\s*BAUM_STATUS_LIST\(BAUM_X\)", names, text)
+
+
+def split(text):
+    """Declarations, each on one line, ended by a semicolon outside braces."""
+    depth, start = 0, 0
+    for at, char in enumerate(text):
+        depth += (char == "{") - (char == "}")
+        if char == ";" and depth == 0:
+            yield " ".join(text[start:at].split())
+            start = at + 1
+    if text[start:].strip():
+        raise SystemExit(f"not understood: {text[start:].strip()[:80]}")
+
+
+# ---- types ------------------------------------------------------------------------------------------
+
+class Types:
+    """Names that were declared so far, and how C types are spelled in ctypes."""
+
+    def __init__(self):
+        self.structs, self.enums, self.functions, self.handles = set(), set(), set(), set()
+
+    def spell(self, base, stars):
+        """The ctypes name of `base` with that many stars."""
+        if stars == 0:
+            return self._value(base)
+        if base == "char" and stars == 1:
+            return "c_char_p"
+        if base in self.functions and stars == 1:
+            return base
+        if base in ("void", "double") and stars == 1 or base in self.handles and stars == 1:
+            return "c_void_p"
+        if base in self.handles and stars == 2:
+            return "POINTER(c_void_p)"
+        if stars == 1 and (base in self.structs or base in NUMBERS):
+            return f"POINTER({self._value(base)})"
+        raise SystemExit(f"not understood: type {base} {'*' * stars}")
+
+    def _value(self, base):
+        if base in NUMBERS:
+            return NUMBERS[base]
+        if base in self.enums:
+            return "c_int"
+        if base in self.structs:
+            return base
+        if base == "void":
+            return "None"
+        raise SystemExit(f"not understood: type {base}")
+
+
+def declarators(types, text, in_struct=False):
+    """Names and ctypes of `const double *a, b[2]`."""
+    match = re.fullmatch(r"(?:const )?(\w+) ?(.*)", text)
+    base = match[1]
+    for part in match[2].split(","):
+        name = re.fullmatch(r"\s*(\**)\s*(\w+)((?:\s*\[\w+\])*)\s*", part)
+        if not name:
+            raise SystemExit(f"not understood: {text}")
+        sizes = re.findall(r"\[(\w+)\]", name[3])
+        if sizes and not in_struct:
+            yield name[2], types.spell(base, len(name[1]) + 1)
+            continue
+        spelled = types.spell(base, len(name[1]))
+        for size in reversed(sizes):
+            spelled = f"{spelled} * {size}" if " " not in spelled else f"({spelled}) * {size}"
+        yield name[2], spelled
+
+
+def arguments(types, text):
+    """The ctypes of an argument list."""
+    if text.strip() == "void":
+        return []
+    return [spelled for part in text.split(",") for _, spelled in declarators(types, part.strip())]
+
+
+# ---- declarations to Python -----------------------------------------------------------------------
+
+def wrap(opening, items, closing, indent="    "):
+    """`opening items closing` on one line, or the items on lines of their own."""
+    line = opening + ", ".join(items) + closing
+    if len(line) <= WIDTH:
+        return line
+    lines, row = [], indent
+    for item in items:
+        if len(row) + len(item) + 1 > WIDTH and row.strip():
+            lines.append(row.rstrip())
+            row = indent
+        row += item + ", "
+    lines.append(row.rstrip())
+    return "\n".join([opening, *lines, indent[4:] + closing])
+
+
+class Writer:
+    """Collects the parts of the module, one method per kind of declaration."""
+
+    def __init__(self):
+        self.types = Types()
+        self.parts, self.prototypes, self.structs, self.initialised = [], [], [], []
+
+    def opaque(self, name):
+        self.types.handles.add(name)
+
+    def struct(self, name, body):
+        fields = [f'("{field}", {spelled})' for part in body.split(";") if part.strip()
+                  for field, spelled in declarators(self.types, part.strip(), in_struct=True)]
+        self.types.structs.add(name)
+        self.structs.append(name)
+        lines = "\n".join(f"        {field}," for field in fields)
+        self.parts.append(f"\n\nclass {name}(Structure):\n    _fields_ = [\n{lines}\n    ]\n")
+
+    def enumeration(self, name, body):
+        self.types.enums.add(name)
+        rows = [re.fullmatch(r"(\w+) = \(?(-?\d+)\)?", item.strip()) for item in body.split(",")
+                if item.strip()]
+        if not all(rows):
+            raise SystemExit(f"not understood: values of {name}")
+        lines = "\n".join(f"    {row[1]} = {row[2]}" for row in rows)
+        self.parts.append(f"\n\nclass {name}(enum.IntEnum):\n{lines}\n")
+
+    def callback(self, result, name, text):
+        self.types.functions.add(name)
+        spelled = [self.types.spell(result, 0), *arguments(self.types, text)]
+        self._line(wrap(f"{name} = CFUNCTYPE(", spelled, ")"))
+
+    def function(self, result, name, text):
+        match = re.fullmatch(r"(?:const )?(\w+) ?(\**)", result.strip())
+        if not match:
+            raise SystemExit(f"not understood: result of {name}")
+        spelled = self.types.spell(match[1], len(match[2]))
+        self.prototypes.append(
+            wrap(f'    "{name}": ({spelled}, [', arguments(self.types, text), "]),", " " * 8))
+        if name.endswith("_init"):
+            self.initialised.append(name[:-len("_init")])
+
+    def constant(self, kind, name, values):
+        self._line(f"{name} = {kind}({values})")
+
+    def _line(self, text):
+        """One statement, two lines below a class."""
+        after_class = self.parts and "class " in self.parts[-1]
+        self.parts.append(("\n\n" if after_class else "") + text + "\n")
+
+    def module(self, version):
+        """The whole text."""
+        defaults = [f'    {name}: "{name}_init",' for name in self.initialised]
+        structs = [f"    {name}," for name in self.structs]
+        return "".join([
+            HEAD.format(version=version), f'\nVERSION = "{version}"\n', *self.parts,
+            "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
+            "\n".join(self.prototypes), "\n}\n",
+            "\n# Structs that the caller fills, and the function that sets their defaults.\nDEFAULTS = {\n",
+            "\n".join(defaults), "\n}\n",
+            "\nSTRUCTS = [\n", "\n".join(structs), "\n]\n"])
+
+
+RULES = [
+    (r"typedef struct (\w+) \1", "opaque"),
+    (r"typedef struct (\w+) \{(.*)\} \1", "struct"),
+    (r"typedef enum (\w+) \{(.*)\} \1", "enumeration"),
+    (r"typedef (\w+) (\w+)\((.*)\)", "callback"),
+    (r"BAUM_API (.*?)(\w+)\((.*)\)", "function"),
+    (r"static const (\w+) (\w+) = \{(.*)\}", "constant"),
+]
+
+
+def translate(declaration, writer):
+    """Hand one declaration to the writer."""
+    for pattern, method in RULES:
+        match = re.fullmatch(pattern, declaration)
+        if match:
+            getattr(writer, method)(*match.groups())
+            return
+    raise SystemExit(f"not understood: {declaration}")
+
+
+def generate(include):
+    """The text of _abi.py for the headers in `include`."""
+    text = read_headers(Path(include))
+    version = re.search(r'#define BAUM_VERSION +"([^"]+)"', text)[1]
+    writer = Writer()
+    for declaration in split(strip(text)):
+        translate(declaration, writer)
+    return writer.module(version)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("include", nargs="?", type=Path, default=ROOT / "include")
+    parser.add_argument("output", nargs="?", type=Path, default=OUTPUT)
+    parser.add_argument("--check", action="store_true", help="write nothing, fail when it would change")
+    options = parser.parse_args()
+    text = generate(options.include)
+    if not options.check:
+        options.output.write_text(text, encoding="utf-8")
+    elif options.output.read_text(encoding="utf-8") != text:
+        sys.exit(f"{options.output} is not what the headers give: run {Path(__file__).name}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""A C compiler for tests that need one, and where the project is."""
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+CC = next((path for path in map(shutil.which, (os.environ.get("CC", "cc"), "cc", "gcc", "clang")) if path), None)
+
+
+class Folder(tempfile.TemporaryDirectory):
+    """A folder for the life of a test, in which C can be compiled."""
+
+    def _compile(self, source, name, *flags):
+        path, output = Path(self.name) / "source.c", Path(self.name) / name
+        path.write_text(source, encoding="utf-8")
+        subprocess.run([CC, "-std=c11", f"-I{ROOT / 'include'}", *flags, str(path), "-o", str(output)], check=True)
+        return str(output)
+
+    def program(self, source):
+        """Path of a program."""
+        return self._compile(source, "program")
+
+    def library(self, source, name="libtest.so"):
+        """Path of a shared library."""
+        return self._compile(source, name, "-shared", "-fPIC")

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Gains and stability: conversion and names; the mathematics is tested in C."""
+import math
+import unittest
+
+import baum
+
+
+class Gains(unittest.TestCase):
+    def test_they_print_as_they_are_written(self):
+        for text in ("fixed(alpha=5, beta=0.5)", "scaled(alpha_h=0.5, beta2_h2=0.25)", "taylor()",
+                     "frequency(hertz=100, damping_ratio=0.2)", "deadbeat()", "auto()"):
+            gains = eval(f"baum.{text}")
+            self.assertEqual(str(gains), text)
+            self.assertEqual(gains, eval(f"baum.{text}"))
+        self.assertNotEqual(baum.fixed(1, 2), baum.scaled(1, 2))
+        self.assertEqual(len({baum.fixed(1, 2), baum.fixed(1, 2), baum.taylor()}), 2)
+
+    def test_numbers_are_wanted(self):
+        with self.assertRaisesRegex(TypeError, "gains fixed: beta: a number is wanted, not 'x'"):
+            baum.fixed(1, "x")
+
+
+class Stability(unittest.TestCase):
+    def test_points_of_the_plane(self):
+        taylor = baum.stability("euler", 1, 2)
+        self.assertEqual(taylor.stability, "marginal")
+        self.assertEqual({(round(z.real, 12), round(abs(z.imag), 12)) for z in taylor.roots}, {(0, 1)})
+        self.assertEqual(baum.stability(baum.integrators()["euler"], 1, 1).spectral_radius, 0)
+        self.assertEqual(baum.stability("semi_implicit_euler", 1, 1).stability, "unstable")
+        self.assertEqual(baum.stability("cvode_bdf", 1, 1).stability, "variable_step")
+
+    def test_limits_and_points(self):
+        self.assertAlmostEqual(baum.stability_limit("euler"), 2)
+        self.assertEqual(baum.stability_deadbeat("semi_implicit_euler"), (0.5, 1))
+        nearest = baum.stability_nearest("euler", 1, 2)
+        self.assertLessEqual(baum.stability("euler", *nearest).spectral_radius, 0.9 + 1e-9)
+
+    def test_what_makes_no_sense_is_refused(self):
+        with self.assertRaises(baum.Error) as caught:
+            baum.stability_limit("ida")
+        self.assertEqual(caught.exception.status, baum.Status.ERR_UNSUPPORTED)
+        self.assertRaises(baum.Error, baum.stability, "euler", math.nan, 1)
+        self.assertRaisesRegex(ValueError, "no integrator 'x'; there are: euler", baum.stability, "x", 1, 1)
+
+    def test_integrators_describe_themselves(self):
+        methods = baum.integrators()
+        self.assertEqual((methods["rk4"].order, methods["rk4"].fixed_step), (4, True))
+        self.assertFalse(methods["ida"].fixed_step)
+        self.assertIn("index3", methods["ida"].formulations)
+        self.assertNotIn("index3", methods["euler"].formulations)
+
+
+if __name__ == "__main__":
+    unittest.main()

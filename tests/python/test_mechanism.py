@@ -1,0 +1,212 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Mechanisms: conversion of arguments, names, copies, ownership, messages."""
+import gc
+import math
+import unittest
+import weakref
+
+import numpy as np
+
+import baum
+from mechanisms import pendulum, rod_pendulum, slider_crank
+
+
+class Building(unittest.TestCase):
+    def test_definitions_come_back_as_they_were_given(self):
+        m = baum.Mechanism()
+        body = m.planar_body("body", mass=2, inertia=np.float64(3), position=np.array([1, 2]), angle=0.5,
+                             velocity=(math.nan, 4), held=True)
+        said = body.definition
+        self.assertEqual((said["name"], said["mass"], said["inertia"], said["position"], said["angle"], said["held"]),
+                         ("body", 2.0, 3.0, (1.0, 2.0), 0.5, True))
+        self.assertTrue(math.isnan(said["velocity"][0]))
+        self.assertEqual(said["velocity"][1], 4.0)
+        self.assertTrue(math.isnan(said["angular_velocity"]))
+        pin = m.revolute("pin", m.ground, "body", point=(0, 0))
+        self.assertEqual((pin.definition["body_a"], pin.definition["body_b"]), (m.ground, body))
+        load = m.load("load", body, force=(1, 0), torque=2, follows_body=True)
+        self.assertEqual((load.definition["body"], load.definition["torque"], load.definition["follows_body"]),
+                         (body, 2.0, True))
+
+    def test_every_kind_can_be_added_and_changed(self):
+        m = baum.Mechanism(gravity=(0, -1, 0), scale=2)
+        a = m.planar_body("a")
+        b = m.planar_body("b", position=(1, 0))
+        m.planar_particle("c", position=(2, 0))
+        m.coordinates("d", 2, mass=lambda t, q: np.eye(2), force=lambda t, q, v: -q, q=(1, 2), scale=(1, 1))
+        slider = m.translational("slider", "ground", a, axis=(0, 1), point=(0, 0))
+        m.fixed("weld", a, b, point=(0.5, 0))
+        m.distance("rod", b, "c", point_a=(0, 0), point_b=(0, 0), length=1)
+        m.driver("motor", slider, law=lambda t: (t, 1, 0))
+        m.spring("spring", a, "ground", point_a=(0, 0), point_b=(1, 1), stiffness=5).set(damping=0.5)
+        m.force("push", [a, "d"], lambda t, q, v: np.zeros(5), potential=lambda t, q: 0.0)
+        self.assertEqual(m["spring"].definition["stiffness"], 5.0)
+        self.assertEqual(m["spring"].definition["damping"], 0.5)
+        self.assertEqual([element.name for element in m],
+                         ["a", "b", "c", "d", "slider", "weld", "rod", "motor", "spring", "push"])
+        self.assertEqual(m.freeze().sizes, (10, 10, 7))
+        self.assertEqual((m.gravity, m.scale), ((0.0, -1.0, 0.0), 2.0))
+
+    def test_places_are_slices(self):
+        m = slider_crank(omega=150)
+        self.assertEqual(m["C"].rows, slice(4, 6))
+        self.assertEqual(m["rod"].columns, (slice(3, 6), slice(3, 6)))
+        self.assertEqual(m.rows("motor"), slice(8, 9))
+
+    def test_names_are_given_when_left_out(self):
+        m = baum.Mechanism()
+        first, second = m.planar_particle(), m.planar_body()
+        self.assertEqual((first.name, second.name), ("body1", "body2"))
+        self.assertIn("body2", m)
+        self.assertNotIn("body3", m)
+
+    def test_mobility_is_told_by_name(self):
+        mobility = slider_crank().mobility()
+        self.assertEqual((mobility.freedoms, mobility.redundant_rows), (1, 0))
+        self.assertIsInstance(mobility.worst_phi, float)
+        self.assertEqual(str(mobility), mobility.text)
+        self.assertIn("1 freedom", str(mobility))
+
+    def test_printing_tells_what_it_is(self):
+        m = slider_crank()
+        self.assertEqual(repr(m), "<mechanism: 3 bodies, 4 joints, 0 forces, frozen>")
+        self.assertEqual(repr(m["B"]), "<planar_revolute 'B'>")
+        self.assertEqual(repr(m.ground), "<body 'ground'>")
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        self.m = baum.Mechanism()
+        self.body = self.m.planar_body("body")
+
+    def says(self, error, words, function, *arguments, **fields):
+        with self.assertRaisesRegex(error, words):
+            function(*arguments, **fields)
+
+    def test_wrong_numbers_name_element_and_field(self):
+        self.says(ValueError, 'body "x": position: 2 numbers are wanted, not 3', self.m.planar_body, "x",
+                  position=(1, 2, 3))
+        self.says(TypeError, "body \"x\": mass: a number is wanted, not 'heavy'", self.m.planar_body, "x", mass="heavy")
+        self.says(TypeError, "size: a whole number is wanted, not 2.5", self.m.coordinates, "x", 2.5)
+        self.says(ValueError, "gravity: 2 or 3 numbers are wanted, not 1", baum.Mechanism, gravity=(1,))
+        self.assertNotIn("x", self.m)
+
+    def test_what_the_library_refuses_is_an_error_with_its_sentence(self):
+        with self.assertRaises(baum.Error) as caught:
+            self.m.planar_body("x", mass=-2)
+        self.assertEqual(caught.exception.status, baum.Status.ERR_ARGUMENT)
+        self.assertEqual(str(caught.exception.status), "ERR_ARGUMENT")
+        self.assertRegex(str(caught.exception), '"x".*mass is -2 kg')
+        self.assertNotIn("x", self.m)
+
+    def test_a_name_is_used_once(self):
+        self.says(ValueError, 'there is already a body "body"', self.m.planar_particle, "body")
+        self.says(ValueError, 'there is already a body "ground"', self.m.planar_particle, "ground")
+        self.says(TypeError, "name of a body is a string", self.m.planar_particle, 3)
+
+    def test_unknown_names_and_fields_are_refused(self):
+        self.says(KeyError, "no 'bodi' in this mechanism; there are: ground, body", self.m.__getitem__, "bodi")
+        self.says(KeyError, "no 'x'", self.m.revolute, "pin", "ground", "x", point=(0, 0))
+        self.says(TypeError, "a body or its name is wanted, not 3", self.m.revolute, "pin", 3, "body")
+        self.says(TypeError, 'body "body" has no weight; there are: name, mass', self.m.copy, body=dict(weight=1))
+        self.says(TypeError, "unexpected keyword", self.m.planar_body, "x", weight=1)
+        self.says(TypeError, "names stay", self.m.copy, body=dict(name="x"))
+
+    def test_a_joint_is_no_body(self):
+        pin = self.m.revolute("pin", "ground", "body", point=(0, 0))
+        self.says(TypeError, "a body or its name is wanted", self.m.load, "load", pin)
+        self.says(TypeError, "a joint or its name is wanted", self.m.driver, "motor", "body")
+
+    def test_a_body_of_another_mechanism_is_refused(self):
+        stranger = baum.Mechanism().planar_body("stranger")
+        self.says(baum.Error, "", self.m.revolute, "pin", "ground", stranger, point=(0, 0))
+
+    def test_a_frozen_mechanism_stays(self):
+        m = slider_crank()
+        self.says(baum.Error, "frozen", m.planar_body, "x")
+        self.says(baum.Error, "frozen", m["rod"].set, mass=1)
+        self.assertNotIn("x", m)
+
+    def test_errors_can_be_pickled(self):
+        import pickle
+        error = pickle.loads(pickle.dumps(baum.Error(baum.Status.ERR_STEP, "too small")))
+        self.assertEqual((error.status, str(error)), (baum.Status.ERR_STEP, "too small"))
+
+
+class Copies(unittest.TestCase):
+    def test_a_copy_with_changes_leaves_the_original(self):
+        m = slider_crank()
+        heavy = m.copy(rod=dict(mass=0.5), crank=dict(position=(0.07, 0)))
+        self.assertTrue(heavy.frozen)
+        self.assertEqual(heavy["rod"].definition["mass"], 0.5)
+        self.assertEqual(heavy["rod"].definition["inertia"], 5.9e-4)
+        self.assertEqual(m["rod"].definition["mass"], 0.038)
+
+    def test_a_copy_is_frozen_when_the_original_is(self):
+        m = baum.Mechanism()
+        m.planar_particle("bob")
+        self.assertFalse(m.copy().frozen)
+        self.assertTrue(m.freeze().copy().frozen)
+
+    def test_handles_of_one_are_good_for_the_other(self):
+        m = slider_crank()
+        copy = m.copy()
+        self.assertEqual(m["B"], copy["B"])
+        self.assertNotEqual(m["B"], copy["A"])
+        self.assertEqual(len({m["B"], copy["B"], m["A"]}), 2)
+        run = copy.simulate([0.001], "rk4", step=1e-4, record=[m["B"].phi])
+        self.assertEqual(run[m["B"].phi].shape, (1, 2))
+
+    def test_functions_can_be_changed_in_a_copy(self):
+        m = pendulum()
+        longer = m.copy(circle=dict(phi=lambda t, q: q @ q - 4), bob=dict(position=(2, 0)))
+        self.assertAlmostEqual(baum.Workspace(longer).phi(0, (2, 0))[0], 0)
+        self.assertAlmostEqual(baum.Workspace(m).phi(0, (2, 0))[0], 3)
+
+
+class Ownership(unittest.TestCase):
+    def test_a_simulation_keeps_its_mechanism(self):
+        s = pendulum().simulation("rk4", step=1e-3)
+        gc.collect()
+        s.advance_to(0.1)
+        self.assertAlmostEqual(np.hypot(*s.q), 1, 9)
+
+    def test_handles_and_runs_keep_their_mechanism(self):
+        rod = slider_crank()["rod"]
+        run = slider_crank().simulate([0.001], "rk4", step=1e-4)
+        gc.collect()
+        self.assertEqual(rod.definition["mass"], 0.038)
+        self.assertEqual(run["rod.pose"].shape, (1, 3))
+
+    def test_functions_live_as_long_as_a_copy(self):
+        class Circle:
+            def __call__(self, t, q):
+                return q @ q - 1
+
+        circle = Circle()
+        alive = weakref.ref(circle)
+        m = pendulum(circle)
+        copy = m.copy()
+        del m, circle
+        gc.collect()
+        self.assertIsNotNone(alive())
+        copy.simulate([0.01], "rk4", step=1e-3)
+        del copy
+        gc.collect()
+        self.assertIsNone(alive())
+
+    def test_mechanisms_and_runs_go_without_the_collector(self):
+        gc.disable()
+        try:
+            m = rod_pendulum()
+            s = m.simulation("rk4", step=1e-3)
+            s.advance_to(0.01)
+            gone = [weakref.ref(m), weakref.ref(s)]
+            del m, s
+            self.assertEqual([ref() for ref in gone], [None, None])
+        finally:
+            gc.enable()
+
+
+if __name__ == "__main__":
+    unittest.main()

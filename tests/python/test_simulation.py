@@ -1,0 +1,257 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Runs: options, samples, channels, counters, warnings, step by step."""
+import unittest
+import warnings
+
+import numpy as np
+
+import baum
+from mechanisms import pendulum, rod_pendulum, slider_crank
+
+SUNDIALS = baum.has("sundials")
+
+
+class Samples(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.m = slider_crank(omega=150)
+        cls.t = np.linspace(0, 0.01, 11)
+        cls.run_ = cls.m.simulate(cls.t, "rk4", step=1e-4,
+                                  record=["B.phi", cls.m["A"].reaction, "motor.multipliers", "A.coordinate", "energy",
+                                          "lambda", "phi_rate", baum.a, cls.m["rod"].pose_of((0.153, 0)),
+                                          cls.m["rod"].velocity_of((0.153, 0)), cls.m["slider"].velocity])
+
+    def test_shapes_are_those_of_the_channels(self):
+        r = self.run_
+        self.assertEqual((r.t.shape, r.q.shape, r.v.shape), ((11,), (11, 9), (11, 9)))
+        for key, columns in {"B.phi": 2, "A.reaction": 3, "motor.multipliers": 1, "A.coordinate": 2, "energy": 2,
+                             "lambda": 9, "phi_rate": 9, "a": 9, "rod.pose(0.153, 0.0)": 3, "slider.velocity": 3}.items():
+            with self.subTest(key):
+                self.assertEqual(r[key].shape, (11, columns))
+                self.assertTrue(np.isfinite(r[key]).all())
+
+    def test_channels_are_found_by_themselves_and_by_name(self):
+        r, m = self.run_, self.m
+        np.testing.assert_array_equal(r[m["A"].reaction], r["A.reaction"])
+        np.testing.assert_array_equal(r[baum.lambda_], r["lambda"])
+        np.testing.assert_array_equal(r[baum.q], r.q)
+        self.assertIn("B.phi", r.keys())
+
+    def test_poses_and_velocities_need_no_recording(self):
+        r = self.run_
+        np.testing.assert_array_equal(r["slider.pose"], r.q[:, 6:9])
+        np.testing.assert_array_equal(r["crank.velocity"], r.v[:, 0:3])
+
+    def test_numbers_belong_together(self):
+        r = self.run_
+        np.testing.assert_allclose(r["A.coordinate"], np.stack([150 * self.t, 0 * self.t + 150], axis=1), atol=1e-9)
+        np.testing.assert_allclose(r["slider.velocity"], r.v[:, 6:9])
+        np.testing.assert_allclose(r["rod.pose(0.153, 0.0)"][:, :2], r["slider.pose"][:, :2], atol=1e-9)
+        np.testing.assert_allclose(r[self.m["rod"].velocity_of((0.153, 0))][:, :2], r["slider.velocity"][:, :2], atol=1e-6)
+
+    def test_what_was_not_recorded_is_named(self):
+        for key in ("C.phi", "nobody.pose", "ground.pose", "B.pose"):
+            with self.assertRaisesRegex(KeyError, f"'{key}' was not recorded; there are q, v, B.phi"):
+                self.run_[key]
+
+    def test_unknown_channels_are_refused(self):
+        for name in ("B.phy", "x.phi", "nothing"):
+            with self.assertRaises(KeyError):
+                self.m.simulate([0.001], "rk4", step=1e-4, record=[name])
+        with self.assertRaises(TypeError):
+            self.m.simulate([0.001], "rk4", step=1e-4, record=[3])
+        with self.assertRaises(baum.Error):
+            self.m.simulate([0.001], "rk4", step=1e-4, record=["B.coordinate", "motor.coordinate"])
+
+    def test_counters_and_account_are_python_values(self):
+        r = self.run_
+        self.assertEqual((r.status, r.counters.steps, r.counters.max_phi_joint.family), (baum.Status.OK, 100, "joint"))
+        self.assertIn("rk4", r.explain)
+        self.assertEqual(r.warnings, [])
+        self.assertEqual(repr(r), "<run of 11 samples, 100 steps, OK>")
+
+    def test_times_may_be_one_number_and_must_be_numbers(self):
+        self.assertEqual(self.m.simulate(0.001, "rk4", step=1e-4).t.tolist(), [0.001])
+        with self.assertRaisesRegex(ValueError, "times: an array of one dimension"):
+            self.m.simulate([[1, 2]], "rk4", step=1e-4)
+        with self.assertRaisesRegex(TypeError, "times: numbers are wanted"):
+            self.m.simulate(["soon"], "rk4", step=1e-4)
+        with self.assertRaises(baum.Error):
+            self.m.simulate([0, 0.002, 0.001], "rk4", step=1e-4)
+
+    def test_runs_begin_at_start_time_and_go_backward(self):
+        run = rod_pendulum().simulate([2.0, 1.99], "rk4", step=1e-4, start_time=2.0)
+        self.assertEqual(run.t.tolist(), [2.0, 1.99])
+        np.testing.assert_allclose(run["bob.velocity"][:, 1], [0, 0.0981], rtol=1e-6)
+
+
+class Options(unittest.TestCase):
+    def test_every_integrator_runs_by_name(self):
+        m = rod_pendulum()
+        for name, method in baum.integrators().items():
+            with self.subTest(name):
+                if not SUNDIALS and not method.fixed_step:
+                    self.assertRaises(baum.Error, m.simulate, [0.1], name, rtol=1e-8)
+                    continue
+                options = dict(step=1e-4) if method.fixed_step else dict(rtol=1e-8)
+                run = m.simulate([0.1], name, **options)
+                self.assertAlmostEqual(run.q[0, 1], -0.5 * 9.81 * 0.01, 2)
+
+    def test_every_formulation_runs_by_name(self):
+        m = rod_pendulum()
+        for method in baum.integrators().values():
+            if not SUNDIALS and not method.fixed_step:
+                continue
+            options = dict(step=1e-3) if method.fixed_step else dict(rtol=1e-6)
+            for formulation in method.formulations:
+                with self.subTest(f"{method.name} {formulation}"), warnings.catch_warnings():
+                    warnings.simplefilter("ignore", baum.Warning)
+                    run = m.simulate([0.1], method.name, formulation=formulation, **options)
+                    self.assertIn(formulation, run.explain)
+
+    def test_words_that_mean_nothing_are_refused_with_the_list(self):
+        m = rod_pendulum()
+        for fields, words in ((dict(integrator="eulr"), "no integrator 'eulr'; there are: euler, semi_implicit_euler"),
+                              (dict(formulation="x"), "no formulation 'x'; there are: default, unstabilized, baumgarte"),
+                              (dict(start="x"), "no start 'x'; there are: assemble, exact, as_given"),
+                              (dict(solver="x"), "no solver 'x'; there are: auto, klu, qr")):
+            with self.assertRaisesRegex(ValueError, words):
+                m.simulate([1.0], **{"integrator": "euler", "step": 1e-3, **fields})
+        for fields, words in ((dict(steps=1), "no option 'steps'; there are: integrator, progress, formulation"),
+                              (dict(gains=5), r"gains: something like baum.fixed\(5, 5\) is wanted, not 5"),
+                              (dict(step="small"), "step: a number is wanted, not 'small'"),
+                              (dict(integrator=3), "integrator: a name is wanted, not 3")):
+            with self.assertRaisesRegex(TypeError, words):
+                m.simulate([1.0], **{"integrator": "euler", "step": 1e-3, **fields})
+
+    def test_what_the_library_refuses_keeps_its_status(self):
+        m = rod_pendulum()
+        for fields, status in ((dict(), "ERR_ARGUMENT"), (dict(integrator="euler", rtol=1e-6), "ERR_ARGUMENT"),
+                               (dict(integrator="euler", step=1e-3, rtol=1e-6), "ERR_ARGUMENT"),
+                               (dict(integrator="euler", step=-1), "ERR_ARGUMENT"),
+                               (dict(integrator="euler", step=1e-3, formulation="index3"), "ERR_UNSUPPORTED"),
+                               (dict(integrator="semi_implicit_euler", step=1e-3, gains=baum.taylor()), "ERR_UNSTABLE")):
+            with self.assertRaises(baum.Error) as caught:
+                m.simulate([1.0], **fields)
+            self.assertEqual(str(caught.exception.status), status)
+            self.assertTrue(str(caught.exception))
+            self.assertIsNone(caught.exception.run)
+
+    def test_unstable_gains_run_when_allowed(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", baum.Warning)
+            run = rod_pendulum().simulate([0.005], "semi_implicit_euler", step=1e-3, gains=baum.taylor(),
+                                          allow_unstable=True)
+        self.assertEqual(run.counters.alpha, 1e3)
+
+    def test_a_mechanism_must_be_frozen(self):
+        m = baum.Mechanism()
+        m.planar_particle("bob")
+        with self.assertRaises(baum.Error) as caught:
+            m.simulate([1.0], "rk4", step=1e-3)
+        self.assertEqual(caught.exception.status, baum.Status.ERR_STATE)
+
+
+class Warned(unittest.TestCase):
+    def marginal(self):
+        return rod_pendulum().simulation("euler", step=1e-3, gains=baum.taylor())
+
+    def test_warnings_of_a_run_are_python_warnings_at_the_callers_line(self):
+        with self.assertWarnsRegex(baum.Warning, "marginal") as caught:
+            run = rod_pendulum().simulate([0.01], "euler", step=1e-3, gains=baum.taylor())
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(run.status, baum.Status.WARNED)
+        self.assertRegex(run.warnings[0], "marginal")
+
+    def test_each_comes_once(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            s = self.marginal()
+            s.step(3)
+            s.advance_to(0.01)
+        self.assertEqual(len(caught), len(s.warnings))
+
+    def test_they_can_be_made_errors(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", baum.Warning)
+            self.assertRaises(baum.Warning, self.marginal)
+
+
+class StepByStep(unittest.TestCase):
+    def test_steps_are_the_same_as_advancing(self):
+        m = slider_crank()
+        one, two, three = (m.simulation("rk4", step=1e-4) for _ in range(3))
+        self.assertEqual(one.advance_to(0.01), baum.Status.OK)
+        for _ in range(20):
+            self.assertEqual(two.step(5), baum.Status.OK)
+        three.step(100)
+        np.testing.assert_array_equal(two.q, three.q)
+        np.testing.assert_allclose(one.q, two.q, atol=1e-13)
+        self.assertAlmostEqual(two.time, 0.01, 12)
+        self.assertEqual(two.counters.steps, 100)
+
+    def test_arrays_are_copies(self):
+        s = rod_pendulum().simulation("rk4", step=1e-3)
+        q, v = s.q, s.v
+        s.step(100)
+        self.assertEqual(q.tolist(), [1, 0])
+        self.assertNotEqual(s.v.tolist(), v.tolist())
+
+    def test_get_gives_one_array_or_several(self):
+        m = slider_crank(omega=150)
+        s = m.simulation("rk4", step=1e-4)
+        s.advance_to(0.01)
+        np.testing.assert_allclose(s.get(m["A"].coordinate), [1.5, 150], rtol=1e-9)
+        pose, energy = s.get("slider.pose", baum.energy)
+        self.assertEqual((pose.shape, energy.shape), ((3,), (2,)))
+        np.testing.assert_array_equal(pose, s.q[6:9])
+        np.testing.assert_array_equal(*s.get("slider.pose", "slider.pose"))
+
+    def test_the_state_can_be_set(self):
+        s = rod_pendulum().simulation("rk4", step=1e-3)
+        s.set_state(2.0, (0, -1), (1, 0))
+        self.assertEqual((s.time, s.q.tolist(), s.v.tolist()), (2.0, [0, -1], [1, 0]))
+        s.set_state(0.0, (0, -1))
+        self.assertEqual(s.v.tolist(), [0, 0])
+        with self.assertRaisesRegex(ValueError, "q: 2 numbers are wanted, not 3"):
+            s.set_state(0.0, (0, 0, 1))
+        with self.assertRaises(baum.Error):
+            s.set_state(0.0, (0, float("nan")))
+        self.assertEqual(s.q.tolist(), [0, -1])
+
+    def test_sampling_goes_on_where_the_run_stands(self):
+        s = rod_pendulum().simulation("rk4", step=1e-3)
+        first, second = s.sample([0, 0.1]), s.sample([0.1, 0.2], record=["rod.reaction"])
+        np.testing.assert_array_equal(first.q[1], second.q[0])
+        self.assertEqual(second["rod.reaction"].shape, (2, 3))
+
+    def test_bad_counts_are_refused(self):
+        s = rod_pendulum().simulation("rk4", step=1e-3)
+        self.assertRaises(TypeError, s.step, 1.5)
+        self.assertRaises(baum.Error, s.step, 0)
+        self.assertRaises(baum.Error, s.advance_to, float("nan"))
+
+    def test_a_failed_sampling_keeps_what_it_has(self):
+        armed = []
+
+        def force(t, q, v):
+            if armed and t > 0.055:
+                raise baum.Retry
+            return -q
+
+        m = baum.Mechanism()
+        m.coordinates("x", 1, mass=lambda t, q: 1.0, force=force, q=[1.0])
+        s = m.freeze().simulation("euler", step=1e-2)
+        armed.append(True)
+        with self.assertRaises(baum.Error) as caught:
+            s.sample(np.linspace(0, 0.1, 11))
+        kept = caught.exception.run
+        self.assertEqual(kept.status, baum.Status.ERR_CALLBACK)
+        np.testing.assert_allclose(kept.t, np.linspace(0, kept.t[-1], len(kept.t)))
+        self.assertGreaterEqual(len(kept.t), 5)
+        self.assertEqual(kept["x.pose"].shape, (len(kept.t), 1))
+        self.assertIn("x", s.message)
+
+
+if __name__ == "__main__":
+    unittest.main()

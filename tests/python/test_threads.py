@@ -1,0 +1,230 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Threads, cancelling, progress and Ctrl-C."""
+import contextvars
+import os
+import signal
+import subprocess
+import sys
+import threading
+import time
+import unittest
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+
+import baum
+from baum import _calls
+from mechanisms import circle, pendulum, rod_pendulum, slider_crank
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+LONG = 1e9  # [s], a run that nobody waits for
+
+
+def long_run():
+    return rod_pendulum().simulation("rk4", step=1e-3)
+
+
+class Pool(unittest.TestCase):
+    def test_variants_run_side_by_side(self):
+        m = slider_crank()
+
+        def variant(k):
+            copy = m.copy(rod=dict(mass=0.038 * (1 + k * 1e-3)))
+            return copy.simulate([0.2], integrator="rk4", step=1e-3)["slider.pose"][-1]
+
+        alone = [variant(k) for k in range(40)]
+        with ThreadPoolExecutor(4) as pool:
+            together = list(pool.map(variant, range(40)))
+        np.testing.assert_array_equal(alone, together)
+
+    def test_exceptions_stay_in_their_thread(self):
+        def one(k):
+            def phi(t, q):
+                if k % 2 and t > 0.05:
+                    raise KeyError(k)
+                return circle(t, q)
+
+            try:
+                return pendulum(phi).simulate([0.1], "rk4", step=1e-2, check_derivatives=False).t[-1]
+            except KeyError as error:
+                return error.args[0]
+
+        with ThreadPoolExecutor(4) as pool:
+            self.assertEqual(list(pool.map(one, range(20))), [k if k % 2 else 0.1 for k in range(20)])
+
+    def test_messages_belong_to_their_thread(self):
+        def refused(k):
+            try:
+                rod_pendulum().simulate([1.0], "rk4", step=-k)
+            except baum.Error as error:
+                return str(error)
+
+        with ThreadPoolExecutor(4) as pool:
+            for k, said in zip(range(1, 40), pool.map(refused, range(1, 40))):
+                self.assertIn(f"-{k} s", said)
+
+    def test_python_goes_on_during_a_run(self):
+        s, others = long_run(), []
+        runner = threading.Thread(target=lambda: others.append(s.advance_to(LONG)))
+        runner.start()
+        for _ in range(100):
+            others.append("worked")
+        s.cancel()
+        runner.join(10)
+        self.assertEqual(others, 100 * ["worked"] + [baum.Status.STOP_CANCELLED])
+
+    def test_one_call_at_a_time(self):
+        s = long_run()
+        runner = threading.Thread(target=s.advance_to, args=(LONG,))
+        runner.start()
+        try:
+            while not s.time:
+                time.sleep(0.001)
+            with self.assertRaisesRegex(baum.Error, "this simulation is in use by another call") as caught:
+                s.step()
+            self.assertEqual(caught.exception.status, baum.Status.ERR_STATE)
+        finally:
+            s.cancel()
+            runner.join(10)
+        s.step()
+
+
+class Cancelled(unittest.TestCase):
+    def test_progress_is_told_the_time_and_cancels(self):
+        times = []
+
+        def progress(t):
+            times.append(t)
+            return len(times) == 3
+
+        s = rod_pendulum().simulation("rk4", step=1e-3, progress_interval=0)
+        self.assertEqual(s.advance_to(1.0, progress=progress), baum.Status.STOP_CANCELLED)
+        self.assertEqual(len(times), 3)
+        self.assertAlmostEqual(s.time, times[-1])
+        self.assertEqual(s.advance_to(1.0), baum.Status.OK)
+        self.assertEqual(len(times), 3)
+
+    def test_progress_may_be_an_option_and_comes_by_wall_time(self):
+        times = []
+        rod_pendulum().simulate([0.5], "rk4", step=1e-4, progress=times.append, progress_interval=60)
+        self.assertEqual(times, [])
+        rod_pendulum().simulate([0.5], "rk4", step=1e-2, progress=times.append, progress_interval=0)
+        self.assertGreaterEqual(len(times), 50)
+
+    def test_a_cancelled_run_ends_early(self):
+        run = rod_pendulum().simulate(np.linspace(0, 1, 11), "rk4", step=1e-3, progress=lambda t: t > 0.45,
+                                      progress_interval=0)
+        self.assertEqual(run.status, baum.Status.STOP_CANCELLED)
+        np.testing.assert_allclose(run.t, [0, 0.1, 0.2, 0.3, 0.4])
+        self.assertEqual(run.q.shape, (5, 2))
+
+    def test_exceptions_in_progress_come_out(self):
+        def progress(t):
+            raise KeyError("mine")
+
+        with self.assertRaisesRegex(KeyError, "mine"):
+            rod_pendulum().simulate([1.0], "rk4", step=1e-3, progress=progress, progress_interval=0)
+
+
+INTERRUPTED = """
+import sys, threading, time
+sys.path.insert(0, {here!r})
+import baum
+from mechanisms import *
+
+{setup}
+try:
+    {call}
+    print("came to its end")
+except KeyboardInterrupt:
+    print("interrupted", {after})
+"""
+
+
+@unittest.skipUnless(hasattr(signal, "SIGINT") and os.name == "posix", "no signals")
+class Interrupted(unittest.TestCase):
+    def interrupt(self, setup, call, after="s.time > 0", times=1):
+        """What a program says that is sent SIGINT when it has said that it is ready."""
+        program = INTERRUPTED.format(here=HERE, setup=setup, call=call, after=after)
+        child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        try:
+            self.assertEqual(child.stdout.readline(), "ready\n", child.poll() and child.stderr.read())
+            for _ in range(times):
+                time.sleep(0.3)
+                child.send_signal(signal.SIGINT)
+            said, errors = child.communicate(timeout=20)
+        finally:
+            child.kill()
+            child.communicate()
+        self.assertEqual((errors, child.returncode), ("", 0))
+        return said.strip()
+
+    def test_a_long_run_without_python_functions(self):
+        self.assertEqual("interrupted True", self.interrupt(
+            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)"))
+
+    def test_many_steps(self):
+        self.assertEqual("interrupted True", self.interrupt(
+            's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10); print("ready", flush=True)', "s.step(10**10)"))
+
+    def test_few_steps_at_a_time(self):
+        self.assertEqual("interrupted True", self.interrupt(
+            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+            "while True: s.step(10)"))
+
+    def test_sampling(self):
+        self.assertEqual("interrupted", self.interrupt(
+            'm = rod_pendulum(); print("ready", flush=True)', 'm.simulate([1e9], "rk4", step=1e-3)', '""'))
+
+    def test_python_functions(self):
+        self.assertEqual("interrupted True", self.interrupt(
+            's = pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)"))
+
+    def test_the_run_can_go_on(self):
+        self.assertEqual("interrupted Status OK", self.interrupt(
+            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)",
+            '"Status", s.advance_to(s.time + 1)'))
+
+    def test_a_function_that_hangs_is_left_behind_by_the_second(self):
+        setup = """
+def phi(t, q):
+    if armed:
+        threading.Event().wait(1000)
+    return circle(t, q)
+
+armed = []
+s = pendulum(phi).simulation("rk4", step=1e-3)
+armed.append(True)
+print("ready", flush=True)"""
+        after = 'rod_pendulum().simulate([1.0], "rk4", step=1e-3).t[-1], bool(s._owner._users)'
+        self.assertEqual("interrupted 1.0 True", self.interrupt(setup, "s.advance_to(1.0)", after, times=2))
+
+
+class SecondThread(unittest.TestCase):
+    def test_functions_see_the_callers_context(self):
+        variable = contextvars.ContextVar("variable", default="outside")
+        seen = set()
+        m = pendulum(lambda t, q: seen.add(variable.get()) or circle(t, q))
+        seen.clear()
+        variable.set("inside")
+        m.simulate([0.1], "rk4", step=1e-2)
+        self.assertEqual(seen, {"inside"})
+
+    @unittest.skipUnless(hasattr(os, "fork"), "no fork")
+    def test_a_forked_child_has_its_own(self):
+        m = rod_pendulum()
+        m.simulate([0.1], "rk4", step=1e-3)
+        program = ("import os, sys; sys.path.insert(0, sys.argv[1])\nfrom mechanisms import rod_pendulum\n"
+                   "m = rod_pendulum()\nrun = lambda: m.simulate([0.1], 'rk4', step=1e-3)\nrun()\n"
+                   "child = os.fork()\nrun()\n"
+                   "if child: sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n")
+        subprocess.run([sys.executable, "-W", "ignore::DeprecationWarning", "-c", program, HERE], check=True, timeout=30)
+
+    def test_results_and_exceptions_pass(self):
+        self.assertEqual(_calls.interruptible(max, 1, 2), 2)
+        with self.assertRaises(ZeroDivisionError):
+            _calls.interruptible(lambda: 1 / 0)
+
+
+if __name__ == "__main__":
+    unittest.main()
