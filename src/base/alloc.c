@@ -34,7 +34,7 @@ char *baum_i_copy_text(const char *text)
   return baum_i_copy(text, strlen(text) + 1, 1);
 }
 
-void baum_i_free(void *memory)
+void baum_i_free(const void *memory)
 {
-  free(memory);
+  free(baum_i_mutable(memory));
 }

@@ -17,7 +17,17 @@ void *baum_i_copy(const void *source, size_t count, size_t size);
 /* Copy of a string, or NULL. */
 char *baum_i_copy_text(const char *text);
 
-/* Release; NULL is fine. */
-void baum_i_free(void *memory);
+/* Release; NULL is fine. Takes const memory too: who frees is who made it. */
+void baum_i_free(const void *memory);
+
+/* The one way to drop const: for members of constant objects that may change all the same. */
+static inline void *baum_i_mutable(const void *memory)
+{
+  union {
+    const void *constant;
+    void *changing;
+  } pointer = {.constant = memory};
+  return pointer.changing;
+}
 
 #endif

@@ -310,12 +310,12 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
                                              baum_sparse *out)
 {
   const char *call = "baum_workspace_residual_jacobian";
+  if (!out) {
+    return fail_null(call, "the output");
+  }
   baum_status status = check_dae(call, workspace, dae, y, dy);
   if (status == BAUM_OK) {
     status = check_finite(call, "c, t", (const double[]){c, t}, 2);
-  }
-  if (status == BAUM_OK && !out) {
-    status = fail_null(call, "the output");
   }
   if (status != BAUM_OK) {
     return status;

@@ -138,8 +138,8 @@ void baum_workspace_destroy(baum_workspace *workspace)
   baum_i_free(workspace->redundancy.row_scale);
   baum_i_free(workspace->redundancy.combination);
   baum_i_kkt_destroy(workspace->kkt);
-  baum_i_free((void *)(uintptr_t)workspace->structure.mass_blocks);
-  baum_i_free((void *)(uintptr_t)workspace->structure.row_blocks);
-  baum_mechanism_destroy((baum_mechanism *)(uintptr_t)workspace->mechanism);
+  baum_i_free(workspace->structure.mass_blocks);
+  baum_i_free(workspace->structure.row_blocks);
+  baum_mechanism_destroy(baum_i_mutable(workspace->mechanism));
   baum_i_free(workspace);
 }

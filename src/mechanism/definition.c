@@ -142,14 +142,16 @@ static baum_i_span *span_of(const kind *k, void *item)
   return (baum_i_span *)(void *)((char *)item + k->span);
 }
 
+static baum_status fail_no_mechanism(const kind *k)
+{
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", k->definition->kind);
+}
+
 /* Check a definition for the number-th element of its family. */
 static baum_status check(const baum_mechanism *mechanism, const kind *k, const void *def,
                          int number)
 {
   const baum_i_definition *definition = k->definition;
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", definition->kind);
-  }
   if (mechanism->frozen) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
                        definition->kind);
@@ -331,7 +333,10 @@ baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *t
                             const void *def, baum_body_id *id)
 {
   kind k = body_kind(type);
-  int number = mechanism ? mechanism->body_count + 1 : 0;
+  if (!mechanism) {
+    return fail_no_mechanism(&k);
+  }
+  int number = mechanism->body_count + 1;
   baum_status status = check(mechanism, &k, def, number);
   if (status != BAUM_OK) {
     return status;
@@ -405,7 +410,10 @@ baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type 
                              const void *def, baum_joint_id *id)
 {
   kind k = joint_kind(type);
-  int number = mechanism ? mechanism->joint_count + 1 : 0;
+  if (!mechanism) {
+    return fail_no_mechanism(&k);
+  }
+  int number = mechanism->joint_count + 1;
   baum_status status = check(mechanism, &k, def, number);
   if (status != BAUM_OK) {
     return status;
@@ -466,7 +474,10 @@ baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type 
                              const void *def, baum_force_id *id)
 {
   kind k = force_kind(type);
-  int number = mechanism ? mechanism->force_count + 1 : 0;
+  if (!mechanism) {
+    return fail_no_mechanism(&k);
+  }
+  int number = mechanism->force_count + 1;
   baum_status status = check(mechanism, &k, def, number);
   if (status != BAUM_OK) {
     return status;

@@ -4,6 +4,7 @@
  * Columns and rows are numbered in the order of adding; elements of one type are gathered into groups; every number goes
  * into the parameter array. On failure everything is undone and the mechanism stays open.
  */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -73,13 +74,29 @@ static void widen(int *largest, int candidate)
   }
 }
 
-static void number_bodies(baum_mechanism *mechanism, int *parameters)
+/* Every index of the frozen structure is an int; what would not fit is refused here. */
+static bool fits(int present, int64_t more)
+{
+  return more <= INT_MAX - present;
+}
+
+static baum_status fail_too_large(const baum_i_element *element, const char *family)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism has more than %d matrix entries here",
+                     baum_i_label(element, family, label), INT_MAX);
+}
+
+static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
 {
   mechanism->nv = 0;
   mechanism->mass_size = 0;
   mechanism->constant_mass = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     baum_i_body *body = mechanism->bodies[i];
+    if (!fits(mechanism->mass_size, (int64_t)body->nv * body->nv)) {
+      return fail_too_large(&body->element, "body");
+    }
     body->q = mechanism->nv;
     body->v = mechanism->nv;
     body->mass = mechanism->mass_size;
@@ -91,6 +108,7 @@ static void number_bodies(baum_mechanism *mechanism, int *parameters)
     widen(&mechanism->scratch_size, baum_i_scratch_size(body->nv, body->nv));
   }
   mechanism->nq = mechanism->nv;
+  return BAUM_OK;
 }
 
 static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *span)
@@ -141,6 +159,10 @@ static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
       return status;
     }
     int nl = joint->span.nl;
+    if (!fits(mechanism->jacobian_size, (int64_t)joint->rows * nl) ||
+        !fits(mechanism->joint_square_size, (int64_t)nl * nl)) {
+      return fail_too_large(&joint->element, "joint");
+    }
     joint->row = mechanism->nc;
     joint->jacobian = mechanism->jacobian_size;
     joint->square = mechanism->joint_square_size;
@@ -164,6 +186,9 @@ static baum_status number_forces(baum_mechanism *mechanism, int *parameters)
       return status;
     }
     int nl = force->span.nl;
+    if (!fits(mechanism->force_square_size, (int64_t)nl * nl)) {
+      return fail_too_large(&force->element, "force");
+    }
     force->square = mechanism->force_square_size;
     force->element.parameter = *parameters;
     *parameters += force->type->parameter_count;
@@ -368,8 +393,10 @@ static baum_status build(baum_mechanism *mechanism)
 {
   int parameters = 0;
   mechanism->scratch_size = 0;
-  number_bodies(mechanism, &parameters);
-  baum_status status = number_body_spans(mechanism);
+  baum_status status = number_bodies(mechanism, &parameters);
+  if (status == BAUM_OK) {
+    status = number_body_spans(mechanism);
+  }
   if (status == BAUM_OK) {
     status = number_joints(mechanism, &parameters);
   }

@@ -70,7 +70,8 @@ baum_status baum_mechanism_create(baum_mechanism **out)
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
 {
   /* The count is the one member of a constant mechanism that changes. */
-  atomic_fetch_add(&((baum_mechanism *)(uintptr_t)mechanism)->references, 1);
+  baum_mechanism *counted = baum_i_mutable(mechanism);
+  atomic_fetch_add(&counted->references, 1);
   return mechanism;
 }
 
@@ -109,7 +110,7 @@ static void *room(int count)
 
 static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
 {
-  baum_i_body **bodies = baum_i_grow(to->bodies, (size_t)from->body_count + 1, sizeof *bodies);
+  baum_i_body **bodies = baum_i_grow(to->bodies, (size_t)from->body_count + 1, sizeof(void *));
   if (!bodies) {
     return baum_i_fail_memory();
   }
@@ -157,7 +158,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   }
   baum_mechanism *copy = NULL;
   baum_status status = baum_mechanism_create(&copy);
-  if (status != BAUM_OK) {
+  if (status != BAUM_OK || !copy) {
     return status;
   }
   copy->tag = mechanism->tag;

@@ -34,7 +34,7 @@ static void name_worst_joint(baum_simulation *run, double t, const double *drawn
                              char label[BAUM_I_LABEL_SIZE])
 {
   baum_workspace *w = run->workspace;
-  strcpy(label, "no joint");
+  memcpy(label, "no joint", sizeof "no joint");
   if (w->mechanism->nc == 0 || baum_i_position_stage(w, t, drawn) != BAUM_OK) {
     return;
   }
