@@ -313,7 +313,8 @@ static baum_status check_constant(const baum_i_body *body, const baum_i_local *a
     double size = sqrt(fabs(block[i / n * (n + 1)] * block[i % n * (n + 1)]));
     if (fabs(block[i] - there[i]) > 1e-9 * (fabs(block[i]) + size)) {
       status =
-        baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g here and %.9g there, but constant_mass is true",
+        baum_i_fail(BAUM_ERR_ARGUMENT,
+                    "%s is %.9g in the drawn pose and %.9g near it, but constant_mass is true",
                     baum_i_user_entry(&f, i, text), there[i], block[i]);
     }
   }

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "user_check.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+baum_mechanism *user_make_empty(void)
+{
+  baum_mechanism *mechanism = NULL;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  return mechanism;
+}
+
+/* Freeze, check, give up. */
+baum_status user_check(baum_mechanism *mechanism)
+{
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_status status = baum_mechanism_check_derivatives(mechanism);
+  baum_mechanism_destroy(mechanism);
+  return status;
+}
+
+void user_check_right(baum_mechanism *mechanism)
+{
+  if (user_check(mechanism) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+void user_check_wrong(baum_mechanism *mechanism, const char *sentence)
+{
+  assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
+  assert_string_equal(baum_message(), sentence);
+}
+
+baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,
+                                     baum_qv_fn *gamma, double scale)
+{
+  const double q[2] = {0.6, -0.8};
+  baum_mechanism *mechanism = user_make_empty();
+  const baum_body_id body = user_add_coordinates(mechanism, 2, q, scale);
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.name = "circle";
+  def.bodies = &body;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.phi = phi;
+  def.jacobian = jacobian;
+  def.nu = nu;
+  def.gamma = gamma;
+  assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &def, NULL), BAUM_OK);
+  return mechanism;
+}
+
+baum_mechanism *user_make_force(baum_force_fn *force, baum_force_fn *force_q,
+                                baum_force_fn *force_v, void *user)
+{
+  const double q[2] = {0.0, 0.0};
+  baum_mechanism *mechanism = user_make_empty();
+  const baum_body_id body = user_add_coordinates(mechanism, 2, q, 1.0);
+  baum_user_force_def def = baum_user_force_def_default();
+  def.name = "spring";
+  def.bodies = &body;
+  def.body_count = 1;
+  def.force = force;
+  def.force_q = force_q;
+  def.force_v = force_v;
+  def.user = user;
+  assert_int_equal(baum_mechanism_add_user_force(mechanism, &def, NULL), BAUM_OK);
+  return mechanism;
+}

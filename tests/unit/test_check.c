@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checking of given derivatives: what is wrong is named. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/planar.h>
+
+#include "user_check.h"
+
+/* A model with one entry of one function wrong by a ten thousandth. */
+typedef struct spoiled {
+  user_model model; /* first: what the model's own functions are given */
+  const user_kind *kind;
+  int entry;
+} spoiled;
+
+static int spoiled_jacobian(double t, const double *q, double *out, void *user)
+{
+  const spoiled *s = user;
+  int answer = s->kind->jacobian(t, q, out, user);
+  out[s->entry] *= 1.0001;
+  return answer;
+}
+
+static int spoiled_nu(double t, const double *q, double *out, void *user)
+{
+  const spoiled *s = user;
+  int answer = s->kind->nu(t, q, out, user);
+  out[s->entry] *= 1.0001;
+  return answer;
+}
+
+static int spoiled_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  const spoiled *s = user;
+  int answer = s->kind->gamma(t, q, v, out, user);
+  out[s->entry] *= 1.0001;
+  return answer;
+}
+
+static void check_spoiled(spoiled *s, int which, int given, const char *place)
+{
+  user_kind wrong = *s->kind;
+  wrong.jacobian = which == GIVE_JACOBIAN ? spoiled_jacobian : wrong.jacobian;
+  wrong.nu = which == GIVE_NU ? spoiled_nu : wrong.nu;
+  wrong.gamma = which == GIVE_GAMMA ? spoiled_gamma : wrong.gamma;
+  assert_int_equal(user_check(user_make(&wrong, &s->model, which | given)), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), place));
+}
+
+static void every_entry_that_is_wrong_by_a_ten_thousandth_is_named_in_any_unit(void **state)
+{
+  (void)state;
+  const user_kind *const kinds[] = {&user_circle, &user_loop, &user_swing};
+  const double sizes[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
+  char place[64];
+  for (int k = 0; k < 3 * 5; k++) {
+    spoiled s = {.model = {sizes[k % 5], 2.0}, .kind = kinds[k / 5]};
+    int columns = s.kind->size;
+    for (s.entry = 0; s.entry < s.kind->rows * columns; s.entry++) {
+      (void)snprintf(place, sizeof place, ": jacobian()[%d][%d] is ", s.entry / columns,
+                     s.entry % columns);
+      check_spoiled(&s, GIVE_JACOBIAN, GIVE_NOTHING, place);
+    }
+    for (s.entry = 0; s.entry < s.kind->rows; s.entry++) {
+      (void)snprintf(place, sizeof place, ": gamma()[%d] is ", s.entry);
+      check_spoiled(&s, GIVE_GAMMA, GIVE_NOTHING, place);
+      check_spoiled(&s, GIVE_GAMMA, GIVE_JACOBIAN | GIVE_NU, place);
+    }
+  }
+  spoiled s = {.model = {1.0, 2.0}, .kind = &user_swing};
+  check_spoiled(&s, GIVE_NU, GIVE_NOTHING, ": nu()[0] is ");
+}
+
+static int half_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 2.0 * q[0];
+  out[1] = q[1];
+  return 0;
+}
+
+/* Right in the drawn pose only: where y = -0.8. */
+static int frozen_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 2.0 * q[0];
+  out[1] = -1.6;
+  return 0;
+}
+
+static int slightly_wrong_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 2.0 * q[0];
+  out[1] = 2.0 * q[1] * (1.0 + 1e-5);
+  return 0;
+}
+
+/* No length in it, as the functions of this file have no `user`. */
+static int unit_circle_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0] * q[0] + q[1] * q[1] - 1.0;
+  return 0;
+}
+
+static void a_wrong_entry_of_the_jacobian_is_named(void **state)
+{
+  (void)state;
+  user_check_wrong(user_make_constraint(unit_circle_phi, half_jacobian, NULL, NULL, 1.0),
+                   "joint 1 \"circle\": jacobian()[0][1] is -0.8 but differences of phi give -1.6");
+}
+
+static void an_entry_that_is_right_in_the_drawn_pose_only_is_found(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism =
+    user_make_constraint(unit_circle_phi, frozen_jacobian, NULL, NULL, 1.0);
+  assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
+  assert_non_null(
+    strstr(baum_message(), "joint 1 \"circle\": jacobian()[0][1] is -1.6 but differences of phi"));
+}
+
+static void an_entry_that_is_wrong_by_a_hundred_thousandth_is_found(void **state)
+{
+  (void)state;
+  const double scales[] = {1e-3, 1.0, 1e3, 1e6};
+  for (int i = 0; i < 4; i++) {
+    user_check_wrong(
+      user_make_constraint(unit_circle_phi, slightly_wrong_jacobian, NULL, NULL, scales[i]),
+      "joint 1 \"circle\": jacobian()[0][1] is -1.600016 but differences of phi give -1.6");
+  }
+}
+
+/* x = 2 sin(3 t) */
+static int driven_phi(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  out[0] = q[0] - 2.0 * sin(3.0 * t);
+  return 0;
+}
+
+static int driven_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static int turned_nu(double t, const double *q, double *out, void *user)
+{
+  (void)q;
+  (void)user;
+  out[0] = -6.0 * cos(3.0 * t);
+  return 0;
+}
+
+static int right_nu(double t, const double *q, double *out, void *user)
+{
+  (void)q;
+  (void)user;
+  out[0] = 6.0 * cos(3.0 * t);
+  return 0;
+}
+
+static void nu_of_the_wrong_sign_is_named(void **state)
+{
+  (void)state;
+  user_check_wrong(user_make_constraint(driven_phi, NULL, turned_nu, NULL, 1.0),
+                   "joint 1 \"circle\": nu()[0] is -6 but differences of phi in t give 6");
+}
+
+static int no_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)out;
+  (void)user;
+  return 0;
+}
+
+static int right_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)q;
+  (void)v;
+  (void)user;
+  out[0] = -18.0 * sin(3.0 * t);
+  return 0;
+}
+
+/* It is zero in the drawn pose, at t = 0. */
+static void a_forgotten_gamma_is_found_at_another_time(void **state)
+{
+  (void)state;
+  char sentence[128];
+  (void)snprintf(sentence, sizeof sentence,
+                 "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
+                 -18.0 * sin(3.0 * 0.37));
+  baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
+  /* Second differences are good for seven digits here. */
+  assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
+  assert_memory_equal(baum_message(), sentence, strlen(sentence) - 3);
+  (void)snprintf(sentence, sizeof sentence,
+                 "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g",
+                 "jacobian and nu", -18.0 * sin(3.0 * 0.37));
+  user_check_wrong(user_make_constraint(driven_phi, driven_jacobian, right_nu, no_gamma, 1.0),
+                   sentence);
+  user_check_right(user_make_constraint(driven_phi, driven_jacobian, right_nu, right_gamma, 1.0));
+}
+
+static int cubic_force(double t, const double *q, const double *v, const double *inputs,
+                       double *out, void *user)
+{
+  (void)t;
+  (void)inputs;
+  (void)user;
+  out[0] = -5.0 * q[0] - 7.0 * v[1];
+  out[1] = -4.0 * q[1] * q[1] * q[1];
+  return 0;
+}
+
+static int cubic_force_q(double t, const double *q, const double *v, const double *inputs,
+                         double *out, void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = -5.0;
+  out[3] = -12.0 * q[1] * q[1];
+  return 0;
+}
+
+static int wrong_force_q(double t, const double *q, const double *v, const double *inputs,
+                         double *out, void *user)
+{
+  (void)cubic_force_q(t, q, v, inputs, out, user);
+  out[0] = 5.0;
+  return 0;
+}
+
+static int cubic_force_v(double t, const double *q, const double *v, const double *inputs,
+                         double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[1] = -7.0;
+  return 0;
+}
+
+static void wrong_derivatives_of_a_force_are_named(void **state)
+{
+  (void)state;
+  user_check_right(user_make_force(cubic_force, cubic_force_q, cubic_force_v, NULL));
+  user_check_wrong(user_make_force(cubic_force, wrong_force_q, NULL, NULL),
+                   "force 1 \"spring\": force_q()[0][0] is 5 but differences of force give -5");
+  user_check_wrong(user_make_force(cubic_force, cubic_force_q, user_no_force, NULL),
+                   "force 1 \"spring\": force_v()[0][1] is 0 but differences of force give -7");
+}
+
+/* ---- bodies ---- */
+
+static int mass_of(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const double *wrong = user;
+  out[0] = 2.0 + cos(q[0]);
+  out[1] = 0.5 + wrong[0];
+  out[2] = 0.5;
+  out[3] = 1.0;
+  return 0;
+}
+
+static baum_mechanism *make_body(double wrong[1], bool constant_mass, baum_force_fn *force_q,
+                                 baum_force_fn *force_v)
+{
+  baum_mechanism *mechanism = user_make_empty();
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.name = "arm";
+  def.size = 2;
+  def.mass = mass_of;
+  def.force = cubic_force;
+  def.force_q = force_q;
+  def.force_v = force_v;
+  def.constant_mass = constant_mass;
+  def.user = wrong;
+  assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
+  return mechanism;
+}
+
+static void wrong_functions_of_a_body_are_named(void **state)
+{
+  (void)state;
+  double wrong[1] = {0.0};
+  user_check_right(make_body(wrong, false, cubic_force_q, cubic_force_v));
+  user_check_wrong(make_body(wrong, false, wrong_force_q, NULL),
+                   "body 1 \"arm\": force_q()[0][0] is 5 but differences of force give -5");
+  user_check_wrong(make_body(wrong, false, NULL, user_no_force),
+                   "body 1 \"arm\": force_v()[0][1] is 0 but differences of force give -7");
+  wrong[0] = 1e-3;
+  user_check_wrong(
+    make_body(wrong, false, NULL, NULL),
+    "body 1 \"arm\": mass()[1][0] is 0.5 but mass()[0][1] is 0.501; must be symmetric");
+}
+
+static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
+{
+  (void)state;
+  double wrong[1] = {0.0};
+  assert_int_equal(user_check(make_body(wrong, true, NULL, NULL)), BAUM_ERR_ARGUMENT);
+  assert_non_null(
+    strstr(baum_message(), "body 1 \"arm\": mass()[0][0] is 3 in the drawn pose and 2.9"));
+  assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
+}
+
+/* A law that is known from t = 0 on: differences around t = 0 cannot be had. */
+static int late_phi(double t, const double *q, double *out, void *user)
+{
+  (void)driven_phi(t, q, out, user);
+  return t < 0.0 ? -1 : 0;
+}
+
+static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
+{
+  (void)state;
+  user_check_right(user_make_constraint(late_phi, driven_jacobian, right_nu, right_gamma, 1.0));
+  char sentence[128];
+  double nu = 6.0 * cos(3.0 * 0.37);
+  (void)snprintf(sentence, sizeof sentence,
+                 "joint 1 \"circle\": nu()[0] is %.9g but differences of phi in t give %.9g", -nu,
+                 nu);
+  user_check_wrong(user_make_constraint(late_phi, driven_jacobian, turned_nu, right_gamma, 1.0),
+                   sentence);
+}
+
+/* ---- calls ---- */
+
+static void the_mechanism_must_be_there_and_frozen(void **state)
+{
+  (void)state;
+  assert_int_equal(baum_mechanism_check_derivatives(NULL), BAUM_ERR_ARGUMENT);
+  assert_string_equal(baum_message(), "baum_mechanism_check_derivatives: the mechanism is NULL");
+  baum_mechanism *mechanism = user_make_empty();
+  assert_int_equal(baum_mechanism_check_derivatives(mechanism), BAUM_ERR_STATE);
+  assert_string_equal(baum_message(),
+                      "baum_mechanism_check_derivatives: the mechanism is not frozen");
+  baum_mechanism_destroy(mechanism);
+}
+
+static void what_has_no_user_functions_passes(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = user_make_empty();
+  baum_planar_body_def def = baum_planar_body_def_default();
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &def, NULL), BAUM_OK);
+  user_check_right(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_entry_that_is_wrong_by_a_ten_thousandth_is_named_in_any_unit),
+    cmocka_unit_test(a_wrong_entry_of_the_jacobian_is_named),
+    cmocka_unit_test(an_entry_that_is_right_in_the_drawn_pose_only_is_found),
+    cmocka_unit_test(an_entry_that_is_wrong_by_a_hundred_thousandth_is_found),
+    cmocka_unit_test(nu_of_the_wrong_sign_is_named),
+    cmocka_unit_test(a_forgotten_gamma_is_found_at_another_time),
+    cmocka_unit_test(wrong_derivatives_of_a_force_are_named),
+    cmocka_unit_test(wrong_functions_of_a_body_are_named),
+    cmocka_unit_test(a_mass_that_is_not_constant_though_promised_is_found),
+    cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
+    cmocka_unit_test(the_mechanism_must_be_there_and_frozen),
+    cmocka_unit_test(what_has_no_user_functions_passes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

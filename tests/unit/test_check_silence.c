@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checking of given derivatives: what is right, or cannot be judged, raises no alarm. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "user_check.h"
+
+static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
+{
+  (void)state;
+  const user_kind *const kinds[] = {&user_circle, &user_loop, &user_swing};
+  const double sizes[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
+  const double rates[] = {1e-3, 0.1, 1.0, 30.0, 1e3};
+  for (int k = 0; k < 3 * 5 * 5; k++) {
+    for (int given = GIVE_NOTHING; given <= GIVE_ALL; given++) {
+      user_model model = {sizes[k / 5 % 5], rates[k % 5]};
+      user_check_right(user_make(kinds[k / 25], &model, given));
+    }
+  }
+}
+
+/* A lever of 1e-6 m and an angle, both of scale 1: the announced scale is wrong by a million. */
+static int lever_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = sqrt(1e-12 + (q[0] - 0.6) * (q[0] - 0.6)) - 1e-6 * sin(q[1]);
+  return 0;
+}
+
+static int lever_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = (q[0] - 0.6) / sqrt(1e-12 + (q[0] - 0.6) * (q[0] - 0.6));
+  out[1] = -1e-6 * cos(q[1]);
+  return 0;
+}
+
+static void a_scale_that_is_wrong_by_a_million_raises_no_alarm(void **state)
+{
+  (void)state;
+  user_check_right(user_make_constraint(lever_phi, lever_jacobian, NULL, NULL, 1.0));
+}
+
+/* Rounding of 1e-4 in sums of 1e12, beside which an entry of 1e-3 disappears. */
+static int faint_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = (1e12 + 1e6 * q[0] + 1e-3 * sin(q[1])) - 1e12;
+  return 0;
+}
+
+static int faint_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 1e6;
+  out[1] = 1e-3 * cos(q[1]);
+  return 0;
+}
+
+static void what_rounding_hides_raises_no_alarm(void **state)
+{
+  (void)state;
+  user_check_right(user_make_constraint(faint_phi, faint_jacobian, NULL, NULL, 1.0));
+}
+
+/* Contact that just touches, dry friction at rest. */
+static int kinked_force(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)t;
+  (void)inputs;
+  (void)user;
+  out[0] = q[0] < 0.0 ? -1000.0 * q[0] : 0.0;
+  out[1] = v[1] > 0.0 ? -2.0 : v[1] < 0.0 ? 2.0 : 0.0;
+  return 0;
+}
+
+static int kinked_force_q(double t, const double *q, const double *v, const double *inputs,
+                          double *out, void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = q[0] < 0.0 ? -1000.0 : 0.0;
+  return 0;
+}
+
+static void a_kink_in_the_drawn_pose_raises_no_alarm(void **state)
+{
+  (void)state;
+  user_check_right(user_make_force(kinked_force, kinked_force_q, user_no_force, NULL));
+}
+
+/* ---- refusals ---- */
+
+typedef enum refuse { NEVER, BEFORE_ZERO, AT_REST, AWAY, ALWAYS, STOP } refuse;
+
+static int shy_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                     void *user)
+{
+  (void)inputs;
+  refuse refusal = *(refuse *)user;
+  if (refusal == STOP) {
+    return -1;
+  }
+  if (refusal == ALWAYS || (refusal == AWAY && fabs(q[0]) > 0.03) ||
+      (refusal == BEFORE_ZERO && t < 0.0)) {
+    return 1;
+  }
+  double speed = hypot(v[0], v[1]);
+  out[0] = refusal == AT_REST ? v[0] / speed : v[0];
+  return 0;
+}
+
+static int shy_force_v(double t, const double *q, const double *v, const double *inputs,
+                       double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)inputs;
+  refuse refusal = *(refuse *)user;
+  double speed = hypot(v[0], v[1]);
+  out[0] = refusal == AT_REST ? v[1] * v[1] / (speed * speed * speed) : 1.0;
+  out[1] = refusal == AT_REST ? -v[0] * v[1] / (speed * speed * speed) : 0.0;
+  return 0;
+}
+
+static void refused_poses_say_nothing(void **state)
+{
+  (void)state;
+  const refuse passing[] = {NEVER, BEFORE_ZERO, AT_REST, AWAY};
+  for (int i = 0; i < 4; i++) {
+    refuse refusal = passing[i];
+    user_check_right(user_make_force(shy_force, NULL, shy_force_v, &refusal));
+  }
+}
+
+static void a_function_that_refuses_everywhere_is_reported(void **state)
+{
+  (void)state;
+  refuse refusal = ALWAYS;
+  assert_int_equal(user_check(user_make_force(shy_force, NULL, shy_force_v, &refusal)),
+                   BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(), "force 1 \"spring\": force() returned 1 (retry)");
+  refusal = STOP;
+  assert_int_equal(user_check(user_make_force(shy_force, NULL, shy_force_v, &refusal)),
+                   BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(right_derivatives_pass_in_any_unit_and_at_any_rate),
+    cmocka_unit_test(a_scale_that_is_wrong_by_a_million_raises_no_alarm),
+    cmocka_unit_test(what_rounding_hides_raises_no_alarm),
+    cmocka_unit_test(a_kink_in_the_drawn_pose_raises_no_alarm),
+    cmocka_unit_test(refused_poses_say_nothing),
+    cmocka_unit_test(a_function_that_refuses_everywhere_is_reported),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,331 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Derivatives of user constraints: what is given is used, what is missing is differenced.
+ *
+ * Tolerances are scaled: in units of what a change of one scale, at the rate of the state, does to the quantity.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "derivatives.h"
+#include "point.h"
+#include "user_models.h"
+
+static const user_kind *const kinds[] = {&user_circle, &user_loop, &user_swing};
+enum { KIND_COUNT = 3 };
+
+/* ---- derivatives ---- */
+
+/* The same constraint twice: with what is to be tested, and with everything given. */
+typedef struct pair {
+  user_model model;
+  const user_kind *kind;
+  test_point got;
+  test_point want;
+} pair;
+
+static void open_pair(pair *s, const user_kind *kind, double length, double rate, int given)
+{
+  s->model = (user_model){length, rate};
+  s->kind = kind;
+  test_point_open(&s->got, user_make(kind, &s->model, given));
+  test_point_open(&s->want, user_make(kind, &s->model, GIVE_ALL));
+}
+
+static void close_pair(pair *s)
+{
+  test_point_close(&s->got);
+  test_point_close(&s->want);
+}
+
+/* Positions within two scales, velocities within three scales times the rate. */
+static void move_pair(pair *s, uint64_t *seed)
+{
+  double size = s->kind->angles ? 1.0 : s->model.length;
+  double t = test_uniform(seed, 0.0, 2.0);
+  s->got.t = t;
+  s->want.t = t;
+  for (int i = 0; i < s->got.nv; i++) {
+    s->got.q[i] = size * test_uniform(seed, -2.0, 2.0);
+    s->got.v[i] = size * s->model.rate * test_uniform(seed, -3.0, 3.0);
+  }
+  memcpy(s->want.q, s->got.q, sizeof s->got.q);
+  memcpy(s->want.v, s->got.v, sizeof s->got.v);
+  test_point_update(&s->got);
+  test_point_update(&s->want);
+}
+
+/* Size of Phi for a change of one scale. */
+static double phi_size(const pair *s)
+{
+  double l = s->model.length;
+  return s->kind == &user_circle ? l * l : s->kind == &user_loop ? 0.035 * l : l;
+}
+
+static void compare(const double *got, const double *want, int count, double allowed)
+{
+  for (int i = 0; i < count; i++) {
+    ASSERT_NEAR(got[i], want[i], 0.0, allowed);
+  }
+}
+
+/* How fast the state changes: by v, or by the model's own time. */
+static double rate_of(const pair *s)
+{
+  double rate = s->model.rate;
+  for (int i = 0; i < s->got.nv; i++) {
+    rate = fmax(rate, fabs(s->got.v[i]) / (s->kind->angles ? 1.0 : s->model.length));
+  }
+  return rate;
+}
+
+/* nu and gamma carry the rate once and twice. */
+static void check_pair(pair *s, double jacobian_tolerance, double nu_tolerance,
+                       double gamma_tolerance)
+{
+  double got[TEST_SIZE_MAX];
+  double want[TEST_SIZE_MAX];
+  double size = s->kind->angles ? 1.0 : s->model.length;
+  double unit = phi_size(s);
+  double rate = rate_of(s);
+  assert_int_equal(baum_i_mechanism_jacobian(&s->got.point, got), BAUM_OK);
+  assert_int_equal(baum_i_mechanism_jacobian(&s->want.point, want), BAUM_OK);
+  compare(got, want, s->got.nc * s->got.nv, jacobian_tolerance * unit / size);
+  assert_int_equal(baum_i_mechanism_nu(&s->got.point, got), BAUM_OK);
+  assert_int_equal(baum_i_mechanism_nu(&s->want.point, want), BAUM_OK);
+  compare(got, want, s->got.nc, nu_tolerance * unit * rate);
+  assert_int_equal(baum_i_mechanism_gamma(&s->got.point, got), BAUM_OK);
+  assert_int_equal(baum_i_mechanism_gamma(&s->want.point, want), BAUM_OK);
+  compare(got, want, s->got.nc, gamma_tolerance * unit * rate * rate);
+}
+
+/* All kinds, lengths and rates at random states. */
+static void for_each_pair(int given, double jacobian_tolerance, double nu_tolerance,
+                          double gamma_tolerance)
+{
+  const double lengths[] = {1e-6, 1.0, 1e6};
+  const double rates[] = {1.0, 3.0, 200.0};
+  uint64_t seed = 7;
+  for (int k = 0; k < 9 * KIND_COUNT; k++) {
+    pair s;
+    open_pair(&s, kinds[k / 9], lengths[k / 3 % 3], rates[k % 3], given);
+    for (int n = 0; n < 40; n++) {
+      move_pair(&s, &seed);
+      check_pair(&s, jacobian_tolerance, nu_tolerance, gamma_tolerance);
+    }
+    close_pair(&s);
+  }
+}
+
+static void given_derivatives_are_used_as_they_are(void **state)
+{
+  (void)state;
+  for_each_pair(GIVE_ALL, 0.0, 0.0, 0.0);
+}
+
+/* Truncation and rounding of one seven-point second difference, step 1/64: measured 3e-11. */
+static void from_phi_alone_gamma_is_good_to_1e_10(void **state)
+{
+  (void)state;
+  for_each_pair(GIVE_NOTHING, 1e-11, 1e-11, 1e-10);
+}
+
+static void with_a_jacobian_and_nu_gamma_is_good_to_1e_11(void **state)
+{
+  (void)state;
+  for_each_pair(GIVE_JACOBIAN | GIVE_NU, 0.0, 0.0, 1e-11);
+}
+
+static void with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11(void **state)
+{
+  (void)state;
+  uint64_t seed = 8;
+  for (int k = 0; k < 2; k++) {
+    pair s;
+    open_pair(&s, kinds[k], 1.0, 1.0, GIVE_JACOBIAN);
+    for (int n = 0; n < 40; n++) {
+      move_pair(&s, &seed);
+      check_pair(&s, 0.0, 0.0, 1e-11);
+    }
+    close_pair(&s);
+  }
+}
+
+static void what_is_given_serves_where_something_is_missing(void **state)
+{
+  (void)state;
+  for_each_pair(GIVE_JACOBIAN, 0.0, 1e-11, 1e-10);
+  for_each_pair(GIVE_NU, 1e-11, 0.0, 1e-10);
+  for_each_pair(GIVE_GAMMA, 1e-11, 1e-11, 0.0);
+}
+
+static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **state)
+{
+  (void)state;
+  const int given[] = {GIVE_NOTHING, GIVE_JACOBIAN, GIVE_NU};
+  for (int k = 0; k < 3; k++) {
+    user_model model = {1.0, 1.0};
+    test_point p;
+    test_point_open(&p, user_make(&user_loop, &model, given[k]));
+    double gamma[2] = {(double)NAN, (double)NAN};
+    assert_int_equal(baum_i_mechanism_gamma(&p.point, gamma), BAUM_OK);
+    ASSERT_NEAR(gamma[0], 0.0, 0.0, 0.0);
+    ASSERT_NEAR(gamma[1], 0.0, 0.0, 0.0);
+    test_point_close(&p);
+  }
+}
+
+/* Nothing moves, so that nothing tells how fast time works: 300 1/s has to be found by the search for a step.
+ * Where the two orders happen to agree it ends one step early: 1e-8. */
+static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
+{
+  (void)state;
+  uint64_t seed = 9;
+  pair s;
+  open_pair(&s, &user_swing, 1.0, 300.0, GIVE_NOTHING);
+  for (int n = 0; n < 40; n++) {
+    move_pair(&s, &seed);
+    memset(s.got.v, 0, sizeof s.got.v);
+    memset(s.want.v, 0, sizeof s.want.v);
+    check_pair(&s, 1e-11, 1e-11, 1e-8);
+  }
+  close_pair(&s);
+}
+
+/* A mechanism of microseconds or of years: v tells. */
+static void slow_and_fast_motion_is_differenced_alike(void **state)
+{
+  (void)state;
+  const double rates[] = {1e-8, 1e8};
+  uint64_t seed = 10;
+  for (int k = 0; k < 4; k++) {
+    pair s;
+    open_pair(&s, kinds[k / 2], 1.0, rates[k % 2], GIVE_NOTHING);
+    for (int n = 0; n < 40; n++) {
+      move_pair(&s, &seed);
+      check_pair(&s, 1e-11, 0.0, 1e-10);
+    }
+    close_pair(&s);
+  }
+}
+
+/* ---- second derivatives ---- */
+
+static void blocks_of_what_is_given_agree_with_differences(void **state)
+{
+  (void)state;
+  uint64_t seed = 11;
+  for (int k = 0; k < KIND_COUNT; k++) {
+    user_model model = {1.0, 1.5};
+    test_point p;
+    test_point_open(&p, user_make(kinds[k], &model, GIVE_ALL));
+    for (int n = 0; n < 20; n++) {
+      test_point_random(&p, &seed);
+      check_joint_derivatives(&p);
+    }
+    test_point_close(&p);
+  }
+}
+
+typedef struct second {
+  double jw_q[9];
+  double jtl_q[9];
+  double gamma_q[9];
+  double gamma_v[9];
+  double nu_q[9];
+} second;
+
+static void check_blocks(pair *s, double tolerance)
+{
+  const double w[3] = {1.3, -0.4, 0.7};
+  const double lambda[2] = {2.0, -3.0};
+  second got;
+  second want;
+  baum_i_joint_blocks blocks = {got.jw_q, got.jtl_q, got.gamma_q, got.gamma_v, got.nu_q};
+  assert_int_equal(baum_i_mechanism_linearize_joints(&s->got.point, w, lambda, &blocks), BAUM_OK);
+  s->kind->blocks(&s->model, s->got.t, s->got.q, s->got.v, w, lambda, want.jw_q, want.jtl_q,
+                  want.gamma_q, want.gamma_v, want.nu_q);
+  int rows = s->got.nc * s->got.nv;
+  compare(got.jw_q, want.jw_q, rows, tolerance);
+  compare(got.jtl_q, want.jtl_q, s->got.nv * s->got.nv, tolerance);
+  compare(got.gamma_v, want.gamma_v, rows, 10.0 * tolerance);
+  compare(got.nu_q, want.nu_q, rows, tolerance);
+  /* Third derivatives. */
+  compare(got.gamma_q, want.gamma_q, rows, 100.0 * tolerance);
+}
+
+static void for_each_block(int given, double tolerance)
+{
+  uint64_t seed = 12;
+  for (int k = 0; k < KIND_COUNT; k++) {
+    pair s;
+    open_pair(&s, kinds[k], 1.0, 1.0, given);
+    for (int n = 0; n < 40; n++) {
+      move_pair(&s, &seed);
+      check_blocks(&s, tolerance);
+    }
+    close_pair(&s);
+  }
+}
+
+static void blocks_from_phi_alone_are_good_to_eight_digits(void **state)
+{
+  (void)state;
+  for_each_block(GIVE_NOTHING, 1e-9);
+}
+
+static void blocks_from_a_jacobian_are_good_to_nine_digits(void **state)
+{
+  (void)state;
+  for_each_block(GIVE_JACOBIAN | GIVE_NU, 1e-10);
+}
+
+static void blocks_from_everything_given_are_good_to_eleven_digits(void **state)
+{
+  (void)state;
+  for_each_block(GIVE_ALL, 1e-11);
+}
+
+static void a_block_that_is_not_wanted_is_not_written(void **state)
+{
+  (void)state;
+  pair s;
+  open_pair(&s, &user_loop, 1.0, 1.0, GIVE_NOTHING);
+  uint64_t seed = 13;
+  move_pair(&s, &seed);
+  const double lambda[2] = {2.0, -3.0};
+  double jtl_q[9];
+  assert_int_equal(baum_i_mechanism_linearize_joints(&s.got.point, NULL, lambda,
+                                                     &(baum_i_joint_blocks){.jtl_q = jtl_q}),
+                   BAUM_OK);
+  assert_int_equal(
+    baum_i_mechanism_linearize_joints(&s.got.point, NULL, NULL, &(baum_i_joint_blocks){0}),
+    BAUM_OK);
+  close_pair(&s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(given_derivatives_are_used_as_they_are),
+    cmocka_unit_test(from_phi_alone_gamma_is_good_to_1e_10),
+    cmocka_unit_test(with_a_jacobian_and_nu_gamma_is_good_to_1e_11),
+    cmocka_unit_test(with_a_jacobian_gamma_of_what_time_does_not_move_is_good_to_1e_11),
+    cmocka_unit_test(what_is_given_serves_where_something_is_missing),
+    cmocka_unit_test(at_rest_gamma_of_what_time_does_not_move_is_exactly_zero),
+    cmocka_unit_test(at_rest_a_fast_drive_is_differenced_as_well),
+    cmocka_unit_test(slow_and_fast_motion_is_differenced_alike),
+    cmocka_unit_test(blocks_of_what_is_given_agree_with_differences),
+    cmocka_unit_test(blocks_from_phi_alone_are_good_to_eight_digits),
+    cmocka_unit_test(blocks_from_a_jacobian_are_good_to_nine_digits),
+    cmocka_unit_test(blocks_from_everything_given_are_good_to_eleven_digits),
+    cmocka_unit_test(a_block_that_is_not_wanted_is_not_written),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
