@@ -14,7 +14,6 @@
 #include "linear/kkt.h"
 
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
@@ -238,10 +237,18 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values)
 
 /* ---- solve ---- */
 
+/* Where count is 0 the arrays may be NULL. */
+static void copy(const double *from, int count, double *to)
+{
+  for (int i = 0; i < count; i++) {
+    to[i] = from[i];
+  }
+}
+
 static void load_right_side(baum_i_kkt *kkt, const double *f, const double *r)
 {
   int nv = kkt->structure->nv;
-  memcpy(kkt->b, f, (size_t)nv * sizeof *f);
+  copy(f, nv, kkt->b);
   for (int i = 0; i < kkt->structure->nc; i++) {
     bool dropped = kkt->values.dropped && kkt->values.dropped[i];
     kkt->b[nv + i] = dropped ? 0.0 : r[i];
@@ -250,7 +257,7 @@ static void load_right_side(baum_i_kkt *kkt, const double *f, const double *r)
 
 static baum_status solve_once(baum_i_kkt *kkt)
 {
-  memcpy(kkt->x, kkt->b, (size_t)kkt->n * sizeof *kkt->x);
+  copy(kkt->b, kkt->n, kkt->x);
   baum_status status = kkt->present->ops->solve(kkt->present->self, kkt->x);
   baum_i_residual_form(kkt->structure, &kkt->values, kkt->b, kkt->x, kkt->residual, kkt->size);
   return status;
@@ -290,13 +297,13 @@ static bool is_least_squares(const baum_i_kkt *kkt)
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
   baum_status status = solve_once(kkt);
-  for (int k = 0; k < MOST_REFINEMENTS && status == BAUM_OK && !is_at_rounding(kkt); k++) {
+  for (int k = 0; status == BAUM_OK && !is_at_rounding(kkt); k++) {
+    if (k == MOST_REFINEMENTS) {
+      return is_at_noise(kkt) || is_least_squares(kkt) ? BAUM_OK : BAUM_ERR_SINGULAR;
+    }
     status = refine(kkt);
   }
-  if (status != BAUM_OK || is_at_rounding(kkt) || is_at_noise(kkt) || is_least_squares(kkt)) {
-    return status;
-  }
-  return BAUM_ERR_SINGULAR;
+  return status;
 }
 
 static baum_status solve_climbing(baum_i_kkt *kkt)
@@ -323,8 +330,8 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
   }
   baum_status status = solve_climbing(kkt);
   if (status == BAUM_OK) {
-    memcpy(a, kkt->x, (size_t)kkt->structure->nv * sizeof *a);
-    memcpy(lambda, kkt->x + kkt->structure->nv, (size_t)kkt->structure->nc * sizeof *lambda);
+    copy(kkt->x, kkt->structure->nv, a);
+    copy(kkt->x + kkt->structure->nv, kkt->structure->nc, lambda);
   }
   return report(status);
 }

@@ -9,8 +9,8 @@
  * the pivots, and they stay good while the mechanism moves. But then constraints enter as J M^-1 J^T, whose smallest
  * eigenvalue is sigma^2 where the smallest singular value of the scaled J is sigma. With care, M is weighted down,
  *
- *   [ w M   J^T  ]
- *   [ J    -S / w]
+ *   [ w M   J^T ]
+ *   [ J    -S/w ]
  *
  * and the largest entry is the pivot: J itself is eliminated, which loses sigma only, and masses of very
  * different size do not disturb each other. Such pivots depend on the pose and have to be chosen more often.
@@ -20,6 +20,7 @@
 #include "base/alloc.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"
+#include "linear/scale.h"
 
 /* Roots of the weight w, powers of two. */
 static const double usual_root = 1.0;
@@ -32,7 +33,7 @@ static const double careful_threshold = 1.0;
 typedef struct klu_backend {
   baum_i_pattern pattern;
   double *matrix;
-  const double *scale; /* of the last factorization; the front's */
+  double *scale; /* (n) */
   double root;
   klu_common common;
   klu_symbolic *symbolic;
@@ -52,6 +53,7 @@ static void destroy(void *self)
     (void)klu_free_symbolic(&klu->symbolic, &klu->common);
   }
   baum_i_free(klu->matrix);
+  baum_i_free(klu->scale);
   baum_i_pattern_clear(&klu->pattern);
   baum_i_free(klu);
 }
@@ -68,7 +70,8 @@ static bool set_up(klu_backend *klu, const baum_i_kkt_structure *structure)
   }
   baum_i_pattern *pattern = &klu->pattern;
   klu->matrix = baum_i_alloc((size_t)pattern->column_start[pattern->n], sizeof *klu->matrix);
-  if (!klu->matrix) {
+  klu->scale = baum_i_alloc((size_t)pattern->n, sizeof *klu->scale);
+  if (!klu->matrix || !klu->scale) {
     return false;
   }
   klu->symbolic = klu_analyze(pattern->n, pattern->column_start, pattern->row, &klu->common);
@@ -119,9 +122,9 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
     klu->root = careful ? careful_root : usual_root;
     klu->common.tol = careful ? careful_threshold : usual_threshold;
   }
-  klu->scale = scale;
   klu->common.rcond = 0.0;
-  baum_i_pattern_fill(&klu->pattern, values, scale, klu->root * klu->root, klu->matrix);
+  baum_i_scale_weigh(klu->pattern.structure, values, scale, klu->root, klu->scale);
+  baum_i_pattern_fill(&klu->pattern, values, klu->scale, klu->matrix);
   baum_status status = effort == BAUM_I_EFFORT_KEEP ? keep(klu) : choose(klu);
   if (status == BAUM_OK) {
     (void)klu_rcond(klu->symbolic, klu->numeric, &klu->common);
@@ -131,12 +134,8 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
 
 static void apply_scale(const klu_backend *klu, double *x)
 {
-  int nv = klu->pattern.structure->nv;
-  for (int j = 0; j < nv; j++) {
-    x[j] *= klu->scale[j] * klu->root;
-  }
-  for (int i = nv; i < klu->pattern.n; i++) {
-    x[i] *= klu->scale[i] / klu->root;
+  for (int i = 0; i < klu->pattern.n; i++) {
+    x[i] *= klu->scale[i];
   }
 }
 

@@ -217,7 +217,7 @@ void baum_i_pattern_clear(baum_i_pattern *pattern)
 }
 
 static void fill_mass(const baum_i_pattern *pattern, const double *mass, const double *d,
-                      double weight, double *matrix)
+                      double *matrix)
 {
   const baum_i_kkt_structure *structure = pattern->structure;
   const int32_t *slot = pattern->mass;
@@ -226,7 +226,7 @@ static void fill_mass(const baum_i_pattern *pattern, const double *mass, const d
     const double *value = mass + block->value;
     for (int i = 0; i < block->size; i++) {
       for (int j = 0; j < block->size; j++) {
-        matrix[*slot++] += weight * d[block->first + i] * *value++ * d[block->first + j];
+        matrix[*slot++] += d[block->first + i] * *value++ * d[block->first + j];
       }
     }
   }
@@ -254,23 +254,23 @@ static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian,
 
 /* -S, and 1 for a dropped row. */
 static void fill_shift(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                       const double *e, double weight, double *matrix)
+                       const double *e, double *matrix)
 {
   const int32_t *slot = pattern->diagonal + pattern->structure->nv;
   for (int i = 0; i < pattern->structure->nc; i++) {
     if (e[i] == 0.0) {
       matrix[slot[i]] = 1.0;
     } else if (values->shift) {
-      matrix[slot[i]] = -e[i] * values->shift[i] * e[i] / weight;
+      matrix[slot[i]] = -e[i] * values->shift[i] * e[i];
     }
   }
 }
 
 void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                         const double *scale, double mass_weight, double *matrix)
+                         const double *scale, double *matrix)
 {
   memset(matrix, 0, (size_t)pattern->column_start[pattern->n] * sizeof *matrix);
-  fill_mass(pattern, values->mass, scale, mass_weight, matrix);
+  fill_mass(pattern, values->mass, scale, matrix);
   fill_jacobian(pattern, values->jacobian, scale, matrix);
-  fill_shift(pattern, values, scale + pattern->structure->nv, mass_weight, matrix);
+  fill_shift(pattern, values, scale + pattern->structure->nv, matrix);
 }

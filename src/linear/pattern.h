@@ -27,8 +27,8 @@ typedef struct baum_i_pattern {
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
 void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is fine */
 
-/* matrix (column_start[n]) = D K D with (1,1) multiplied and (2,2) divided by mass_weight, a power of two. */
+/* matrix (column_start[n]) = D K D for D = diag(scale); a row with scale 0 is dropped. */
 void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                         const double *scale, double mass_weight, double *matrix);
+                         const double *scale, double *matrix);
 
 #endif

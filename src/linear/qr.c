@@ -3,14 +3,14 @@
  *
  * The scaled saddle-point matrix is weighted once more,
  *
- *   K_w = [ w M   J^T  ]
- *         [ J    -S / w]
+ *   K_w = [ w M   J^T ]
+ *         [ J    -S/w ]
  *
- * with a small w, because the smallest singular value of K_w is about sigma for a smallest singular value sigma > w of the
- * scaled J, where that of K_1 is sigma^2. Columns of norm at most 1e-13 are taken as dependent. The
- * solution is the one of least norm among those that minimize the scaled residual: K_w is symmetric, so that its range is
- * also its row space, and projecting the basic solution onto it is enough. Accelerations are then unique wherever M is
- * positive definite on ker J; multipliers are of least norm in scaled rows.
+ * with a small w, because the smallest singular value of K_w is about sigma if that of the scaled J is sigma > w,
+ * where that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 are taken as dependent. The solution
+ * is the one of least norm among those that minimize the scaled residual: K_w is symmetric, its range therefore also
+ * its row space, and it is enough to project the basic solution onto it. Accelerations are unique where M is positive
+ * definite on ker J; multipliers are of least norm in scaled rows.
  *
  * SPQR allocates in factor and solve. It calls the BLAS, whose threads are the program's business.
  */
@@ -22,10 +22,9 @@
 #include "base/message.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"
+#include "linear/scale.h"
 
-/* A power of four, so that its root is a power of two. */
-static const double mass_weight = 0x1p-26;
-static const double mass_weight_root = 0x1p-13;
+static const double weight_root = 0x1p-13; /* of w */
 static const double dependent = 1e-13;
 
 enum { RANK_STATISTIC = 4 }; /* of cholmod_common.SPQR_istat */
@@ -82,6 +81,15 @@ static void widen(const int32_t *from, size_t count, SuiteSparse_long *to)
   }
 }
 
+static double largest_of(const double *x, size_t count)
+{
+  double largest = 0.0;
+  for (size_t i = 0; i < count; i++) {
+    largest = fmax(largest, fabs(x[i]));
+  }
+  return largest;
+}
+
 /* ---- backend ---- */
 
 typedef struct qr_backend {
@@ -90,7 +98,7 @@ typedef struct qr_backend {
   bool is_started;
   cholmod_sparse matrix;
   SuiteSparseQR_C_factorization *factors;
-  const double *scale; /* of the last factorization; the front's */
+  double *scale; /* (n) */
   size_t rank;
   double rcond;
   double *work; /* (n) */
@@ -108,6 +116,7 @@ static void destroy(void *self)
   }
   clear_sparse(&qr->matrix);
   baum_i_free(qr->work);
+  baum_i_free(qr->scale);
   baum_i_pattern_clear(&qr->pattern);
   baum_i_free(qr);
 }
@@ -122,7 +131,8 @@ static bool set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
   size_t n = (size_t)pattern->n;
   size_t entries = (size_t)pattern->column_start[n];
   qr->work = baum_i_alloc(n, sizeof *qr->work);
-  if (!qr->work || !make_sparse(n, n, entries, &qr->matrix)) {
+  qr->scale = baum_i_alloc(n, sizeof *qr->scale);
+  if (!qr->work || !qr->scale || !make_sparse(n, n, entries, &qr->matrix)) {
     return false;
   }
   widen(pattern->column_start, n + 1, qr->matrix.p);
@@ -146,15 +156,10 @@ static baum_status create(const baum_i_kkt_structure *structure, void **out)
   return BAUM_OK;
 }
 
-/* x <- D_w x, where D_w is the scale with the weight in it. */
 static void apply_scale(const qr_backend *qr, double *x)
 {
-  int nv = qr->pattern.structure->nv;
-  for (int j = 0; j < nv; j++) {
-    x[j] *= qr->scale[j] * mass_weight_root;
-  }
-  for (int i = nv; i < qr->pattern.n; i++) {
-    x[i] *= qr->scale[i] / mass_weight_root;
+  for (int i = 0; i < qr->pattern.n; i++) {
+    x[i] *= qr->scale[i];
   }
 }
 
@@ -197,14 +202,30 @@ static baum_status solve_triangle(qr_backend *qr, double *x)
   return take(qr, SuiteSparseQR_C_solve(SPQR_RETX_EQUALS_B, qr->factors, &column, &qr->common), x);
 }
 
-/* x <- its projection onto the range of K_w */
+/* Project x[from..to), as a vector that is zero elsewhere, onto the range of K_w. */
+static baum_status project_part(qr_backend *qr, int from, int to, double *x)
+{
+  size_t count = (size_t)(to - from);
+  memset(qr->work, 0, (size_t)qr->pattern.n * sizeof *qr->work);
+  memcpy(qr->work + from, x + from, count * sizeof *x);
+  baum_status status = multiply(qr, SPQR_QTX, qr->work);
+  for (size_t i = qr->rank; i < (size_t)qr->pattern.n; i++) {
+    qr->work[i] = 0.0;
+  }
+  if (status == BAUM_OK) {
+    status = multiply(qr, SPQR_QX, qr->work);
+  }
+  memcpy(x + from, qr->work + from, count * sizeof *x);
+  return status;
+}
+
+/* As M and S are positive semidefinite, the null space is spanned by vectors of velocities alone and of multipliers
+ * alone. Projecting each for itself keeps the rounding of the one, which w makes large, out of the other. */
 static baum_status project(qr_backend *qr, double *x)
 {
-  baum_status status = multiply(qr, SPQR_QTX, x);
-  for (size_t i = qr->rank; i < (size_t)qr->pattern.n; i++) {
-    x[i] = 0.0;
-  }
-  return status == BAUM_OK ? multiply(qr, SPQR_QX, x) : status;
+  int nv = qr->pattern.structure->nv;
+  baum_status status = project_part(qr, 0, nv, x);
+  return status == BAUM_OK ? project_part(qr, nv, qr->pattern.n, x) : status;
 }
 
 /* x <- K_w^+ x */
@@ -218,15 +239,6 @@ static baum_status solve_scaled(qr_backend *qr, double *x)
     status = project(qr, x);
   }
   return status;
-}
-
-static double largest_of(const double *x, size_t count)
-{
-  double largest = 0.0;
-  for (size_t i = 0; i < count; i++) {
-    largest = fmax(largest, fabs(x[i]));
-  }
-  return largest;
 }
 
 /* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank. Two steps, because a singular vector may hide from one. */
@@ -256,9 +268,9 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
 {
   (void)effort; /* there is one way only */
   qr_backend *qr = self;
-  qr->scale = scale;
   qr->rcond = 0.0;
-  baum_i_pattern_fill(&qr->pattern, values, scale, mass_weight, qr->matrix.x);
+  baum_i_scale_weigh(qr->pattern.structure, values, scale, weight_root, qr->scale);
+  baum_i_pattern_fill(&qr->pattern, values, qr->scale, qr->matrix.x);
   (void)SuiteSparseQR_C_numeric(dependent, &qr->matrix, qr->factors, &qr->common);
   if (qr->common.status < CHOLMOD_OK) {
     return BAUM_ERR_MEMORY;
@@ -335,24 +347,29 @@ static bool entries_are_finite(const cholmod_triplet *list)
   return true;
 }
 
-/* Columns of unit length; by the largest entry first, so that squares neither overflow nor vanish. */
+/* To unit length; by the largest number first, so that squares neither overflow nor vanish. */
+static void make_unit(double *x, size_t count)
+{
+  double largest = largest_of(x, count);
+  if (largest == 0.0) {
+    return;
+  }
+  double sum = 0.0;
+  for (size_t k = 0; k < count; k++) {
+    x[k] /= largest;
+    sum += x[k] * x[k];
+  }
+  for (size_t k = 0; k < count; k++) {
+    x[k] /= sqrt(sum);
+  }
+}
+
 static void make_unit_columns(cholmod_sparse *sparse)
 {
   const SuiteSparse_long *start_of = sparse->p;
   double *x = sparse->x;
   for (size_t j = 0; j < sparse->ncol; j++) {
-    double largest = 0.0;
-    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1]; k++) {
-      largest = fmax(largest, fabs(x[k]));
-    }
-    double sum = 0.0;
-    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1] && largest > 0.0; k++) {
-      x[k] /= largest;
-      sum += x[k] * x[k];
-    }
-    for (SuiteSparse_long k = start_of[j]; k < start_of[j + 1] && largest > 0.0; k++) {
-      x[k] /= sqrt(sum);
-    }
+    make_unit(x + start_of[j], (size_t)(start_of[j + 1] - start_of[j]));
   }
 }
 

@@ -69,7 +69,7 @@ static void subtract_jacobian(const baum_i_kkt_structure *structure, const doubl
   for (int b = 0; b < structure->row_block_count; b++) {
     const baum_i_row_block *block = &structure->row_blocks[b];
     for (int i = 0; i < block->rows; i++) {
-      const double *value = jacobian + block->value + i * block->cols;
+      const double *value = jacobian + block->value + (ptrdiff_t)i * block->cols;
       subtract_row(block, value, structure->nv + block->row + i, x, residual, size);
     }
   }

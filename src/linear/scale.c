@@ -5,8 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Exponents are kept so small that a product of two scales and an entry can neither overflow nor vanish. */
-enum { EXPONENT_BIAS = 1023, EXPONENT_BITS = 52, EXPONENT_MASK = 0x7ff, EXPONENT_LIMIT = 300 };
+/* Powers of two stay normal numbers. */
+enum { EXPONENT_BIAS = 1023, EXPONENT_BITS = 52, EXPONENT_MASK = 0x7ff, EXPONENT_LIMIT = 1000 };
 
 /* floor(log2(x)) of a finite x > 0. */
 static int exponent_of(double x)
@@ -52,7 +52,7 @@ static void scale_velocities(const baum_i_kkt_structure *structure, const double
     const baum_i_mass_block *block = &structure->mass_blocks[b];
     const double *diagonal = mass + block->value;
     for (int j = 0; j < block->size; j++) {
-      double size = fabs(diagonal[j * (block->size + 1)]);
+      double size = fabs(diagonal[(ptrdiff_t)j * (block->size + 1)]);
       d[block->first + j] = size > 0.0 ? inverse_root(size) : 0.0;
     }
   }
@@ -87,32 +87,33 @@ static void scale_constraints(const baum_i_kkt_structure *structure,
   }
 }
 
-/* d_j of one velocity without mass, 0 if no row with a known scale holds it. */
-static double scale_massless(const baum_i_kkt_structure *structure, const double *jacobian,
-                             const double *e, int j)
+/* Minus the largest scaled entry of each column whose scale is not known. */
+static void measure_massless(const baum_i_kkt_structure *structure, const double *jacobian,
+                             const double *e, double *d)
 {
-  double largest = 0.0;
   for (int b = 0; b < structure->row_block_count; b++) {
     const baum_i_row_block *block = &structure->row_blocks[b];
-    for (int k = 0; k < block->cols; k++) {
-      for (int i = 0; i < block->rows && block->col[k] == j; i++) {
-        double value = jacobian[block->value + i * block->cols + k];
-        largest = fmax(largest, fabs(value) * e[block->row + i]);
+    const double *value = jacobian + block->value;
+    for (int i = 0; i < block->rows; i++) {
+      for (int k = 0; k < block->cols; k++) {
+        double *column = &d[block->col[k]];
+        double size = fabs(*value++) * e[block->row + i];
+        *column = *column <= 0.0 && -size < *column ? -size : *column;
       }
     }
   }
-  return largest > 0.0 ? inverse(largest) : 0.0;
 }
 
-/* Let scales spread from rows to the velocities without mass; true if any was found. */
+/* Let scales spread from rows to the velocities without mass in them; true if any was found. */
 static bool spread(const baum_i_kkt_structure *structure, const double *jacobian, const double *e,
                    double *d)
 {
   bool found = false;
+  measure_massless(structure, jacobian, e, d);
   for (int j = 0; j < structure->nv; j++) {
-    if (d[j] == 0.0) {
-      d[j] = scale_massless(structure, jacobian, e, j);
-      found = found || d[j] > 0.0;
+    if (d[j] < 0.0) {
+      d[j] = inverse(-d[j]);
+      found = true;
     }
   }
   return found;
@@ -154,5 +155,19 @@ void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kk
     if (values->dropped && values->dropped[i]) {
       e[i] = 0.0;
     }
+  }
+}
+
+void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
+                        const double *scale, double root, double *weighted)
+{
+  int nv = structure->nv;
+  for (int j = 0; j < nv; j++) {
+    weighted[j] = scale[j] * root;
+  }
+  for (int i = 0; i < structure->nc; i++) {
+    double shift = values->shift ? fabs(values->shift[i]) : 0.0;
+    double wanted = scale[nv + i] / root;
+    weighted[nv + i] = shift > 0.0 ? fmin(wanted, inverse_root(shift)) : wanted;
   }
 }

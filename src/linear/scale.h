@@ -17,4 +17,9 @@
 void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           double *scale);
 
+/* weighted (nv + nc) = (root d, e / root): M is weighted by root^2 < 1, a power of four, against J, which stays as it is.
+ * S would be divided by root^2; its rows get less than 1 / root where it would exceed one. */
+void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
+                        const double *scale, double root, double *weighted);
+
 #endif
