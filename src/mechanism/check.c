@@ -6,9 +6,9 @@
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
  * at one of them; the second part is what rounding may do to an entry that is small beside the others of its row. It is
- * wrong when it never is, and the best d differs from it by more than d's own error as well: 20 times the disagreement of
- * the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where the function has a
- * derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at any step.
+ * wrong when it never is, and the best d, and one more, differ from it by more than d's own error as well: 20 times the
+ * disagreement of the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where the
+ * function has a derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at any step.
  *
  * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is not zero there:
  * derivatives must be those of the function, not only where the constraint is met. A pose that a function of an element
@@ -35,6 +35,8 @@ typedef struct trial {
   double *value;    /* best */
   double *error;    /* of the best; < 0 once the given value is found right */
   double *quality;  /* of the best: error in units of how much the function varied */
+  double *step;     /* of the best */
+  double *wrong;    /* number of steps at which the given value looks wrong */
 } trial;
 
 /* Where the given values of a ray are, and what rounding may do to them. */
@@ -66,37 +68,49 @@ static trial take_trial(baum_i_local *here, int size)
   t.value = baum_i_take(here, size);
   t.error = baum_i_take(here, size);
   t.quality = baum_i_take(here, size);
+  t.step = baum_i_take(here, size);
+  t.wrong = baum_i_take(here, size);
   for (int i = 0; i < size; i++) {
     t.previous[i] = (double)NAN;
     t.error[i] = (double)INFINITY;
     t.quality[i] = (double)INFINITY;
+    t.wrong[i] = 0.0;
   }
   return t;
 }
 
+/* Keep the best step; the first, whose error is NaN, never is. */
+static void keep_best(const trial *t, int i, double value, double error, double step)
+{
+  double varied = t->now.variation[i] + t->now.noise[i];
+  double quality = varied > 0.0 ? error / varied : error;
+  if (quality < t->quality[i]) {
+    t->value[i] = value;
+    t->error[i] = error;
+    t->quality[i] = quality;
+    t->step[i] = step;
+  }
+}
+
 /* Take in the present step; true when all given values are found right. */
-static bool weigh(const column *c, const trial *t)
+static bool weigh(const column *c, const trial *t, double step)
 {
   bool right = true;
   for (int i = 0; i < c->field->size; i++) {
     double value = t->now.value[i];
     double error = 20.0 * t->now.error[i] + t->now.noise[i] + 2.0 * fabs(value - t->previous[i]);
+    double deviation = fabs(given(c, i) - value);
     t->previous[i] = value;
     if (t->error[i] < 0.0) {
       continue;
     }
-    if (fabs(given(c, i) - value) <= allowed(c, i, value)) {
+    if (deviation <= allowed(c, i, value)) {
       t->error[i] = -1.0;
       continue;
     }
     right = false;
-    double varied = t->now.variation[i] + t->now.noise[i];
-    double quality = varied > 0.0 ? error / varied : 0.0 * error;
-    if (quality < t->quality[i]) { /* never with the first step, whose error is NaN */
-      t->value[i] = value;
-      t->error[i] = error;
-      t->quality[i] = quality;
-    }
+    t->wrong[i] += deviation > allowed(c, i, value) + error ? 1.0 : 0.0;
+    keep_best(t, i, value, error, step);
   }
   return right;
 }
@@ -113,19 +127,23 @@ static double kink(const column *c, const baum_i_local *at, const baum_i_estimat
 /* At a smooth place the sides approach each other with the distance; at a kink they do not. */
 static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
 {
-  double step = 0.125 * baum_i_first_step(c->stencil, c->ray);
-  double far = kink(c, at, &t->now, step, i);
-  double near = kink(c, at, &t->now, 0.125 * step, i);
+  double far = kink(c, at, &t->now, t->step[i], i);
+  double near = kink(c, at, &t->now, 0.125 * t->step[i], i);
   return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
+}
+
+/* Wrong at the best step, and not at that one alone, which may be by luck of rounding. */
+static bool is_wrong(const column *c, const trial *t, int i)
+{
+  double deviation = fabs(given(c, i) - t->value[i]);
+  return t->wrong[i] >= 2.0 && t->error[i] >= 0.0 &&
+         deviation > allowed(c, i, t->value[i]) + t->error[i];
 }
 
 static baum_status verdict(const column *c, const baum_i_local *at, const trial *t)
 {
   for (int i = 0; i < c->field->size; i++) {
-    double deviation = fabs(given(c, i) - t->value[i]);
-    bool wrong = t->error[i] >= 0.0 && isfinite(t->error[i]) &&
-                 deviation > allowed(c, i, t->value[i]) + t->error[i];
-    if (wrong && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
+    if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
       char text[BAUM_I_ENTRY_SIZE];
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but differences of %s give %.9g",
                          baum_i_user_entry(c->claim->function, c->first + i * c->stride, text),
@@ -146,7 +164,7 @@ static baum_status compare(const column *c, const baum_i_local *at)
     if (status != BAUM_OK && !here.point->retry) {
       return BAUM_OK; /* so near the edge of where it can be evaluated, nothing can be told */
     }
-    if (status == BAUM_OK && weigh(c, &t)) {
+    if (status == BAUM_OK && weigh(c, &t, step)) {
       return BAUM_OK;
     }
   }
