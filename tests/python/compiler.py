@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """A C compiler for tests that need one, and where the project is."""
+
 import os
 import shutil
 import subprocess
@@ -7,7 +8,14 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-CC = next((path for path in map(shutil.which, (os.environ.get("CC", "cc"), "cc", "gcc", "clang")) if path), None)
+CC = next(
+    (
+        path
+        for path in map(shutil.which, (os.environ.get("CC", "cc"), "cc", "gcc", "clang"))
+        if path
+    ),
+    None,
+)
 
 
 class Folder(tempfile.TemporaryDirectory):
@@ -16,7 +24,10 @@ class Folder(tempfile.TemporaryDirectory):
     def _compile(self, source, name, *flags):
         path, output = Path(self.name) / "source.c", Path(self.name) / name
         path.write_text(source, encoding="utf-8")
-        subprocess.run([CC, "-std=c11", f"-I{ROOT / 'include'}", *flags, str(path), "-o", str(output)], check=True)
+        subprocess.run(
+            [CC, "-std=c11", f"-I{ROOT / 'include'}", *flags, str(path), "-o", str(output)],
+            check=True,
+        )
         return str(output)
 
     def program(self, source):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mechanisms that several tests use."""
+
 import baum
 
 

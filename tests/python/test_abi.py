@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The mirror of the C interface is what the headers say and what a C compiler makes of them."""
+
 import ctypes
 import importlib.util
 import subprocess
@@ -19,20 +20,30 @@ def generator():
 
 
 def enums():
-    return [value for value in vars(_abi).values()
-            if isinstance(value, type) and issubclass(value, _abi.enum.IntEnum)]
+    return [
+        value
+        for value in vars(_abi).values()
+        if isinstance(value, type) and issubclass(value, _abi.enum.IntEnum)
+    ]
 
 
 class Abi(unittest.TestCase):
     def test_generating_it_again_changes_nothing(self):
         made = generator().generate(ROOT / "include")
-        self.assertEqual(made, Path(_abi.__file__).read_text(encoding="utf-8"),
-                         "run bindings/python/tools/generate_abi.py")
+        self.assertEqual(
+            made,
+            Path(_abi.__file__).read_text(encoding="utf-8"),
+            "run bindings/python/tools/generate_abi.py",
+        )
 
     def test_the_generator_refuses_what_it_does_not_know(self):
         tool = generator()
-        for declaration in ("BAUM_API union baum_u baum_f(void)", "typedef long baum_long",
-                            "BAUM_API baum_unknown baum_f(void)", "BAUM_API int baum_f(int **a)"):
+        for declaration in (
+            "BAUM_API union baum_u baum_f(void)",
+            "typedef long baum_long",
+            "BAUM_API baum_unknown baum_f(void)",
+            "BAUM_API int baum_f(int **a)",
+        ):
             with self.assertRaisesRegex(SystemExit, "not understood"):
                 tool.translate(declaration, tool.Writer())
 
@@ -42,26 +53,38 @@ class Abi(unittest.TestCase):
         for struct in _abi.STRUCTS:
             name = struct.__name__
             lines.append(("%zu", f"sizeof({name})", ctypes.sizeof(struct)))
-            lines += [("%zu", f"offsetof({name}, {field})", getattr(struct, field).offset)
-                      for field, _ in struct._fields_]
-            lines += [("%zu", f"sizeof((({name} *)0)->{field})", ctypes.sizeof(kind))
-                      for field, kind in struct._fields_]
+            lines += [
+                ("%zu", f"offsetof({name}, {field})", getattr(struct, field).offset)
+                for field, _ in struct._fields_
+            ]
+            lines += [
+                ("%zu", f"sizeof((({name} *)0)->{field})", ctypes.sizeof(kind))
+                for field, kind in struct._fields_
+            ]
         for kind in enums():
             lines.append(("%zu", f"sizeof({kind.__name__})", ctypes.sizeof(ctypes.c_int)))
             lines += [("%d", value.name, value.value) for value in kind]
         prints = "".join(f'  printf("{form}\\n", {text});\n' for form, text, _ in lines)
-        source = ("#include <baum/baum.h>\n#include <stddef.h>\n#include <stdio.h>\n"
-                  f"int main(void)\n{{\n{prints}  return 0;\n}}\n")
+        source = (
+            "#include <baum/baum.h>\n#include <stddef.h>\n#include <stdio.h>\n"
+            f"int main(void)\n{{\n{prints}  return 0;\n}}\n"
+        )
         folder = Folder()
         self.addCleanup(folder.cleanup)
         program = folder.program(source)
         said = subprocess.run([program], check=True, capture_output=True, text=True).stdout.split()
-        self.assertEqual([f"{text} = {value}" for _, text, value in lines],
-                         [f"{text} = {value}" for (_, text, _), value in zip(lines, said)])
+        self.assertEqual(
+            [f"{text} = {value}" for _, text, value in lines],
+            [f"{text} = {value}" for (_, text, _), value in zip(lines, said)],
+        )
 
     def test_every_function_of_the_headers_is_declared(self):
-        text = "".join(path.read_text(encoding="utf-8") for path in (ROOT / "include" / "baum").glob("*.h"))
-        self.assertEqual(text.count("BAUM_API ") - text.count("#define BAUM_API "), len(_abi.PROTOTYPES))
+        text = "".join(
+            path.read_text(encoding="utf-8") for path in (ROOT / "include" / "baum").glob("*.h")
+        )
+        self.assertEqual(
+            text.count("BAUM_API ") - text.count("#define BAUM_API "), len(_abi.PROTOTYPES)
+        )
 
 
 if __name__ == "__main__":

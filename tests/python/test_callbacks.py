@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Functions of the user: values, shapes, exceptions, compiled ones."""
+
 import ctypes
 import sys
 import unittest
@@ -23,12 +24,28 @@ def evaluate(phi, rows=1):
 
 class Values(unittest.TestCase):
     def test_numbers_of_all_sorts_are_taken(self):
-        for value in (7, 7.0, np.float64(7), np.float32(7), np.array(7.0), np.array([7]), [7], (7.0,), [[7]]):
+        for value in (
+            7,
+            7.0,
+            np.float64(7),
+            np.float32(7),
+            np.array(7.0),
+            np.array([7]),
+            [7],
+            (7.0,),
+            [[7]],
+        ):
             np.testing.assert_array_equal(evaluate(lambda t, q: value), [7.0])
 
     def test_several_rows_are_taken(self):
-        for value in ((1, 2), [1.0, 2.0], np.array([1.0, 2.0]), np.array([1, 2]), np.array([[1.0], [2.0]]),
-                      np.array([1.0, 9.0, 2.0, 9.0])[::2]):
+        for value in (
+            (1, 2),
+            [1.0, 2.0],
+            np.array([1.0, 2.0]),
+            np.array([1, 2]),
+            np.array([[1.0], [2.0]]),
+            np.array([1.0, 9.0, 2.0, 9.0])[::2],
+        ):
             np.testing.assert_array_equal(evaluate(lambda t, q: value, rows=2), [1.0, 2.0])
 
     def test_time_and_positions_arrive(self):
@@ -46,11 +63,16 @@ class Values(unittest.TestCase):
 
     def test_wrong_shapes_are_refused_by_name(self):
         for value, rows, words in (
-                ((1, 2, 3), 2, r'joint "c": phi must return an array of shape \(2,\), not one of shape \(3,\)'),
-                (1.0, 2, r'phi must return an array of shape \(2,\), not one of shape \(\)'),
-                ([[1, 2], [3, 4]], 2, r"not one of shape \(2, 2\)"),
-                ((1, 2), 1, r'phi must return a number, not one of shape \(2,\)'),
-                ([1, [2, 3]], 2, r"must return an array of shape \(2,\), not \[1, \[2, 3\]\]")):
+            (
+                (1, 2, 3),
+                2,
+                r'joint "c": phi must return an array of shape \(2,\), not one of shape \(3,\)',
+            ),
+            (1.0, 2, r"phi must return an array of shape \(2,\), not one of shape \(\)"),
+            ([[1, 2], [3, 4]], 2, r"not one of shape \(2, 2\)"),
+            ((1, 2), 1, r"phi must return a number, not one of shape \(2,\)"),
+            ([1, [2, 3]], 2, r"must return an array of shape \(2,\), not \[1, \[2, 3\]\]"),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 evaluate(lambda t, q: value, rows)
 
@@ -66,7 +88,9 @@ class Values(unittest.TestCase):
             return baum.Workspace(m.freeze()).mass(0, (0, 0))
 
         np.testing.assert_array_equal(body(lambda t, q: [[2, 1], [1, 3]]), [[2, 1], [1, 3]])
-        with self.assertRaisesRegex(ValueError, r'body "x": mass must return an array of shape \(2, 2\)'):
+        with self.assertRaisesRegex(
+            ValueError, r'body "x": mass must return an array of shape \(2, 2\)'
+        ):
             body(lambda t, q: [1, 1])
 
     def test_a_single_row_of_a_jacobian_may_be_flat(self):
@@ -98,7 +122,7 @@ class Values(unittest.TestCase):
 
 class Exceptions(unittest.TestCase):
     def failing(self, error, after):
-        """A pendulum whose function raises when the run is later than that, but not before it has begun."""
+        """A pendulum whose function raises at later times than that, once it is armed."""
         calls, armed = [], []
 
         def phi(t, q):
@@ -196,9 +220,9 @@ class Exceptions(unittest.TestCase):
 
     def test_wrong_derivatives_are_named(self):
         m = pendulum(jacobian=lambda t, q: 3 * q)
-        with self.assertRaisesRegex(baum.Error, 'circle.*jacobian'):
+        with self.assertRaisesRegex(baum.Error, "circle.*jacobian"):
             m.check_derivatives()
-        with self.assertRaisesRegex(baum.Error, 'circle.*jacobian'):
+        with self.assertRaisesRegex(baum.Error, "circle.*jacobian"):
             m.simulation("rk4", step=1e-3)
         pendulum(jacobian=lambda t, q: 2 * q, gamma=lambda t, q, v: -2 * v @ v).check_derivatives()
 
@@ -250,7 +274,9 @@ class Compiled(unittest.TestCase):
         m.check_derivatives()
 
     def test_what_is_no_function_is_refused(self):
-        with self.assertRaisesRegex(TypeError, "phi: a function or the address of one is wanted, not 'x'"):
+        with self.assertRaisesRegex(
+            TypeError, "phi: a function or the address of one is wanted, not 'x'"
+        ):
             pendulum("x")
 
 

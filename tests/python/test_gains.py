@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Gains and stability: conversion and names; the mathematics is tested in C."""
+
 import math
 import unittest
 
@@ -8,8 +9,14 @@ import baum
 
 class Gains(unittest.TestCase):
     def test_they_print_as_they_are_written(self):
-        for text in ("fixed(alpha=5, beta=0.5)", "scaled(alpha_h=0.5, beta2_h2=0.25)", "taylor()",
-                     "frequency(hertz=100, damping_ratio=0.2)", "deadbeat()", "auto()"):
+        for text in (
+            "fixed(alpha=5, beta=0.5)",
+            "scaled(alpha_h=0.5, beta2_h2=0.25)",
+            "taylor()",
+            "frequency(hertz=100, damping_ratio=0.2)",
+            "deadbeat()",
+            "auto()",
+        ):
             gains = eval(f"baum.{text}")
             self.assertEqual(str(gains), text)
             self.assertEqual(gains, eval(f"baum.{text}"))
@@ -25,7 +32,9 @@ class Stability(unittest.TestCase):
     def test_points_of_the_plane(self):
         taylor = baum.stability("euler", 1, 2)
         self.assertEqual(taylor.stability, "marginal")
-        self.assertEqual({(round(z.real, 12), round(abs(z.imag), 12)) for z in taylor.roots}, {(0, 1)})
+        self.assertEqual(
+            {(round(z.real, 12), round(abs(z.imag), 12)) for z in taylor.roots}, {(0, 1)}
+        )
         self.assertEqual(baum.stability(baum.integrators()["euler"], 1, 1).spectral_radius, 0)
         self.assertEqual(baum.stability("semi_implicit_euler", 1, 1).stability, "unstable")
         self.assertEqual(baum.stability("cvode_bdf", 1, 1).stability, "variable_step")
@@ -41,7 +50,9 @@ class Stability(unittest.TestCase):
             baum.stability_limit("ida")
         self.assertEqual(caught.exception.status, baum.Status.ERR_UNSUPPORTED)
         self.assertRaises(baum.Error, baum.stability, "euler", math.nan, 1)
-        self.assertRaisesRegex(ValueError, "no integrator 'x'; there are: euler", baum.stability, "x", 1, 1)
+        self.assertRaisesRegex(
+            ValueError, "no integrator 'x'; there are: euler", baum.stability, "x", 1, 1
+        )
 
     def test_integrators_describe_themselves(self):
         methods = baum.integrators()

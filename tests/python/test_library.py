@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finding the library, and refusing one that does not fit."""
+
 import os
 import subprocess
 import sys
@@ -18,7 +19,9 @@ const char *baum_version(void) {{ return "{version}"; }}
 def import_with(library):
     """Import baum in a new interpreter with BAUM_LIBRARY set; the last line of what it says."""
     environment = {**os.environ, "BAUM_LIBRARY": library}
-    done = subprocess.run([sys.executable, "-c", "import baum"], env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", "import baum"], env=environment, capture_output=True, text=True
+    )
     return done.stderr
 
 
@@ -60,7 +63,8 @@ class Library(unittest.TestCase):
         source += "#include <stddef.h>\n"
         for name in _abi.PROTOTYPES:
             if name.endswith("_init"):
-                source += f"void {name}(void *d, size_t n);\nvoid {name}(void *d, size_t n) {{ *(size_t *)d = n / n; }}\n"
+                declaration = f"void {name}(void *d, size_t n)"
+                source += f"{declaration};\n{declaration} {{ *(size_t *)d = n / n; }}\n"
             elif name != "baum_version":
                 source += f"extern int {name};\nint {name};\n"
         folder = Folder()

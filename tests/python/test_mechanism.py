@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mechanisms: conversion of arguments, names, copies, ownership, messages."""
+
 import gc
 import math
 import unittest
@@ -14,36 +15,60 @@ from mechanisms import pendulum, rod_pendulum, slider_crank
 class Building(unittest.TestCase):
     def test_definitions_come_back_as_they_were_given(self):
         m = baum.Mechanism()
-        body = m.planar_body("body", mass=2, inertia=np.float64(3), position=np.array([1, 2]), angle=0.5,
-                             velocity=(math.nan, 4), held=True)
+        body = m.planar_body(
+            "body",
+            mass=2,
+            inertia=np.float64(3),
+            position=np.array([1, 2]),
+            angle=0.5,
+            velocity=(math.nan, 4),
+            held=True,
+        )
         said = body.definition
-        self.assertEqual((said["name"], said["mass"], said["inertia"], said["position"], said["angle"], said["held"]),
-                         ("body", 2.0, 3.0, (1.0, 2.0), 0.5, True))
+        self.assertEqual(
+            (
+                said["name"],
+                said["mass"],
+                said["inertia"],
+                said["position"],
+                said["angle"],
+                said["held"],
+            ),
+            ("body", 2.0, 3.0, (1.0, 2.0), 0.5, True),
+        )
         self.assertTrue(math.isnan(said["velocity"][0]))
         self.assertEqual(said["velocity"][1], 4.0)
         self.assertTrue(math.isnan(said["angular_velocity"]))
         pin = m.revolute("pin", m.ground, "body", point=(0, 0))
         self.assertEqual((pin.definition["body_a"], pin.definition["body_b"]), (m.ground, body))
         load = m.load("load", body, force=(1, 0), torque=2, follows_body=True)
-        self.assertEqual((load.definition["body"], load.definition["torque"], load.definition["follows_body"]),
-                         (body, 2.0, True))
+        self.assertEqual(
+            (load.definition["body"], load.definition["torque"], load.definition["follows_body"]),
+            (body, 2.0, True),
+        )
 
     def test_every_kind_can_be_added_and_changed(self):
         m = baum.Mechanism(gravity=(0, -1, 0), scale=2)
         a = m.planar_body("a")
         b = m.planar_body("b", position=(1, 0))
         m.planar_particle("c", position=(2, 0))
-        m.coordinates("d", 2, mass=lambda t, q: np.eye(2), force=lambda t, q, v: -q, q=(1, 2), scale=(1, 1))
+        m.coordinates(
+            "d", 2, mass=lambda t, q: np.eye(2), force=lambda t, q, v: -q, q=(1, 2), scale=(1, 1)
+        )
         slider = m.translational("slider", "ground", a, axis=(0, 1), point=(0, 0))
         m.fixed("weld", a, b, point=(0.5, 0))
         m.distance("rod", b, "c", point_a=(0, 0), point_b=(0, 0), length=1)
         m.driver("motor", slider, law=lambda t: (t, 1, 0))
-        m.spring("spring", a, "ground", point_a=(0, 0), point_b=(1, 1), stiffness=5).set(damping=0.5)
+        m.spring("spring", a, "ground", point_a=(0, 0), point_b=(1, 1), stiffness=5).set(
+            damping=0.5
+        )
         m.force("push", [a, "d"], lambda t, q, v: np.zeros(5), potential=lambda t, q: 0.0)
         self.assertEqual(m["spring"].definition["stiffness"], 5.0)
         self.assertEqual(m["spring"].definition["damping"], 0.5)
-        self.assertEqual([element.name for element in m],
-                         ["a", "b", "c", "d", "slider", "weld", "rod", "motor", "spring", "push"])
+        self.assertEqual(
+            [element.name for element in m],
+            ["a", "b", "c", "d", "slider", "weld", "rod", "motor", "spring", "push"],
+        )
         self.assertEqual(m.freeze().sizes, (10, 10, 7))
         self.assertEqual((m.gravity, m.scale), ((0.0, -1.0, 0.0), 2.0))
 
@@ -84,11 +109,26 @@ class BadInput(unittest.TestCase):
             function(*arguments, **fields)
 
     def test_wrong_numbers_name_element_and_field(self):
-        self.says(ValueError, 'body "x": position: 2 numbers are wanted, not 3', self.m.planar_body, "x",
-                  position=(1, 2, 3))
-        self.says(TypeError, "body \"x\": mass: a number is wanted, not 'heavy'", self.m.planar_body, "x", mass="heavy")
-        self.says(TypeError, "size: a whole number is wanted, not 2.5", self.m.coordinates, "x", 2.5)
-        self.says(ValueError, "gravity: 2 or 3 numbers are wanted, not 1", baum.Mechanism, gravity=(1,))
+        self.says(
+            ValueError,
+            'body "x": position: 2 numbers are wanted, not 3',
+            self.m.planar_body,
+            "x",
+            position=(1, 2, 3),
+        )
+        self.says(
+            TypeError,
+            "body \"x\": mass: a number is wanted, not 'heavy'",
+            self.m.planar_body,
+            "x",
+            mass="heavy",
+        )
+        self.says(
+            TypeError, "size: a whole number is wanted, not 2.5", self.m.coordinates, "x", 2.5
+        )
+        self.says(
+            ValueError, "gravity: 2 or 3 numbers are wanted, not 1", baum.Mechanism, gravity=(1,)
+        )
         self.assertNotIn("x", self.m)
 
     def test_what_the_library_refuses_is_an_error_with_its_sentence(self):
@@ -105,10 +145,22 @@ class BadInput(unittest.TestCase):
         self.says(TypeError, "name of a body is a string", self.m.planar_particle, 3)
 
     def test_unknown_names_and_fields_are_refused(self):
-        self.says(KeyError, "no 'bodi' in this mechanism; there are: ground, body", self.m.__getitem__, "bodi")
+        self.says(
+            KeyError,
+            "no 'bodi' in this mechanism; there are: ground, body",
+            self.m.__getitem__,
+            "bodi",
+        )
         self.says(KeyError, "no 'x'", self.m.revolute, "pin", "ground", "x", point=(0, 0))
-        self.says(TypeError, "a body or its name is wanted, not 3", self.m.revolute, "pin", 3, "body")
-        self.says(TypeError, 'body "body" has no weight; there are: name, mass', self.m.copy, body=dict(weight=1))
+        self.says(
+            TypeError, "a body or its name is wanted, not 3", self.m.revolute, "pin", 3, "body"
+        )
+        self.says(
+            TypeError,
+            'body "body" has no weight; there are: name, mass',
+            self.m.copy,
+            body=dict(weight=1),
+        )
         self.says(TypeError, "unexpected keyword", self.m.planar_body, "x", weight=1)
         self.says(TypeError, "names stay", self.m.copy, body=dict(name="x"))
 
@@ -129,6 +181,7 @@ class BadInput(unittest.TestCase):
 
     def test_errors_can_be_pickled(self):
         import pickle
+
         error = pickle.loads(pickle.dumps(baum.Error(baum.Status.ERR_STEP, "too small")))
         self.assertEqual((error.status, str(error)), (baum.Status.ERR_STEP, "too small"))
 

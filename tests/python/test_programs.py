@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Programs as users write them: those of the documentation, word for word, and the examples."""
+
 import json
 import os
 import re
@@ -20,27 +21,46 @@ from mechanisms import pendulum, slider_crank
 
 def programs(text):
     """The Python programs in a page, those that import baum."""
-    return [code for code in re.findall(r"```python\n(.*?)```", text, flags=re.S) if "import baum" in code]
+    return [
+        code
+        for code in re.findall(r"```python\n(.*?)```", text, flags=re.S)
+        if "import baum" in code
+    ]
 
 
 def run(arguments, **more):
-    done = subprocess.run([sys.executable, *arguments], capture_output=True, text=True, timeout=250,
-                          env={**os.environ, "MPLBACKEND": "agg"}, **more)
+    done = subprocess.run(
+        [sys.executable, *arguments],
+        capture_output=True,
+        text=True,
+        timeout=250,
+        env={**os.environ, "MPLBACKEND": "agg"},
+        **more,
+    )
     return done.returncode, done.stdout + done.stderr
 
 
 class Documentation(unittest.TestCase):
     def test_the_programs_of_the_pages_run(self):
-        pages = [ROOT / "README.md", ROOT / "bindings" / "python" / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
+        pages = [
+            ROOT / "README.md",
+            ROOT / "bindings" / "python" / "README.md",
+            *sorted((ROOT / "docs").glob("**/*.md")),
+        ]
         for page in pages:
             text = page.read_text(encoding="utf-8") if page.exists() else ""
             for k, program in enumerate(programs(text)):
-                with self.subTest(f"{page.name}, program {k + 1}"), tempfile.TemporaryDirectory() as folder:
+                with (
+                    self.subTest(f"{page.name}, program {k + 1}"),
+                    tempfile.TemporaryDirectory() as folder,
+                ):
                     code, said = run(["-c", program], cwd=folder)
                     self.assertEqual(code, 0, said)
 
     def test_the_program_of_the_package_runs(self):
-        code, said = run(["-c", re.sub(r"(?m)^    ", "", baum.__doc__.split("\n\n", 1)[1].rsplit("\n\n", 1)[0])])
+        code, said = run(
+            ["-c", re.sub(r"(?m)^    ", "", baum.__doc__.split("\n\n", 1)[1].rsplit("\n\n", 1)[0])]
+        )
         self.assertEqual(code, 0, said)
 
 
@@ -65,10 +85,19 @@ class Styles(unittest.TestCase):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", baum.Warning)
             for gains in (baum.fixed(0, 0), baum.fixed(5, 5), baum.taylor()):
-                run = m.simulate(t, integrator="euler", step=1e-4, formulation="baumgarte", gains=gains,
-                                 allow_unstable=True, record=[m["B"].phi, m["A"].reaction, m["slider"].pose])
+                run = m.simulate(
+                    t,
+                    integrator="euler",
+                    step=1e-4,
+                    formulation="baumgarte",
+                    gains=gains,
+                    allow_unstable=True,
+                    record=[m["B"].phi, m["A"].reaction, m["slider"].pose],
+                )
                 worst[str(gains)] = abs(run["B.phi"][:, 0]).max()
-        self.assertEqual(list(worst), ["fixed(alpha=0, beta=0)", "fixed(alpha=5, beta=5)", "taylor()"])
+        self.assertEqual(
+            list(worst), ["fixed(alpha=0, beta=0)", "fixed(alpha=5, beta=5)", "taylor()"]
+        )
         self.assertGreater(worst["fixed(alpha=0, beta=0)"], worst["taylor()"])
 
     @unittest.skipUnless(baum.has("sundials"), "no SUNDIALS")
@@ -83,8 +112,14 @@ class Styles(unittest.TestCase):
     def test_a_thousand_variants_in_a_pool(self):
         m = slider_crank()
         with ThreadPoolExecutor() as pool:
-            x = list(pool.map(lambda k: m.copy(rod=dict(mass=0.038 * (1 + k * 1e-3))).simulate(
-                [0.1], integrator="cvode_adams", rtol=1e-6)["slider.pose"][-1], range(1000)))
+            x = list(
+                pool.map(
+                    lambda k: m.copy(rod=dict(mass=0.038 * (1 + k * 1e-3))).simulate(
+                        [0.1], integrator="cvode_adams", rtol=1e-6
+                    )["slider.pose"][-1],
+                    range(1000),
+                )
+            )
         self.assertEqual(np.shape(x), (1000, 3))
         self.assertEqual(len(np.unique(np.array(x)[:, 0])), 1000)
 

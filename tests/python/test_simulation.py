@@ -1,12 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs: options, samples, channels, counters, warnings, step by step."""
+
 import unittest
 import warnings
 
 import numpy as np
 
 import baum
-from mechanisms import pendulum, rod_pendulum, slider_crank
+from mechanisms import rod_pendulum, slider_crank
 
 SUNDIALS = baum.has("sundials")
 
@@ -16,16 +17,40 @@ class Samples(unittest.TestCase):
     def setUpClass(cls):
         cls.m = slider_crank(omega=150)
         cls.t = np.linspace(0, 0.01, 11)
-        cls.run_ = cls.m.simulate(cls.t, "rk4", step=1e-4,
-                                  record=["B.phi", cls.m["A"].reaction, "motor.multipliers", "A.coordinate", "energy",
-                                          "lambda", "phi_rate", baum.a, cls.m["rod"].pose_of((0.153, 0)),
-                                          cls.m["rod"].velocity_of((0.153, 0)), cls.m["slider"].velocity])
+        cls.run_ = cls.m.simulate(
+            cls.t,
+            "rk4",
+            step=1e-4,
+            record=[
+                "B.phi",
+                cls.m["A"].reaction,
+                "motor.multipliers",
+                "A.coordinate",
+                "energy",
+                "lambda",
+                "phi_rate",
+                baum.a,
+                cls.m["rod"].pose_of((0.153, 0)),
+                cls.m["rod"].velocity_of((0.153, 0)),
+                cls.m["slider"].velocity,
+            ],
+        )
 
     def test_shapes_are_those_of_the_channels(self):
         r = self.run_
         self.assertEqual((r.t.shape, r.q.shape, r.v.shape), ((11,), (11, 9), (11, 9)))
-        for key, columns in {"B.phi": 2, "A.reaction": 3, "motor.multipliers": 1, "A.coordinate": 2, "energy": 2,
-                             "lambda": 9, "phi_rate": 9, "a": 9, "rod.pose(0.153, 0.0)": 3, "slider.velocity": 3}.items():
+        for key, columns in {
+            "B.phi": 2,
+            "A.reaction": 3,
+            "motor.multipliers": 1,
+            "A.coordinate": 2,
+            "energy": 2,
+            "lambda": 9,
+            "phi_rate": 9,
+            "a": 9,
+            "rod.pose(0.153, 0.0)": 3,
+            "slider.velocity": 3,
+        }.items():
             with self.subTest(key):
                 self.assertEqual(r[key].shape, (11, columns))
                 self.assertTrue(np.isfinite(r[key]).all())
@@ -44,14 +69,22 @@ class Samples(unittest.TestCase):
 
     def test_numbers_belong_together(self):
         r = self.run_
-        np.testing.assert_allclose(r["A.coordinate"], np.stack([150 * self.t, 0 * self.t + 150], axis=1), atol=1e-9)
+        np.testing.assert_allclose(
+            r["A.coordinate"], np.stack([150 * self.t, 0 * self.t + 150], axis=1), atol=1e-9
+        )
         np.testing.assert_allclose(r["slider.velocity"], r.v[:, 6:9])
-        np.testing.assert_allclose(r["rod.pose(0.153, 0.0)"][:, :2], r["slider.pose"][:, :2], atol=1e-9)
-        np.testing.assert_allclose(r[self.m["rod"].velocity_of((0.153, 0))][:, :2], r["slider.velocity"][:, :2], atol=1e-6)
+        np.testing.assert_allclose(
+            r["rod.pose(0.153, 0.0)"][:, :2], r["slider.pose"][:, :2], atol=1e-9
+        )
+        np.testing.assert_allclose(
+            r[self.m["rod"].velocity_of((0.153, 0))][:, :2], r["slider.velocity"][:, :2], atol=1e-6
+        )
 
     def test_what_was_not_recorded_is_named(self):
         for key in ("C.phi", "nobody.pose", "ground.pose", "B.pose"):
-            with self.assertRaisesRegex(KeyError, f"'{key}' was not recorded; there are q, v, B.phi"):
+            with self.assertRaisesRegex(
+                KeyError, f"'{key}' was not recorded; there are q, v, B.phi"
+            ):
                 self.run_[key]
 
     def test_unknown_channels_are_refused(self):
@@ -65,7 +98,10 @@ class Samples(unittest.TestCase):
 
     def test_counters_and_account_are_python_values(self):
         r = self.run_
-        self.assertEqual((r.status, r.counters.steps, r.counters.max_phi_joint.family), (baum.Status.OK, 100, "joint"))
+        self.assertEqual(
+            (r.status, r.counters.steps, r.counters.max_phi_joint.family),
+            (baum.Status.OK, 100, "joint"),
+        )
         self.assertIn("rk4", r.explain)
         self.assertEqual(r.warnings, [])
         self.assertEqual(repr(r), "<run of 11 samples, 100 steps, OK>")
@@ -111,26 +147,42 @@ class Options(unittest.TestCase):
 
     def test_words_that_mean_nothing_are_refused_with_the_list(self):
         m = rod_pendulum()
-        for fields, words in ((dict(integrator="eulr"), "no integrator 'eulr'; there are: euler, semi_implicit_euler"),
-                              (dict(formulation="x"), "no formulation 'x'; there are: default, unstabilized, baumgarte"),
-                              (dict(start="x"), "no start 'x'; there are: assemble, exact, as_given"),
-                              (dict(solver="x"), "no solver 'x'; there are: auto, klu, qr")):
+        for fields, words in (
+            (
+                dict(integrator="eulr"),
+                "no integrator 'eulr'; there are: euler, semi_implicit_euler",
+            ),
+            (
+                dict(formulation="x"),
+                "no formulation 'x'; there are: default, unstabilized, baumgarte",
+            ),
+            (dict(start="x"), "no start 'x'; there are: assemble, exact, as_given"),
+            (dict(solver="x"), "no solver 'x'; there are: auto, klu, qr"),
+        ):
             with self.assertRaisesRegex(ValueError, words):
                 m.simulate([1.0], **{"integrator": "euler", "step": 1e-3, **fields})
-        for fields, words in ((dict(steps=1), "no option 'steps'; there are: integrator, progress, formulation"),
-                              (dict(gains=5), r"gains: something like baum.fixed\(5, 5\) is wanted, not 5"),
-                              (dict(step="small"), "step: a number is wanted, not 'small'"),
-                              (dict(integrator=3), "integrator: a name is wanted, not 3")):
+        for fields, words in (
+            (dict(steps=1), "no option 'steps'; there are: integrator, progress, formulation"),
+            (dict(gains=5), r"gains: something like baum.fixed\(5, 5\) is wanted, not 5"),
+            (dict(step="small"), "step: a number is wanted, not 'small'"),
+            (dict(integrator=3), "integrator: a name is wanted, not 3"),
+        ):
             with self.assertRaisesRegex(TypeError, words):
                 m.simulate([1.0], **{"integrator": "euler", "step": 1e-3, **fields})
 
     def test_what_the_library_refuses_keeps_its_status(self):
         m = rod_pendulum()
-        for fields, status in ((dict(), "ERR_ARGUMENT"), (dict(integrator="euler", rtol=1e-6), "ERR_ARGUMENT"),
-                               (dict(integrator="euler", step=1e-3, rtol=1e-6), "ERR_ARGUMENT"),
-                               (dict(integrator="euler", step=-1), "ERR_ARGUMENT"),
-                               (dict(integrator="euler", step=1e-3, formulation="index3"), "ERR_UNSUPPORTED"),
-                               (dict(integrator="semi_implicit_euler", step=1e-3, gains=baum.taylor()), "ERR_UNSTABLE")):
+        for fields, status in (
+            (dict(), "ERR_ARGUMENT"),
+            (dict(integrator="euler", rtol=1e-6), "ERR_ARGUMENT"),
+            (dict(integrator="euler", step=1e-3, rtol=1e-6), "ERR_ARGUMENT"),
+            (dict(integrator="euler", step=-1), "ERR_ARGUMENT"),
+            (dict(integrator="euler", step=1e-3, formulation="index3"), "ERR_UNSUPPORTED"),
+            (
+                dict(integrator="semi_implicit_euler", step=1e-3, gains=baum.taylor()),
+                "ERR_UNSTABLE",
+            ),
+        ):
             with self.assertRaises(baum.Error) as caught:
                 m.simulate([1.0], **fields)
             self.assertEqual(str(caught.exception.status), status)
@@ -140,8 +192,9 @@ class Options(unittest.TestCase):
     def test_unstable_gains_run_when_allowed(self):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", baum.Warning)
-            run = rod_pendulum().simulate([0.005], "semi_implicit_euler", step=1e-3, gains=baum.taylor(),
-                                          allow_unstable=True)
+            run = rod_pendulum().simulate(
+                [0.005], "semi_implicit_euler", step=1e-3, gains=baum.taylor(), allow_unstable=True
+            )
         self.assertEqual(run.counters.alpha, 1e3)
 
     def test_a_mechanism_must_be_frozen(self):

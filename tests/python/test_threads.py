@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Threads, cancelling, progress and Ctrl-C."""
+
 import contextvars
 import os
 import signal
@@ -45,12 +46,16 @@ class Pool(unittest.TestCase):
                 return circle(t, q)
 
             try:
-                return pendulum(phi).simulate([0.1], "rk4", step=1e-2, check_derivatives=False).t[-1]
+                return (
+                    pendulum(phi).simulate([0.1], "rk4", step=1e-2, check_derivatives=False).t[-1]
+                )
             except KeyError as error:
                 return error.args[0]
 
         with ThreadPoolExecutor(4) as pool:
-            self.assertEqual(list(pool.map(one, range(20))), [k if k % 2 else 0.1 for k in range(20)])
+            self.assertEqual(
+                list(pool.map(one, range(20))), [k if k % 2 else 0.1 for k in range(20)]
+            )
 
     def test_messages_belong_to_their_thread(self):
         def refused(k):
@@ -80,7 +85,9 @@ class Pool(unittest.TestCase):
         try:
             while not s.time:
                 time.sleep(0.001)
-            with self.assertRaisesRegex(baum.Error, "this simulation is in use by another call") as caught:
+            with self.assertRaisesRegex(
+                baum.Error, "this simulation is in use by another call"
+            ) as caught:
                 s.step()
             self.assertEqual(caught.exception.status, baum.Status.ERR_STATE)
         finally:
@@ -106,14 +113,21 @@ class Cancelled(unittest.TestCase):
 
     def test_progress_may_be_an_option_and_comes_by_wall_time(self):
         times = []
-        rod_pendulum().simulate([0.5], "rk4", step=1e-4, progress=times.append, progress_interval=60)
+        rod_pendulum().simulate(
+            [0.5], "rk4", step=1e-4, progress=times.append, progress_interval=60
+        )
         self.assertEqual(times, [])
         rod_pendulum().simulate([0.5], "rk4", step=1e-2, progress=times.append, progress_interval=0)
         self.assertGreaterEqual(len(times), 50)
 
     def test_a_cancelled_run_ends_early(self):
-        run = rod_pendulum().simulate(np.linspace(0, 1, 11), "rk4", step=1e-3, progress=lambda t: t > 0.45,
-                                      progress_interval=0)
+        run = rod_pendulum().simulate(
+            np.linspace(0, 1, 11),
+            "rk4",
+            step=1e-3,
+            progress=lambda t: t > 0.45,
+            progress_interval=0,
+        )
         self.assertEqual(run.status, baum.Status.STOP_CANCELLED)
         np.testing.assert_allclose(run.t, [0, 0.1, 0.2, 0.3, 0.4])
         self.assertEqual(run.q.shape, (5, 2))
@@ -146,9 +160,16 @@ class Interrupted(unittest.TestCase):
     def interrupt(self, setup, call, after="s.time > 0", times=1):
         """What a program says that is sent SIGINT when it has said that it is ready."""
         program = INTERRUPTED.format(here=HERE, setup=setup, call=call, after=after)
-        child = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        child = subprocess.Popen(
+            [sys.executable, "-c", program],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         try:
-            self.assertEqual(child.stdout.readline(), "ready\n", child.poll() and child.stderr.read())
+            self.assertEqual(
+                child.stdout.readline(), "ready\n", child.poll() and child.stderr.read()
+            )
             for _ in range(times):
                 time.sleep(0.3)
                 child.send_signal(signal.SIGINT)
@@ -160,30 +181,61 @@ class Interrupted(unittest.TestCase):
         return said.strip()
 
     def test_a_long_run_without_python_functions(self):
-        self.assertEqual("interrupted True", self.interrupt(
-            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)"))
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+                "s.advance_to(1e9)",
+            ),
+        )
 
     def test_many_steps(self):
-        self.assertEqual("interrupted True", self.interrupt(
-            's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10); print("ready", flush=True)', "s.step(10**10)"))
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10)\n'
+                'print("ready", flush=True)',
+                "s.step(10**10)",
+            ),
+        )
 
     def test_few_steps_at_a_time(self):
-        self.assertEqual("interrupted True", self.interrupt(
-            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
-            "while True: s.step(10)"))
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+                "while True: s.step(10)",
+            ),
+        )
 
     def test_sampling(self):
-        self.assertEqual("interrupted", self.interrupt(
-            'm = rod_pendulum(); print("ready", flush=True)', 'm.simulate([1e9], "rk4", step=1e-3)', '""'))
+        self.assertEqual(
+            "interrupted",
+            self.interrupt(
+                'm = rod_pendulum(); print("ready", flush=True)',
+                'm.simulate([1e9], "rk4", step=1e-3)',
+                '""',
+            ),
+        )
 
     def test_python_functions(self):
-        self.assertEqual("interrupted True", self.interrupt(
-            's = pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)"))
+        self.assertEqual(
+            "interrupted True",
+            self.interrupt(
+                's = pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+                "s.advance_to(1e9)",
+            ),
+        )
 
     def test_the_run_can_go_on(self):
-        self.assertEqual("interrupted Status OK", self.interrupt(
-            's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)', "s.advance_to(1e9)",
-            '"Status", s.advance_to(s.time + 1)'))
+        self.assertEqual(
+            "interrupted Status OK",
+            self.interrupt(
+                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+                "s.advance_to(1e9)",
+                '"Status", s.advance_to(s.time + 1)',
+            ),
+        )
 
     def test_a_function_that_hangs_is_left_behind_by_the_second(self):
         setup = """
@@ -197,7 +249,9 @@ s = pendulum(phi).simulation("rk4", step=1e-3)
 armed.append(True)
 print("ready", flush=True)"""
         after = 'rod_pendulum().simulate([1.0], "rk4", step=1e-3).t[-1], bool(s._owner._users)'
-        self.assertEqual("interrupted 1.0 True", self.interrupt(setup, "s.advance_to(1.0)", after, times=2))
+        self.assertEqual(
+            "interrupted 1.0 True", self.interrupt(setup, "s.advance_to(1.0)", after, times=2)
+        )
 
 
 class SecondThread(unittest.TestCase):
@@ -214,11 +268,17 @@ class SecondThread(unittest.TestCase):
     def test_a_forked_child_has_its_own(self):
         m = rod_pendulum()
         m.simulate([0.1], "rk4", step=1e-3)
-        program = ("import os, sys; sys.path.insert(0, sys.argv[1])\nfrom mechanisms import rod_pendulum\n"
-                   "m = rod_pendulum()\nrun = lambda: m.simulate([0.1], 'rk4', step=1e-3)\nrun()\n"
-                   "child = os.fork()\nrun()\n"
-                   "if child: sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n")
-        subprocess.run([sys.executable, "-W", "ignore::DeprecationWarning", "-c", program, HERE], check=True, timeout=30)
+        program = (
+            "import os, sys; sys.path.insert(0, sys.argv[1])\nfrom mechanisms import rod_pendulum\n"
+            "m = rod_pendulum()\nrun = lambda: m.simulate([0.1], 'rk4', step=1e-3)\nrun()\n"
+            "child = os.fork()\nrun()\n"
+            "if child: sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+        )
+        subprocess.run(
+            [sys.executable, "-W", "ignore::DeprecationWarning", "-c", program, HERE],
+            check=True,
+            timeout=30,
+        )
 
     def test_results_and_exceptions_pass(self):
         self.assertEqual(_calls.interruptible(max, 1, 2), 2)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Evaluation at a point: shapes and that the pieces fit together."""
+
 import unittest
 
 import numpy as np
@@ -16,14 +17,18 @@ class Workspaces(unittest.TestCase):
 
     def test_assembling_fulfils_the_constraints(self):
         np.testing.assert_allclose(self.w.phi(0, self.q), 0, atol=1e-12)
-        np.testing.assert_allclose(self.w.jacobian(0, self.q) @ self.v, self.w.nu(0, self.q), atol=1e-9)
+        np.testing.assert_allclose(
+            self.w.jacobian(0, self.q) @ self.v, self.w.nu(0, self.q), atol=1e-9
+        )
         self.assertAlmostEqual(self.v[2], 150)
 
     def test_equations_of_motion_hold(self):
         w, q, v = self.w, self.q, self.v
         a, lambda_ = w.acceleration(0, q, v)
         jacobian = w.jacobian(0, q)
-        np.testing.assert_allclose(w.mass(0, q) @ a + jacobian.T @ lambda_, w.force(0, q, v), atol=1e-8)
+        np.testing.assert_allclose(
+            w.mass(0, q) @ a + jacobian.T @ lambda_, w.force(0, q, v), atol=1e-8
+        )
         np.testing.assert_allclose(jacobian @ a, w.gamma(0, q, v), rtol=1e-9, atol=1e-6)
         stabilized, _ = w.acceleration(0, q + 1e-6, v, alpha=10, beta=10)
         self.assertTrue(np.isfinite(stabilized).all())
@@ -38,7 +43,9 @@ class Workspaces(unittest.TestCase):
         self.assertIsInstance(potential, float)
         moved, velocity = self.w.project(0, self.q + 1e-4, self.v)
         np.testing.assert_allclose(self.w.phi(0, moved), 0, atol=1e-11)
-        np.testing.assert_allclose(self.w.jacobian(0, moved) @ velocity, self.w.nu(0, moved), atol=1e-8)
+        np.testing.assert_allclose(
+            self.w.jacobian(0, moved) @ velocity, self.w.nu(0, moved), atol=1e-8
+        )
 
     def test_held_values_stay(self):
         m = slider_crank()

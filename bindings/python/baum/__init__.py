@@ -6,11 +6,12 @@
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint("circle", [bob], rows=1, phi=lambda t, q: q @ q - 1)
-    run = m.freeze().simulate(np.linspace(0, 10, 101), "cvode_adams", rtol=1e-6, record=["circle.phi", "energy"])
+    times = np.linspace(0, 10, 101)
+    run = m.freeze().simulate(times, "rk4", step=1e-3, record=["circle.phi", "energy"])
     run.t, run["bob.pose"], run["circle.phi"], run.counters, run.explain
 
-The library that does the work is found beside this package, in the build tree, or by the system's loader;
-the environment variable BAUM_LIBRARY names another.
+The library that does the work is found beside this package, in the build tree, or by the system's
+loader; the environment variable BAUM_LIBRARY names another.
 """
 from . import _abi, _lib
 from .channels import Channel, a, energy, lambda_, phi, phi_rate, q, v
@@ -37,9 +38,9 @@ def has(feature):
 
 
 __all__ = [
-    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Integrator", "Joint",
-    "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes", "Status", "Warning", "Workspace",
-    "a", "auto", "deadbeat", "energy", "fixed", "frequency", "has", "integrators", "lambda_", "library",
-    "library_version", "phi", "phi_rate", "q", "scaled", "stability", "stability_deadbeat",
-    "stability_limit", "stability_nearest", "taylor", "v",
+    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Integrator",
+    "Joint", "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes", "Status", "Warning",
+    "Workspace", "a", "auto", "deadbeat", "energy", "fixed", "frequency", "has", "integrators",
+    "lambda_", "library", "library_version", "phi", "phi_rate", "q", "scaled", "stability",
+    "stability_deadbeat", "stability_limit", "stability_nearest", "taylor", "v",
 ]

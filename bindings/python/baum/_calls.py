@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """How the C library is called: statuses, exceptions out of callbacks, Ctrl-C, one thread at a time.
 
-Python handles signals in the main thread, between two of its own instructions. A long call made there would
-make Ctrl-C wait for its end, and one that comes back through callbacks could see KeyboardInterrupt arise
-where nothing can catch it. So these calls are handed to a second thread, while the main thread waits where
-it can be interrupted. Calls from other threads are made where they are.
+Python handles signals in the main thread, between two of its own instructions. A long call made
+there would make Ctrl-C wait for its end, and one that comes back through callbacks could see
+KeyboardInterrupt arise where nothing can catch it. So these calls are handed to a second thread,
+while the main thread waits where it can be interrupted. Calls from other threads are made where
+they are.
 """
+
 import contextvars
 import os
 import queue
@@ -21,7 +23,8 @@ _here = threading.local()
 STOPPED = (errors.Status.ERR_CALLBACK, errors.Status.STOP_CANCELLED)
 
 
-# ---- one call ---------------------------------------------------------------------------------------
+# ---- one call ------------------------------------------------------------------------------------
+
 
 def raise_later(error):
     """Keep what a callback raised until the call that it stopped is back."""
@@ -31,8 +34,8 @@ def raise_later(error):
 def make(function, *arguments):
     """Call a function that returns a status; raise what a callback raised, or baum.Error below 0.
 
-    A call may get over a function that fails: where the library looks around to judge a mechanism, for
-    example at times that the run will not reach. Then the exception is dropped.
+    A call may get over a function that fails: where the library looks around to judge a mechanism,
+    for example at times that the run will not reach. Then the exception is dropped.
     """
     _here.error = None
     status = function(*arguments)
@@ -51,7 +54,8 @@ def message():
     return lib.baum_message().decode(errors="replace")
 
 
-# ---- the second thread --------------------------------------------------------------------------------
+# ---- the second thread ---------------------------------------------------------------------------
+
 
 class _Task:
     """A call on its way: what to do, and what came of it."""
@@ -121,8 +125,8 @@ def in_main_thread():
 
 
 def interruptible(function, *arguments, cancel=None):
-    """Call so that Ctrl-C works: it cancels, waits for the call to come back, and is then raised. A second
-    one does not wait; what the call uses stays alive and busy until it is back."""
+    """Call so that Ctrl-C works: it cancels, waits for the call to come back, and is then raised. A
+    second one does not wait; what the call uses stays alive and busy until it is back."""
     global _worker
     if not in_main_thread():
         return function(*arguments)
@@ -151,7 +155,8 @@ def _come_back(task, cancel):
         raise
 
 
-# ---- objects of the library ---------------------------------------------------------------------------
+# ---- objects of the library ----------------------------------------------------------------------
+
 
 class Handle:
     """Owns an object of the library and lets one thread at a time use it."""
@@ -165,11 +170,14 @@ class Handle:
 
     def call(self, function, *arguments):
         """make() with this object as the first argument."""
-        # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C strikes.
+        # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C
+        # strikes.
         me = object()
         try:
             if self._users.setdefault("now", me) is not me:
-                raise errors.Error(errors.Status.ERR_STATE, f"this {self._what} is in use by another call")
+                raise errors.Error(
+                    errors.Status.ERR_STATE, f"this {self._what} is in use by another call"
+                )
             return make(function, self._address, *arguments)
         finally:
             if self._users.get("now") is me:

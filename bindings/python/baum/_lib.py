@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Find and load the C library, and make sure that it is the one this package was made for."""
+
 import ctypes
 import ctypes.util
 import os
@@ -52,8 +53,10 @@ def _open():
             return ctypes.CDLL(candidate), candidate
         except OSError as error:
             failures.append(f"  {candidate}: {error}")
-    raise ImportError("baum: the C library was not found; install it, or name it in BAUM_LIBRARY. "
-                      "Tried:\n" + "\n".join(failures))
+    raise ImportError(
+        "baum: the C library was not found; install it, or name it in BAUM_LIBRARY. "
+        "Tried:\n" + "\n".join(failures)
+    )
 
 
 def _check_version(library, path):
@@ -64,8 +67,10 @@ def _check_version(library, path):
     except AttributeError:
         raise ImportError(f"baum: {path} is not the library baum") from None
     if version.split(".")[:2] != _abi.VERSION.split(".")[:2]:
-        raise ImportError(f"baum: the library {path} has version {version}, "
-                          f"this Python package has version {_abi.VERSION}")
+        raise ImportError(
+            f"baum: the library {path} has version {version}, "
+            f"this Python package has version {_abi.VERSION}"
+        )
     return version
 
 
@@ -87,8 +92,10 @@ def _check_structs(library, path):
         getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))
         size = struct.from_buffer(room).struct_size
         if size != ctypes.sizeof(struct):
-            raise ImportError(f"baum: {struct.__name__} has {size} bytes in the library {path} "
-                              f"and {ctypes.sizeof(struct)} in this Python package")
+            raise ImportError(
+                f"baum: {struct.__name__} has {size} bytes in the library {path} "
+                f"and {ctypes.sizeof(struct)} in this Python package"
+            )
 
 
 lib, path = _open()

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""Numbers, points and arrays on their way to the library: checked here, so that messages name them."""
+# SPDX-License-Identifier: BSD-3-Clause "Numbers, points and arrays on their way to the library:
+# checked here, so that messages name them."""
+
 import operator
 
 import numpy as np
@@ -28,7 +29,9 @@ def vector(value, size, label):
     except (TypeError, ValueError):
         raise TypeError(f"{label}: numbers are wanted, not {value!r}") from None
     if array.ndim != 1:
-        raise ValueError(f"{label}: an array of one dimension is wanted, not of shape {array.shape}")
+        raise ValueError(
+            f"{label}: an array of one dimension is wanted, not of shape {array.shape}"
+        )
     if size is not None and array.size != size:
         raise ValueError(f"{label}: {size} numbers are wanted, not {array.size}")
     return array

@@ -1,13 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Functions of the user as the library wants them.
 
-A Python function takes (t, q), (t, q, v) or (t) and returns its value. Here it gets a shell that the library
-can call: it shows q and v as read-only arrays, checks what comes back and writes it where it belongs, and
-keeps an exception until the run that it stopped is back. q and v are only valid during the call.
+A Python function takes (t, q), (t, q, v) or (t) and returns its value. Here it gets a shell that
+the library can call: it shows q and v as read-only arrays, checks what comes back and writes it
+where it belongs, and keeps an exception until the run that it stopped is back. q and v are only
+valid during the call.
 
-Instead of a Python function there may be the address of a compiled one (an int, a ctypes function pointer,
-or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and costs nothing.
+Instead of a Python function there may be the address of a compiled one (an int, a ctypes function
+pointer, or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and
+costs nothing.
 """
+
 import ctypes
 
 import numpy as np
@@ -22,8 +25,9 @@ DOUBLE = np.dtype(np.float64)
 
 
 class _Views(dict):
-    """Arrays on memory of the library, by address. The library reuses few addresses, so making an array,
-    which is slow, is rare. An array is only a window: one that is met again is right again."""
+    """Arrays on memory of the library, by address. The library reuses few addresses, so making an
+    array, which is slow, is rare. An array is only a window: one that is met again is right
+    again."""
 
     def __init__(self, shape, writeable):
         super().__init__()
@@ -45,7 +49,8 @@ def _without_ones(shape):
 
 
 def _checked(value, shape, label):
-    """A returned value as an array of that shape; sides of length 1 may be left out. Else TypeError, ValueError."""
+    """A returned value as an array of that shape; sides of length 1 may be left out. Else
+    TypeError, ValueError."""
     wanted = _without_ones(shape)
     asked = "a number" if not wanted else f"an array of shape {shape}"
     try:
@@ -153,9 +158,11 @@ def address_of(function):
 
 
 def wrap(kind, function, label, shape, nq=0, nv=0):
-    """A function pointer of type `kind` for a Python function or an address. The caller keeps it alive.
+    """A function pointer of type `kind` for a Python function or an address. The caller keeps it
+    alive.
 
-    label names the function in messages; shape is that of its value; nq, nv are the lengths of q and v.
+    label names the function in messages; shape is that of its value; nq, nv are the lengths of q
+    and v.
     """
     address = address_of(function)
     if address is not None:

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What can be read from a run: channels, each a group of columns with a name.
 
-Those of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy. Those of a body or a joint are
-its attributes, for example m["slider"].pose and m["B"].reaction.
+Those of the whole mechanism are here: q, v, a, lambda_, phi, phi_rate, energy. Those of a body or a
+joint are its attributes, for example m["slider"].pose and m["B"].reaction.
 """
+
 import ctypes
 
 import numpy as np

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Definitions: from keyword arguments to the library's structs and back.
 
-A field that is None keeps its default, or in a change its present value. NaN is a value: "not given".
+A field that is None keeps its default, or in a change its present value. NaN is a value: "not
+given".
 """
+
 import ctypes
 from dataclasses import dataclass
 
@@ -14,6 +16,7 @@ from ._values import address, integer, number, vector
 @dataclass(frozen=True)
 class Kind:
     """A kind of body, joint or force: its struct, its family, and the sizes of a body's q and v."""
+
     name: str
     family: str
     nq: int = 0
@@ -32,20 +35,23 @@ class Kind:
         return getattr(lib, f"baum_mechanism_{verb}_{self.name}")
 
 
-KINDS = {kind.name: kind for kind in (
-    Kind("planar_body", "body", 3, 3),
-    Kind("planar_particle", "body", 2, 2),
-    Kind("coordinates", "body"),
-    Kind("planar_revolute", "joint"),
-    Kind("planar_translational", "joint"),
-    Kind("planar_distance", "joint"),
-    Kind("planar_fixed", "joint"),
-    Kind("driver", "joint"),
-    Kind("user_constraint", "joint"),
-    Kind("planar_spring", "force"),
-    Kind("planar_load", "force"),
-    Kind("user_force", "force"),
-)}
+KINDS = {
+    kind.name: kind
+    for kind in (
+        Kind("planar_body", "body", 3, 3),
+        Kind("planar_particle", "body", 2, 2),
+        Kind("coordinates", "body"),
+        Kind("planar_revolute", "joint"),
+        Kind("planar_translational", "joint"),
+        Kind("planar_distance", "joint"),
+        Kind("planar_fixed", "joint"),
+        Kind("driver", "joint"),
+        Kind("user_constraint", "joint"),
+        Kind("planar_spring", "force"),
+        Kind("planar_load", "force"),
+        Kind("user_force", "force"),
+    )
+}
 
 HIDDEN = ("struct_size", "body_count")
 
@@ -53,7 +59,8 @@ HIDDEN = ("struct_size", "body_count")
 class Definition:
     """One definition on its way to the library, with what it needs to stay alive.
 
-    label names the element in messages; find(family, value) gives the handle for a handle or a name.
+    label names the element in messages; find(family, value) gives the handle for a handle or a
+    name.
     """
 
     def __init__(self, kind, label, find, struct=None):
@@ -66,14 +73,18 @@ class Definition:
         self._types = dict(kind.struct._fields_)
 
     def fill(self, fields):
-        """Set the fields that are not None, functions last because their shapes follow from the others."""
+        """Set the fields that are not None, functions last because their shapes follow from the
+        others."""
         unknown = [name for name in fields if name not in self._types or name in HIDDEN]
         if unknown:
-            raise TypeError(f"{self._label} has no {unknown[0]}; there are: "
-                            + ", ".join(name for name in self._types if name not in HIDDEN))
+            raise TypeError(
+                f"{self._label} has no {unknown[0]}; there are: "
+                + ", ".join(name for name in self._types if name not in HIDDEN)
+            )
         given = {name: value for name, value in fields.items() if value is not None}
-        functions = {name: given.pop(name) for name in list(given)
-                     if self._types[name] in callbacks.SHELLS}
+        functions = {
+            name: given.pop(name) for name in list(given) if self._types[name] in callbacks.SHELLS
+        }
         for name, value in given.items():
             self._set(name, value)
         for name, function in functions.items():
@@ -117,9 +128,18 @@ class Definition:
     def _set_function(self, name, function):
         nq, nv = self._sizes()
         rows = self.struct.row_count if self.kind.name == "user_constraint" else nv
-        shape = {"mass": (nv, nv), "force_q": (nv, nv), "force_v": (nv, nv), "force": (nv,),
-                 "potential": (1,), "phi": (rows,), "nu": (rows,), "gamma": (rows,),
-                 "jacobian": (rows, nv), "law": (3,)}[name]
+        shape = {
+            "mass": (nv, nv),
+            "force_q": (nv, nv),
+            "force_v": (nv, nv),
+            "force": (nv,),
+            "potential": (1,),
+            "phi": (rows,),
+            "nu": (rows,),
+            "gamma": (rows,),
+            "jacobian": (rows, nv),
+            "law": (3,),
+        }[name]
         label = f"{self._label}: {name}"
         wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv)
         self.keep.append((wrapped, function))
@@ -142,7 +162,12 @@ def as_dict(definition, find):
     values = {}
     for name, kind in definition._fields_:
         value = getattr(definition, name)
-        if name in HIDDEN or kind in callbacks.SHELLS or kind is ctypes.c_void_p or name == "bodies":
+        if (
+            name in HIDDEN
+            or kind in callbacks.SHELLS
+            or kind is ctypes.c_void_p
+            or name == "bodies"
+        ):
             continue
         if kind in (_abi.baum_body_id, _abi.baum_joint_id):
             value = find("body" if kind is _abi.baum_body_id else "joint", value)

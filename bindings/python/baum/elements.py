@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""Bodies, joints and forces of a mechanism, as handles. Those of a mechanism and its copies are equal."""
+# SPDX-License-Identifier: BSD-3-Clause "Bodies, joints and forces of a mechanism, as handles. Those
+# of a mechanism and its copies are equal."""
+
 from collections import namedtuple
 
 from . import _abi
@@ -10,8 +11,8 @@ from ._values import vector
 _Q = _abi.baum_quantity
 
 
-# What a mechanism knows about an element: its Kind (None for ground), the library's id, and of a body the
-# sizes of q and v. Copies of a mechanism share it; a handle is made when it is asked for.
+# What a mechanism knows about an element: its Kind (None for ground), the library's id, and of a
+# body the sizes of q and v. Copies of a mechanism share it; a handle is made when it is asked for.
 Entry = namedtuple("Entry", "family kind id nq nv")
 
 GROUND = Entry("body", None, _abi.BAUM_GROUND, 0, 0)
@@ -63,7 +64,8 @@ class Body(Element):
 
     @property
     def pose(self):
-        """Channel: x, y [m] of the centre of mass and angle [rad]; x, y of a particle; else its q."""
+        """Channel: x, y [m] of the centre of mass and angle [rad]; x, y of a particle; else its
+        q."""
         return self._channel("pose", _Q.BAUM_BODY_POSE)
 
     @property
@@ -114,8 +116,8 @@ class Joint(Element):
 
     @property
     def reaction(self):
-        """Channel: force [N] and moment [N m] on body_b, ground axes, about the joint's point on body_b; for a
-        user constraint -J^T lambda over its bodies."""
+        """Channel: force [N] and moment [N m] on body_b, ground axes, about the joint's point on
+        body_b; for a user constraint -J^T lambda over its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property

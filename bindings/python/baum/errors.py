@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Statuses, and how they become exceptions and warnings."""
+
 import enum
 import os
 import sys
@@ -13,9 +14,11 @@ class _Named(enum.IntEnum):
         return self.name
 
 
-Status = _Named("Status", {status.name[len("BAUM_"):]: status.value for status in _abi.baum_status})
-Status.__doc__ = """What a call came to: 0 done, 1 to 9 stopped as asked, 10 and up reached the end with
-warnings, below 0 failed (then it is raised as baum.Error)."""
+Status = _Named(
+    "Status", {status.name[len("BAUM_") :]: status.value for status in _abi.baum_status}
+)
+Status.__doc__ = """What a call came to: 0 done, 1 to 9 stopped as asked, 10 and up reached the end
+with warnings, below 0 failed (then it is raised as baum.Error)."""
 Status.__module__ = __name__
 
 PACKAGE = os.path.dirname(os.path.abspath(__file__))

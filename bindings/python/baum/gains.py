@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: BSD-3-Clause
-"""Baumgarte's gains: how alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi = 0 are chosen."""
+# SPDX-License-Identifier: BSD-3-Clause "Baumgarte's gains: how alpha and beta [1/s] in Phi'' + 2
+# alpha Phi' + beta^2 Phi = 0 are chosen."""
+
 from ._lib import lib
 from ._values import number
 
@@ -35,7 +36,8 @@ def scaled(alpha_h, beta2_h2):
 
 
 def taylor():
-    """Gains of the Taylor expansion: alpha = 1/h, beta = sqrt(2)/h. Marginal with explicit Euler."""
+    """Gains of the Taylor expansion: alpha = 1/h, beta = sqrt(2)/h. Marginal with explicit
+    Euler."""
     return Gains("taylor")
 
 
@@ -50,5 +52,6 @@ def deadbeat():
 
 
 def auto():
-    """alpha = beta = twice the fastest angular rate of the start state; keeps the order of the method."""
+    """alpha = beta = twice the fastest angular rate of the start state; keeps the order of the
+    method."""
     return Gains("auto")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Integrators by name, and what they make of Baumgarte's gains."""
+
 import ctypes
 from collections import namedtuple
 
@@ -10,7 +11,7 @@ from ._values import number
 
 def _names(enum, prefix):
     """The values of an enum of the library by their names in lower case."""
-    return {value.name[len(prefix):].lower(): value for value in enum}
+    return {value.name[len(prefix) :].lower(): value for value in enum}
 
 
 FORMULATIONS = _names(_abi.baum_formulation, "BAUM_FORMULATION_")
@@ -18,15 +19,19 @@ STABILITIES = {value: name for name, value in _names(_abi.baum_stability, "BAUM_
 
 
 class Integrator:
-    """A method: name, order (0 when it varies), whether it takes `step` or `rtol`, and its formulations."""
+    """A method: name, order (0 when it varies), whether it takes `step` or `rtol`, and its
+    formulations."""
 
     def __init__(self, address):
         self.address = address
         self.name = lib.baum_integrator_name(address).decode()
         self.order = lib.baum_integrator_order(address)
         self.fixed_step = lib.baum_integrator_has_fixed_step(address)
-        self.formulations = tuple(name for name, value in FORMULATIONS.items()
-                                  if name != "default" and lib.baum_integrator_offers(address, value))
+        self.formulations = tuple(
+            name
+            for name, value in FORMULATIONS.items()
+            if name != "default" and lib.baum_integrator_offers(address, value)
+        )
 
     def __repr__(self):
         return f"<integrator {self.name}>"
@@ -60,8 +65,8 @@ def lookup(value):
 
 
 class Amplification(namedtuple("Amplification", "stability spectral_radius roots")):
-    """What becomes of a violation: "stable", "marginal", "unstable" or "variable_step"; the largest |z|; the two
-    roots z. Numbers are NaN for a variable step."""
+    """What becomes of a violation: "stable", "marginal", "unstable" or "variable_step"; the largest
+    |z|; the two roots z. Numbers are NaN for a variable step."""
 
     __slots__ = ()
 
@@ -69,15 +74,23 @@ class Amplification(namedtuple("Amplification", "stability spectral_radius roots
 def stability(integrator, alpha_h, beta2_h2):
     """Amplification at a point (alpha h, (beta h)^2) of the plane of Fig. 1."""
     out = _abi.baum_amplification()
-    _calls.make(lib.baum_stability_at, lookup(integrator).address, number(alpha_h, "alpha_h"),
-                number(beta2_h2, "beta2_h2"), ctypes.byref(out), ctypes.sizeof(out))
+    _calls.make(
+        lib.baum_stability_at,
+        lookup(integrator).address,
+        number(alpha_h, "alpha_h"),
+        number(beta2_h2, "beta2_h2"),
+        ctypes.byref(out),
+        ctypes.sizeof(out),
+    )
     roots = tuple(complex(*root) for root in out.z)
     return Amplification(STABILITIES[out.stability], out.spectral_radius, roots)
 
 
 def stability_limit(integrator, damping_ratio=1.0):
     """Largest alpha h for which alpha = damping_ratio x beta is stable; 0 when nothing is."""
-    return _numbers(lib.baum_stability_limit, 1, integrator, number(damping_ratio, "damping_ratio"))[0]
+    return _numbers(
+        lib.baum_stability_limit, 1, integrator, number(damping_ratio, "damping_ratio")
+    )[0]
 
 
 def stability_deadbeat(integrator):
@@ -87,8 +100,13 @@ def stability_deadbeat(integrator):
 
 def stability_nearest(integrator, alpha_h, beta2_h2):
     """The nearest point that damps well, itself when it does."""
-    return _numbers(lib.baum_stability_nearest, 2, integrator, number(alpha_h, "alpha_h"),
-                    number(beta2_h2, "beta2_h2"))
+    return _numbers(
+        lib.baum_stability_nearest,
+        2,
+        integrator,
+        number(alpha_h, "alpha_h"),
+        number(beta2_h2, "beta2_h2"),
+    )
 
 
 def _numbers(function, count, integrator, *arguments):

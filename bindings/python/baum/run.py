@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What a run came to."""
+
 from collections import namedtuple
 
 import numpy as np
@@ -9,16 +10,17 @@ from .channels import Channel
 from .errors import Status
 
 Counters = namedtuple("Counters", [name for name, _ in _abi.baum_counters._fields_[1:]])
-Counters.__doc__ = """What a run has cost and how well constraints were kept since it was created; see
-baum_counters in simulation.h. Joints are handles or None, times in seconds."""
+Counters.__doc__ = """What a run has cost and how well constraints were kept since it was created;
+see baum_counters in simulation.h. Joints are handles or None, times in seconds."""
 
 
 class Run:
-    """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x columns) is a recorded
-    channel. Poses and velocities of bodies need no recording, they are parts of q and v.
+    """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x
+    columns) is a recorded channel. Poses and velocities of bodies need no recording, they are parts
+    of q and v.
 
-    status: OK, WARNED or STOP_CANCELLED (then the samples end early); counters; explain: in words how it was
-    done; warnings: list of sentences.
+    status: OK, WARNED or STOP_CANCELLED (then the samples end early); counters; explain: in words
+    how it was done; warnings: list of sentences.
     """
 
     def __init__(self, mechanism, layout, times, rows, status, account):
@@ -47,8 +49,10 @@ class Run:
             return self._rows[:, place]
         columns = self._of_body(name)
         if columns is None:
-            raise KeyError(f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
-                           "velocities of bodies; name others in record=[...]")
+            raise KeyError(
+                f"{name!r} was not recorded; there are {', '.join(self.keys())} and poses and "
+                "velocities of bodies; name others in record=[...]"
+            )
         return columns
 
     def _of_body(self, name):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """One run of a frozen mechanism."""
+
 import ctypes
 import time
 
@@ -14,20 +15,28 @@ from ._lib import default, lib
 from .run import Counters, Run
 from ._values import address, integer, number, vector
 
-STARTS = {"assemble": _abi.baum_start.BAUM_START_ASSEMBLE, "exact": _abi.baum_start.BAUM_START_EXACT,
-          "as_given": _abi.baum_start.BAUM_START_AS_GIVEN}
-SOLVERS = {"auto": _abi.baum_solver.BAUM_SOLVER_AUTO, "klu": _abi.baum_solver.BAUM_SOLVER_KLU,
-           "qr": _abi.baum_solver.BAUM_SOLVER_QR}
+STARTS = {
+    "assemble": _abi.baum_start.BAUM_START_ASSEMBLE,
+    "exact": _abi.baum_start.BAUM_START_EXACT,
+    "as_given": _abi.baum_start.BAUM_START_AS_GIVEN,
+}
+SOLVERS = {
+    "auto": _abi.baum_solver.BAUM_SOLVER_AUTO,
+    "klu": _abi.baum_solver.BAUM_SOLVER_KLU,
+    "qr": _abi.baum_solver.BAUM_SOLVER_QR,
+}
 WARNING_SIZE = 4096
 AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
 
 def _word(words, label):
     """A converter from one of some words."""
+
     def convert(value):
         if value not in words:
             raise ValueError(f"no {label} {value!r}; there are: {', '.join(words)}")
         return words[value]
+
     return convert
 
 
@@ -66,14 +75,18 @@ def make_options(method, values):
         raise TypeError(f"integrator: a name is wanted, not {method!r}")
     for name, value in values.items():
         if name not in CONVERT:
-            raise TypeError(f"no option {name!r}; there are: integrator, progress, {', '.join(CONVERT)}")
+            raise TypeError(
+                f"no option {name!r}; there are: integrator, progress, {', '.join(CONVERT)}"
+            )
         if value is not None:
             setattr(options, name, CONVERT[name](value))
     return options
 
 
 def _progress(holder):
-    """A progress function of the library that calls holder[0](t), which may change from call to call."""
+    """A progress function of the library that calls holder[0](t), which may change from call to
+    call."""
+
     def call(simulation, t, user):
         try:
             return int(holder[0] is not None and bool(holder[0](t)))
@@ -87,15 +100,16 @@ def _progress(holder):
 class Simulation:
     """One run.
 
-    integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte", "projection",
-    "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte"; allow_unstable: run with gains that are
-    known to be unstable. step [s] for fixed-step methods; rtol, atol for the others. start_time [s], default 0.
-    start: "assemble", "exact", "as_given". solver: "auto", "klu", "qr". check_derivatives: compare given
-    derivatives with differences first. max_steps of one call. progress(t) is called every progress_interval
-    seconds of wall time, and cancels when it returns something true.
+    integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
+    "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
+    allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
+    rtol, atol for the others. start_time [s], default 0. start: "assemble", "exact", "as_given".
+    solver: "auto", "klu", "qr". check_derivatives: compare given derivatives with differences
+    first. max_steps of one call. progress(t) is called every progress_interval seconds of wall
+    time, and cancels when it returns something true.
 
-    Warnings of the run become Python warnings of the category baum.Warning. One thread at a time may use it,
-    but for cancel().
+    Warnings of the run become Python warnings of the category baum.Warning. One thread at a time
+    may use it, but for cancel().
     """
 
     def __init__(self, mechanism, integrator=None, *, progress=None, **options):
@@ -109,8 +123,13 @@ class Simulation:
         struct = make_options(integrator, options)
         struct.progress = self._keep
         out = ctypes.c_void_p()
-        _calls.interruptible(_calls.make, lib.baum_simulation_create, mechanism.handle, ctypes.byref(struct),
-                             ctypes.byref(out))
+        _calls.interruptible(
+            _calls.make,
+            lib.baum_simulation_create,
+            mechanism.handle,
+            ctypes.byref(struct),
+            ctypes.byref(out),
+        )
         self._owner = _calls.Handle(out.value, lib.baum_simulation_destroy, "simulation")
         self._sizes = mechanism.sizes
         self._warn()
@@ -118,10 +137,11 @@ class Simulation:
     def __repr__(self):
         return f"<simulation at t = {self.time:g} s>"
 
-    # ---- moving -------------------------------------------------------------------------------------
+    # ---- moving ----------------------------------------------------------------------------------
 
     def advance_to(self, t, progress=None):
-        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED or STOP_CANCELLED."""
+        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED or
+        STOP_CANCELLED."""
         return self._run(progress, lib.baum_simulation_advance_to, number(t, "t"))
 
     def step(self, count=1, progress=None):
@@ -129,7 +149,9 @@ class Simulation:
         count = integer(count, "count")
         begun = time.perf_counter()
         try:
-            return self._run(progress, lib.baum_simulation_step, count, at_once=self._is_short(count))
+            return self._run(
+                progress, lib.baum_simulation_step, count, at_once=self._is_short(count)
+            )
         finally:
             self._seconds_per_step = (time.perf_counter() - begun) / max(count, 1)
 
@@ -138,14 +160,22 @@ class Simulation:
         return seconds is not None and seconds * count < AT_ONCE and not self.mechanism.has_python
 
     def sample(self, times, record=()):
-        """Advance through times [s] and return a Run: q, v and the channels in `record` at each of them. A failure is
-        raised with what was recorded so far as `run`."""
+        """Advance through times [s] and return a Run: q, v and the channels in `record` at each of
+        them. A failure is raised with what was recorded so far as `run`."""
         times = vector(np.atleast_1d(times), None, "times")
-        layout = self._layout([ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in record)])
+        layout = self._layout(
+            [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in record)]
+        )
         rows = layout.rows(len(times))
         done = ctypes.c_int64()
-        arguments = (address(times), len(times), layout.structs, layout.count, address(rows),
-                     ctypes.byref(done))
+        arguments = (
+            address(times),
+            len(times),
+            layout.structs,
+            layout.count,
+            address(rows),
+            ctypes.byref(done),
+        )
         try:
             status = self._run(None, lib.baum_simulation_sample, *arguments)
         except Error as error:
@@ -158,8 +188,8 @@ class Simulation:
         return Run(self.mechanism, layout, times[:done], rows[:done], status, account)
 
     def set_state(self, t, q, v=None):
-        """Replace time [s] and state, which is handled as the option `start` says. v, or parts of it, may be left
-        free: None or NaN."""
+        """Replace time [s] and state, which is handled as the option `start` says. v, or parts of
+        it, may be left free: None or NaN."""
         nq, nv, _ = self._sizes
         q = vector(q, nq, "q")
         v = np.full(nv, np.nan) if v is None else vector(v, nv, "v")
@@ -177,8 +207,9 @@ class Simulation:
             if at_once:
                 status = self._owner.call(function, *arguments)
             else:
-                status = _calls.interruptible(self._owner.call, function, *arguments,
-                                              cancel=self.cancel)
+                status = _calls.interruptible(
+                    self._owner.call, function, *arguments, cancel=self.cancel
+                )
         except Error:
             self._warn()
             raise
@@ -194,7 +225,7 @@ class Simulation:
             return _calls.interruptible(self._owner.call, function, *arguments)
         return self._owner.call(function, *arguments)
 
-    # ---- reading ------------------------------------------------------------------------------------
+    # ---- reading ---------------------------------------------------------------------------------
 
     @property
     def time(self):
@@ -216,7 +247,8 @@ class Simulation:
         return np.array((ctypes.c_double * size).from_address(place))
 
     def get(self, *channels):
-        """A channel at the present state: an array of its columns; a tuple of arrays for several."""
+        """A channel at the present state: an array of its columns; a tuple of arrays for
+        several."""
         channels = [self.mechanism.channel(channel) for channel in channels]
         layout = self._layout(channels)
         row = layout.rows(1)
@@ -236,8 +268,16 @@ class Simulation:
         struct = _abi.baum_counters()
         self._call(lib.baum_simulation_counters, ctypes.byref(struct), ctypes.sizeof(struct))
         values = [getattr(struct, name) for name in Counters._fields]
-        return Counters(*(self.mechanism.find("joint", value) if isinstance(value, ctypes.Structure)
-                          else value for value in values))
+        return Counters(
+            *(
+                (
+                    self.mechanism.find("joint", value)
+                    if isinstance(value, ctypes.Structure)
+                    else value
+                )
+                for value in values
+            )
+        )
 
     @property
     def warnings(self):
@@ -261,7 +301,8 @@ class Simulation:
 
     @property
     def explain(self):
-        """In words: formulation, integrator, gains and why, stability, solver, redundancy, tolerances."""
+        """In words: formulation, integrator, gains and why, stability, solver, redundancy,
+        tolerances."""
         return lib.baum_simulation_explain(self._owner._address).decode(errors="replace")
 
     @property

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Evaluation of a frozen mechanism at a point, without a run."""
+
 import ctypes
 
 import numpy as np
@@ -21,7 +22,9 @@ class Workspace:
     def __init__(self, mechanism):
         self.mechanism = mechanism
         out = ctypes.c_void_p()
-        _calls.interruptible(_calls.make, lib.baum_workspace_create, mechanism.handle, ctypes.byref(out))
+        _calls.interruptible(
+            _calls.make, lib.baum_workspace_create, mechanism.handle, ctypes.byref(out)
+        )
         self._owner = _calls.Handle(out.value, lib.baum_workspace_destroy, "workspace")
         self._sizes = mechanism.sizes
 
@@ -80,16 +83,31 @@ class Workspace:
         """Kinetic and potential energy [J]."""
         kinetic, potential = ctypes.c_double(), ctypes.c_double()
         q, v = self._q(q), self._v(v)
-        self._call(lib.baum_workspace_energy, number(t, "t"), address(q), address(v),
-                   ctypes.byref(kinetic), ctypes.byref(potential))
+        self._call(
+            lib.baum_workspace_energy,
+            number(t, "t"),
+            address(q),
+            address(v),
+            ctypes.byref(kinetic),
+            ctypes.byref(potential),
+        )
         return kinetic.value, potential.value
 
     def acceleration(self, t, q, v, alpha=0.0, beta=0.0):
-        """Accelerations a (nv) and multipliers lambda (nc), with Baumgarte's gains [1/s] if given."""
+        """Accelerations a (nv) and multipliers lambda (nc), with Baumgarte's gains [1/s] if
+        given."""
         a, lambda_ = np.empty(self._sizes.nv), np.empty(self._sizes.nc)
         q, v = self._q(q), self._v(v)
-        self._call(lib.baum_workspace_acceleration, number(t, "t"), address(q), address(v),
-                   number(alpha, "alpha"), number(beta, "beta"), address(a), address(lambda_))
+        self._call(
+            lib.baum_workspace_acceleration,
+            number(t, "t"),
+            address(q),
+            address(v),
+            number(alpha, "alpha"),
+            number(beta, "beta"),
+            address(a),
+            address(lambda_),
+        )
         return a, lambda_
 
     def reaction(self, t, q, lambda_, joint):
@@ -98,19 +116,27 @@ class Workspace:
         channel = Channel("reaction", _Q.BAUM_JOINT_REACTION, joint=joint.id)
         out = np.empty(width(self.mechanism, channel))
         q, lambda_ = self._q(q), vector(lambda_, self._sizes.nc, "lambda")
-        self._call(lib.baum_workspace_reaction, number(t, "t"), address(q), address(lambda_), joint.id,
-                   address(out))
+        self._call(
+            lib.baum_workspace_reaction,
+            number(t, "t"),
+            address(q),
+            address(lambda_),
+            joint.id,
+            address(out),
+        )
         return out
 
     def assemble(self, t=0.0, q=None, v=None, held=()):
-        """The nearest q with Phi = 0, and v: finite entries are held, NaN ones follow. Left out, both are those of
-        the drawing. held: bodies whose positions stay."""
+        """The nearest q with Phi = 0, and v: finite entries are held, NaN ones follow. Left out,
+        both are those of the drawing. held: bodies whose positions stay."""
         drawn_q, drawn_v = self.drawn()
         q = drawn_q if q is None else self._q(q)
         v = drawn_v if v is None else self._v(v)
         bodies = [self.mechanism.find("body", body).id for body in held]
         ids = (_abi.baum_body_id * len(bodies))(*bodies)
-        self._call(lib.baum_workspace_assemble, number(t, "t"), address(q), address(v), ids, len(bodies))
+        self._call(
+            lib.baum_workspace_assemble, number(t, "t"), address(q), address(v), ids, len(bodies)
+        )
         return q, v
 
     def project(self, t, q, v):

@@ -35,7 +35,7 @@ NUMBERS = {
 }
 
 
-# ---- from files to declarations -------------------------------------------------------------------
+# ---- from files to declarations ------------------------------------------------------------------
 
 def read_headers(include, name="baum/baum.h", seen=None):
     """Text of a header and of those it includes, each once, included ones first."""
@@ -78,7 +78,7 @@ def split(text):
         raise SystemExit(f"not understood: {text[start:].strip()[:80]}")
 
 
-# ---- types ------------------------------------------------------------------------------------------
+# ---- types ---------------------------------------------------------------------------------------
 
 class Types:
     """Names that were declared so far, and how C types are spelled in ctypes."""
@@ -139,7 +139,7 @@ def arguments(types, text):
     return [spelled for part in text.split(",") for _, spelled in declarators(types, part.strip())]
 
 
-# ---- declarations to Python -----------------------------------------------------------------------
+# ---- declarations to Python ----------------------------------------------------------------------
 
 def wrap(opening, items, closing, indent="    "):
     """`opening items closing` on one line, or the items on lines of their own."""
@@ -214,7 +214,8 @@ class Writer:
             HEAD.format(version=version), f'\nVERSION = "{version}"\n', *self.parts,
             "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
             "\n".join(self.prototypes), "\n}\n",
-            "\n# Structs that the caller fills, and the function that sets their defaults.\nDEFAULTS = {\n",
+            "\n# Structs that the caller fills, and the function that sets their defaults.\n",
+            "DEFAULTS = {\n",
             "\n".join(defaults), "\n}\n",
             "\nSTRUCTS = [\n", "\n".join(structs), "\n]\n"])
 
@@ -253,7 +254,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("include", nargs="?", type=Path, default=ROOT / "include")
     parser.add_argument("output", nargs="?", type=Path, default=OUTPUT)
-    parser.add_argument("--check", action="store_true", help="write nothing, fail when it would change")
+    parser.add_argument("--check", action="store_true", help="write nothing, fail on a change")
     options = parser.parse_args()
     text = generate(options.include)
     if not options.check:

@@ -1,0 +1,258 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Adding bodies, joints and forces to a mechanism."""
+import ctypes
+
+from .definitions import KINDS, Definition
+from .elements import Entry
+
+
+class Adding:
+    """The part of a Mechanism that adds. Each method returns a handle.
+
+    Fields left out keep the library's defaults, which the C headers state.
+    """
+
+    # ---- bodies ----------------------------------------------------------------------------------
+
+    def planar_body(
+        self,
+        name=None,
+        *,
+        mass=None,
+        inertia=None,
+        position=None,
+        angle=None,
+        velocity=None,
+        angular_velocity=None,
+        held=None,
+    ):
+        """Add a rigid body in the plane: mass [kg], inertia [kg m^2] about the centre of mass,
+        drawn position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
+        held: assembly keeps the drawn pose."""
+        return self._add(
+            "planar_body",
+            name,
+            mass=mass,
+            inertia=inertia,
+            position=position,
+            angle=angle,
+            velocity=velocity,
+            angular_velocity=angular_velocity,
+            held=held,
+        )
+
+    def planar_particle(self, name=None, *, mass=None, position=None, velocity=None, held=None):
+        """Add a point mass [kg] at a drawn position [m], with a velocity at start [m/s]."""
+        return self._add(
+            "planar_particle", name, mass=mass, position=position, velocity=velocity, held=held
+        )
+
+    def coordinates(
+        self,
+        name=None,
+        size=None,
+        *,
+        mass=None,
+        force=None,
+        q=None,
+        v=None,
+        scale=None,
+        force_q=None,
+        force_v=None,
+        potential=None,
+        constant_mass=None,
+        held=None,
+        user=None,
+    ):
+        """Add `size` generalized coordinates: mass(t, q) gives M (size x size), force(t, q, v) the
+        force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
+        energy [J]. q, v, scale: (size) drawn positions, velocities at start, a relevant change of
+        each."""
+        return self._add(
+            "coordinates",
+            name,
+            size=size,
+            mass=mass,
+            force=force,
+            q=q,
+            v=v,
+            scale=scale,
+            force_q=force_q,
+            force_v=force_v,
+            potential=potential,
+            constant_mass=constant_mass,
+            held=held,
+            user=user,
+        )
+
+    # ---- joints ----------------------------------------------------------------------------------
+
+    def revolute(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None):
+        """Add a pin: two points coincide. Two rows [m]."""
+        return self._add(
+            "planar_revolute",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+        )
+
+    def translational(
+        self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None, angle=None
+    ):
+        """Add a slider: body_b moves along an axis of body_a without turning. Two rows [m], [rad].
+        angle: angle_b - angle_a that is kept [rad], default that of the drawing."""
+        return self._add(
+            "planar_translational",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            axis=axis,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+            angle=angle,
+        )
+
+    def distance(self, name, body_a, body_b, *, point_a=None, point_b=None, length=None):
+        """Add a rod without mass between two points. One row [m]. length [m], default that of the
+        drawing."""
+        return self._add(
+            "planar_distance",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            point_a=point_a,
+            point_b=point_b,
+            length=length,
+        )
+
+    def fixed(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None, angle=None):
+        """Add a weld. Three rows [m], [m], [rad]. angle: angle_b - angle_a [rad], default that of
+        the drawing."""
+        return self._add(
+            "planar_fixed",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+            angle=angle,
+        )
+
+    def driver(self, name, joint, *, value=None, rate=None, acceleration=None, law=None, user=None):
+        """Prescribe the coordinate of a revolute [rad] or translational [m] joint: value + rate t +
+        acceleration t^2 / 2, or law(t) that returns value, rate and acceleration. One row."""
+        return self._add(
+            "driver",
+            name,
+            joint=joint,
+            value=value,
+            rate=rate,
+            acceleration=acceleration,
+            law=law,
+            user=user,
+        )
+
+    def constraint(self, name, bodies, rows, phi, *, jacobian=None, nu=None, gamma=None, user=None):
+        """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`: phi(t, q) gives Phi
+        (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows), gamma(t, q, v) the right
+        side of J a = gamma (rows). Only phi is needed; the others are found by differences."""
+        return self._add(
+            "user_constraint",
+            name,
+            bodies=bodies,
+            row_count=rows,
+            phi=phi,
+            jacobian=jacobian,
+            nu=nu,
+            gamma=gamma,
+            user=user,
+        )
+
+    # ---- forces ----------------------------------------------------------------------------------
+
+    def spring(
+        self,
+        name,
+        body_a,
+        body_b,
+        *,
+        point_a=None,
+        point_b=None,
+        stiffness=None,
+        damping=None,
+        free_length=None,
+    ):
+        """Add a spring [N/m] and damper [N s/m] between two points; free_length [m], default that
+        of the drawing."""
+        return self._add(
+            "planar_spring",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            point_a=point_a,
+            point_b=point_b,
+            stiffness=stiffness,
+            damping=damping,
+            free_length=free_length,
+        )
+
+    def load(self, name, body, *, force=None, point=None, torque=None, follows_body=None):
+        """Add a force [N] at a point of a body (body axes [m]) and a torque [N m]. follows_body:
+        the force turns with the body, else it keeps to ground axes."""
+        return self._add(
+            "planar_load",
+            name,
+            body=body,
+            force=force,
+            point=point,
+            torque=torque,
+            follows_body=follows_body,
+        )
+
+    def force(self, name, bodies, force, *, force_q=None, force_v=None, potential=None, user=None):
+        """Add a generalized force on `bodies`: force(t, q, v) gives it (nv), force_q and force_v
+        its derivatives (nv x nv), potential(t, q) an energy [J]."""
+        return self._add(
+            "user_force",
+            name,
+            bodies=bodies,
+            force=force,
+            force_q=force_q,
+            force_v=force_v,
+            potential=potential,
+            user=user,
+        )
+
+    # ---- how -------------------------------------------------------------------------------------
+
+    def _add(self, kind, name, **fields):
+        kind = KINDS[kind]
+        name = self._new_name(name, kind.family)
+        definition = Definition(kind, f'{kind.family} "{name}"', self.find)
+        definition.fill({"name": name, **fields})
+        id = kind.id_type()
+        self._hold(definition)
+        self._owner.call(kind.function("add"), ctypes.byref(definition.struct), ctypes.byref(id))
+        size = kind.nq or getattr(definition.struct, "size", 0)
+        self._entries[name] = Entry(kind.family, kind, id, size, kind.nv or size)
+        return self[name]
+
+    def _new_name(self, name, family):
+        if name is None:
+            name = f"{family}{1 + self._count(family)}"
+        if not isinstance(name, str):
+            raise TypeError(f"the name of a {family} is a string, not {name!r}")
+        if name in self._entries:
+            raise ValueError(f'there is already a {self._entries[name].family} "{name}"')
+        return name
+
+    def _hold(self, definition):
+        """Keep a definition's functions as long as this mechanism and its copies."""
+        self._keep.extend(definition.keep)
+        self.has_python |= definition.has_python
+

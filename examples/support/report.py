@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the Python examples share: tables, checks that decide, the JSON file with both.
+
+The JSON is as that of the C examples:
+"name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
+"""
+
+import argparse
+import json
+import math
+
+import baum
+
+
+class Report:
+    """An example's command line, and what it prints and writes."""
+
+    def __init__(self, name, **options):
+        parser = argparse.ArgumentParser(prog=name)
+        for option, explanation in {"json": "write tables and checks there", **options}.items():
+            parser.add_argument(f"--{option}", metavar="FILE", help=explanation)
+        self.options = parser.parse_args()
+        self._tables = {"example": name, "version": baum.library_version}
+        self._checks = []
+
+    def table(self, name, columns, rows):
+        """Print and keep a table. columns: key -> (title, format); rows: lists of values."""
+        widths = {
+            key: max(len(title), len(self._text(form, -1.0 if "s" not in form else "")))
+            for key, (title, form) in columns.items()
+        }
+        left = {key: "<" if "s" in form else ">" for key, (_, form) in columns.items()}
+        print("  ".join(f"{title:{left[key]}{widths[key]}}" for key, (title, _) in columns.items()))
+        for row in rows:
+            print(
+                "  ".join(
+                    f"{self._text(form, value):{left[key]}{widths[key]}}"
+                    for (key, (_, form)), value in zip(columns.items(), row)
+                )
+            )
+        print()
+        self._tables[name] = {
+            "columns": {key: title for key, (title, _) in columns.items()},
+            "rows": [dict(zip(columns, map(self._number, row))) for row in rows],
+        }
+
+    @staticmethod
+    def _text(form, value):
+        return "-" if isinstance(value, float) and math.isnan(value) else format(value, form)
+
+    @staticmethod
+    def _number(value):
+        """A value for JSON, which knows no NaN."""
+        return (
+            value
+            if isinstance(value, (str, int))
+            else float(value) if math.isfinite(value) else None
+        )
+
+    def counters(self, counters):
+        """Print and keep what a run has cost."""
+        kept = {
+            key: getattr(counters, key)
+            for key in ("steps", "evaluations", "rejected", "factorizations")
+        }
+        print("   ".join(f"{key} {value}" for key, value in kept.items()))
+        self._tables["counters"] = kept
+
+    def expect(self, name, value, limit):
+        """A check that value <= limit; what is not a number fails."""
+        ok = bool(value <= limit)
+        print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")
+        self._checks.append({"name": name, "value": self._number(value), "limit": limit, "ok": ok})
+
+    def end(self):
+        """Write the file. Returns the exit code."""
+        ok = all(check["ok"] for check in self._checks)
+        if self.options.json:
+            with open(self.options.json, "w", encoding="utf-8") as file:
+                json.dump({**self._tables, "checks": self._checks, "ok": ok}, file, indent=1)
+        return 0 if ok else 1
