@@ -187,13 +187,8 @@ static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
 
 static bool is_trusted(const baum_i_kkt *kkt)
 {
-  switch (kkt->present_rung) {
-  case RUNG_KEEP:
-  case RUNG_CHOOSE: return present_rcond(kkt) >= trusted_rcond;
-  case RUNG_CAREFUL: return present_rcond(kkt) >= least_rcond;
-  case RUNG_LAST: break;
-  }
-  return true;
+  bool is_careful = kkt->present_rung >= RUNG_CAREFUL;
+  return present_rcond(kkt) >= (is_careful ? least_rcond : trusted_rcond);
 }
 
 static baum_i_kkt_quality judge(const baum_i_kkt *kkt, baum_status status)

@@ -26,8 +26,8 @@
 static const double usual_root = 1.0;
 static const double careful_root = 0x1p-13;
 
-static const double usual_threshold =
-  0.001; /* of the diagonal against the largest entry of its column */
+/* How small a diagonal entry may be against the largest of its column to be the pivot. */
+static const double usual_threshold = 0.001;
 static const double careful_threshold = 1.0;
 
 typedef struct klu_backend {

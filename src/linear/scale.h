@@ -17,8 +17,8 @@
 void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           double *scale);
 
-/* weighted (nv + nc) = (root d, e / root): M is weighted by root^2 < 1, a power of four, against J, which stays as it is.
- * S would be divided by root^2; its rows get less than 1 / root where it would exceed one. */
+/* weighted (nv + nc) = (root d, e / root), so that D K D has M times root^2, J as it is, and S over root^2, but that
+ * rows in which S would exceed one get less than e / root. root is a power of two up to one. */
 void baum_i_scale_weigh(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                         const double *scale, double root, double *weighted);
 

@@ -408,6 +408,31 @@ static void values_near_the_ends_of_the_range_are_solved(void **state)
   }
 }
 
+static void values_beyond_the_range_of_scaling_are_solved_or_refused(void **state)
+{
+  (void)state;
+  const double sizes[] = {1e-300, 1e-200, 1e200, 1e300};
+  for (int k = 0; k < 16; k++) {
+    saddle system = make_pose(1, 1.0);
+    for (int i = 0; i < system.mass_count; i++) {
+      system.mass[i] *= sizes[k % 4];
+    }
+    for (int i = 0; i < system.jacobian_count; i++) {
+      system.jacobian[i] *= sizes[k / 4];
+    }
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    baum_status status = factor(kkt, &system);
+    status = status == BAUM_OK ? solve(kkt, &system) : status;
+    if (status == BAUM_OK && baum_i_kkt_get_quality(kkt) == BAUM_I_KKT_GOOD) {
+      assert_true(saddle_backward_error(&system) < 3e-14);
+    } else {
+      assert_true(status == BAUM_OK || status == BAUM_ERR_SINGULAR);
+    }
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
 /* ---- massless bodies ---- */
 
 static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
@@ -677,6 +702,7 @@ int main(void)
     cmocka_unit_test(the_unit_of_length_does_not_matter),
     cmocka_unit_test(masses_of_very_different_size_are_all_accurate),
     cmocka_unit_test(values_near_the_ends_of_the_range_are_solved),
+    cmocka_unit_test(values_beyond_the_range_of_scaling_are_solved_or_refused),
     cmocka_unit_test(a_body_without_mass_is_solved_where_joints_hold_it),
     cmocka_unit_test(scales_spread_along_bodies_without_mass),
     cmocka_unit_test(a_free_body_without_mass_is_singular_under_load),
