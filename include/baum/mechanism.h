@@ -139,7 +139,9 @@ BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, b
 /* ---- constraints given by functions -------------------------------------------------------------- */
 
 /** Constraints Phi(q, t) = 0 over the coordinates of the named bodies. Only phi is required. nv below is the
- *  number of velocities of the named bodies together. */
+ *  number of velocities of the named bodies together. Functions must hold everywhere, not only where Phi = 0.
+ *  Differences evaluate phi to both sides of q and t: missing nu within 0.006 and missing gamma within 0.05 units
+ *  of time of t, so that a law that begins at t = 0 must be defined a little before, or nu and gamma be given. */
 typedef struct baum_user_constraint_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -409,7 +411,10 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
                                              size_t caller_size);
 
 /** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v) with differences,
- *  at poses near the drawing. Runs by itself when a simulation is created.
+ *  in the drawn pose and at three poses and other times beside it. An entry is wrong when it is off by more than
+ *  1e-6 of itself and 1e-9 of its row. mass() must be symmetric, and constant where constant_mass says so. Kinks,
+ *  and poses that functions refuse, raise no alarm; an element that refuses all poses gives that failure.
+ *  Runs by itself when a simulation is created.
  *  @param[in] mechanism  frozen
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both values),
  *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE

@@ -158,7 +158,7 @@ static baum_status compare(const column *c, const baum_i_local *at)
   baum_i_local here = *at;
   trial t = take_trial(&here, c->field->size);
   double step = baum_i_first_step(c->stencil, c->ray);
-  for (int k = 0; k < c->stencil->steps; k++, step *= c->stencil->shrink) {
+  for (int k = 0; k < c->stencil->steps; k++) {
     here.point->retry = false;
     baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
     if (status != BAUM_OK && !here.point->retry) {
@@ -167,6 +167,7 @@ static baum_status compare(const column *c, const baum_i_local *at)
     if (status == BAUM_OK && weigh(c, &t, step)) {
       return BAUM_OK;
     }
+    step *= c->stencil->shrink;
   }
   return verdict(c, &here, &t);
 }

@@ -262,7 +262,7 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
   double step = baum_i_first_step(stencil, ray);
   baum_status status = BAUM_OK;
   bool any = false;
-  for (int k = 0; k < stencil->steps; k++, step *= stencil->shrink) {
+  for (int k = 0; k < stencil->steps; k++) {
     here.point->retry = false;
     status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
     /* A function that cannot be evaluated that far away may be near the edge of where it can. */
@@ -275,6 +275,7 @@ static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_fie
         break;
       }
     }
+    step *= stencil->shrink;
   }
   here.point->retry = !any;
   return any ? BAUM_OK : status;

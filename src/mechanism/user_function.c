@@ -177,8 +177,8 @@ baum_status baum_i_check_user_bodies(const baum_mechanism *mechanism, const baum
                                      int32_t body_count, const char *label)
 {
   baum_status status = baum_i_check_count(label, "body_count", body_count);
-  if (status == BAUM_OK) {
-    status = baum_i_check_given(label, "bodies", bodies != NULL);
+  if (status != BAUM_OK || !bodies) {
+    return status != BAUM_OK ? status : baum_i_check_given(label, "bodies", false);
   }
   for (int32_t k = 0; k < body_count && status == BAUM_OK; k++) {
     status = check_user_body(mechanism, bodies, k, label);
@@ -197,5 +197,7 @@ void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bod
 
 void baum_i_free_const(const void *copy)
 {
-  baum_i_free((void *)(uintptr_t)copy);
+  void *memory; /* const only for those who read it */
+  memcpy(&memory, &copy, sizeof memory);
+  baum_i_free(memory);
 }

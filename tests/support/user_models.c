@@ -48,19 +48,18 @@ static int circle_gamma(double t, const double *q, const double *v, double *out,
 }
 
 static void circle_blocks(const user_model *model, double t, const double *q, const double *v,
-                          const double *w, const double *lambda, double *jw_q, double *jtl_q,
-                          double *gamma_q, double *gamma_v, double *nu_q)
+                          const double *w, const double *lambda, user_blocks *out)
 {
   (void)model;
   (void)t;
   (void)q;
-  memset(jtl_q, 0, 4 * sizeof *jtl_q);
+  memset(out->jtl_q, 0, 4 * sizeof(double));
   for (int i = 0; i < 2; i++) {
-    jw_q[i] = 2.0 * w[i];
-    jtl_q[3 * i] = 2.0 * lambda[0];
-    gamma_q[i] = 0.0;
-    gamma_v[i] = -4.0 * v[i];
-    nu_q[i] = 0.0;
+    out->jw_q[i] = 2.0 * w[i];
+    out->jtl_q[3 * i] = 2.0 * lambda[0];
+    out->gamma_q[i] = 0.0;
+    out->gamma_v[i] = -4.0 * v[i];
+    out->nu_q[i] = 0.0;
   }
 }
 
@@ -146,23 +145,22 @@ static void loop_gamma_q(double l, const double *q, const double *v, double *gam
 }
 
 static void loop_blocks(const user_model *model, double t, const double *q, const double *v,
-                        const double *w, const double *lambda, double *jw_q, double *jtl_q,
-                        double *gamma_q, double *gamma_v, double *nu_q)
+                        const double *w, const double *lambda, user_blocks *out)
 {
   (void)t;
-  loop_jw_q(model->length, q, w, jw_q);
-  loop_jw_q(model->length, q, v, gamma_v);
-  loop_gamma_q(model->length, q, v, gamma_q);
-  memset(nu_q, 0, 6 * sizeof *nu_q);
+  loop_jw_q(model->length, q, w, out->jw_q);
+  loop_jw_q(model->length, q, v, out->gamma_v);
+  loop_gamma_q(model->length, q, v, out->gamma_q);
+  memset(out->nu_q, 0, 6 * sizeof(double));
   for (int i = 0; i < 6; i++) {
-    gamma_v[i] *= -2.0;
+    out->gamma_v[i] *= -2.0;
   }
   for (int j = 0; j < 3; j++) {
     const double unit[3] = {j == 0, j == 1, j == 2};
     double column[6];
     loop_jw_q(model->length, q, unit, column);
     for (int i = 0; i < 3; i++) {
-      jtl_q[3 * i + j] = lambda[0] * column[i] + lambda[1] * column[3 + i];
+      out->jtl_q[3 * i + j] = lambda[0] * column[i] + lambda[1] * column[3 + i];
     }
   }
 }
@@ -219,23 +217,22 @@ static int swing_gamma(double t, const double *q, const double *v, double *out, 
 }
 
 static void swing_blocks(const user_model *model, double t, const double *q, const double *v,
-                         const double *w, const double *lambda, double *jw_q, double *jtl_q,
-                         double *gamma_q, double *gamma_v, double *nu_q)
+                         const double *w, const double *lambda, user_blocks *out)
 {
   double l = model->length;
   double rate = model->rate;
   double s = sin(rate * t);
   double c = cos(rate * t);
-  memset(jtl_q, 0, 4 * sizeof *jtl_q);
-  jw_q[0] = 0.0;
-  jw_q[1] = 2.0 * c * w[1] / l;
-  jtl_q[3] = 2.0 * c * lambda[0] / l;
-  gamma_q[0] = rate * rate * s;
-  gamma_q[1] = 4.0 * rate * s * v[1] / l + 2.0 * rate * rate * q[1] * c / l;
-  gamma_v[0] = -2.0 * rate * c;
-  gamma_v[1] = -4.0 * c * v[1] / l + 4.0 * rate * q[1] * s / l;
-  nu_q[0] = -rate * c;
-  nu_q[1] = 2.0 * rate * q[1] * s / l;
+  memset(out->jtl_q, 0, 4 * sizeof(double));
+  out->jw_q[0] = 0.0;
+  out->jw_q[1] = 2.0 * c * w[1] / l;
+  out->jtl_q[3] = 2.0 * c * lambda[0] / l;
+  out->gamma_q[0] = rate * rate * s;
+  out->gamma_q[1] = 4.0 * rate * s * v[1] / l + 2.0 * rate * rate * q[1] * c / l;
+  out->gamma_v[0] = -2.0 * rate * c;
+  out->gamma_v[1] = -4.0 * c * v[1] / l + 4.0 * rate * q[1] * s / l;
+  out->nu_q[0] = -rate * c;
+  out->nu_q[1] = 2.0 * rate * q[1] * s / l;
 }
 
 const user_kind user_swing = {.name = "swing",

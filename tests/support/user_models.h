@@ -20,6 +20,15 @@ typedef struct user_model {
 /* Which derivatives of a constraint are given. */
 enum { GIVE_NOTHING = 0, GIVE_JACOBIAN = 1, GIVE_NU = 2, GIVE_GAMMA = 4, GIVE_ALL = 7 };
 
+/* Second derivatives as in baum_i_joint_blocks. */
+typedef struct user_blocks {
+  double jw_q[9];
+  double jtl_q[9];
+  double gamma_q[9];
+  double gamma_v[9];
+  double nu_q[9];
+} user_blocks;
+
 typedef struct user_kind {
   const char *name;
   int size; /* coordinates */
@@ -29,10 +38,8 @@ typedef struct user_kind {
   baum_q_fn *jacobian;
   baum_q_fn *nu;
   baum_qv_fn *gamma;
-  /* Second derivatives as in baum_i_joint_blocks, for w and lambda. */
   void (*blocks)(const user_model *model, double t, const double *q, const double *v,
-                 const double *w, const double *lambda, double *jw_q, double *jtl_q,
-                 double *gamma_q, double *gamma_v, double *nu_q);
+                 const double *w, const double *lambda, user_blocks *out);
 } user_kind;
 
 extern const user_kind user_circle;

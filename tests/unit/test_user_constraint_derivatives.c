@@ -233,24 +233,15 @@ static void blocks_of_what_is_given_agree_with_differences(void **state)
   }
 }
 
-typedef struct second {
-  double jw_q[9];
-  double jtl_q[9];
-  double gamma_q[9];
-  double gamma_v[9];
-  double nu_q[9];
-} second;
-
 static void check_blocks(pair *s, double tolerance)
 {
   const double w[3] = {1.3, -0.4, 0.7};
   const double lambda[2] = {2.0, -3.0};
-  second got;
-  second want;
+  user_blocks got;
+  user_blocks want;
   baum_i_joint_blocks blocks = {got.jw_q, got.jtl_q, got.gamma_q, got.gamma_v, got.nu_q};
   assert_int_equal(baum_i_mechanism_linearize_joints(&s->got.point, w, lambda, &blocks), BAUM_OK);
-  s->kind->blocks(&s->model, s->got.t, s->got.q, s->got.v, w, lambda, want.jw_q, want.jtl_q,
-                  want.gamma_q, want.gamma_v, want.nu_q);
+  s->kind->blocks(&s->model, s->got.t, s->got.q, s->got.v, w, lambda, &want);
   int rows = s->got.nc * s->got.nv;
   compare(got.jw_q, want.jw_q, rows, tolerance);
   compare(got.jtl_q, want.jtl_q, s->got.nv * s->got.nv, tolerance);
@@ -310,6 +301,55 @@ static void a_block_that_is_not_wanted_is_not_written(void **state)
   close_pair(&s);
 }
 
+/* ---- size ---- */
+
+enum { WIDE = 12 };
+
+/* Rows of sines of sums over all coordinates; `user` is the number of rows. */
+static int wide_phi(double t, const double *q, double *out, void *user)
+{
+  int rows = *(int *)user;
+  for (int i = 0; i < rows; i++) {
+    double sum = 0.1 * i * t;
+    for (int j = 0; j < WIDE; j++) {
+      sum += q[j] / (1.0 + i + j);
+    }
+    out[i] = sin(sum);
+  }
+  return 0;
+}
+
+/* Memory is asserted inside; what is missing needs most of it. */
+static void scratch_memory_is_enough_for_wide_and_for_tall_constraints(void **state)
+{
+  (void)state;
+  const double q[3] = {0.1, 0.2, 0.3};
+  for (int rows = 1; rows <= TEST_SIZE_MAX; rows += TEST_SIZE_MAX - 1) {
+    baum_mechanism *mechanism;
+    assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+    baum_body_id bodies[4];
+    for (int i = 0; i < 4; i++) {
+      bodies[i] = user_add_coordinates(mechanism, 3, q, 1.0);
+    }
+    baum_user_constraint_def def = baum_user_constraint_def_default();
+    def.bodies = bodies;
+    def.body_count = 4;
+    def.row_count = rows;
+    def.phi = wide_phi;
+    def.user = &rows;
+    assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &def, NULL), BAUM_OK);
+    test_point p;
+    test_point_open(&p, mechanism);
+    uint64_t seed = 14;
+    test_point_random(&p, &seed);
+    double blocks[5][TEST_SIZE_MAX * TEST_SIZE_MAX];
+    baum_i_joint_blocks all = {blocks[0], blocks[1], blocks[2], blocks[3], blocks[4]};
+    assert_int_equal(baum_i_mechanism_linearize_joints(&p.point, p.v, p.v, &all), BAUM_OK);
+    assert_int_equal(baum_mechanism_check_derivatives(mechanism), BAUM_OK);
+    test_point_close(&p);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -326,6 +366,7 @@ int main(void)
     cmocka_unit_test(blocks_from_a_jacobian_are_good_to_nine_digits),
     cmocka_unit_test(blocks_from_everything_given_are_good_to_eleven_digits),
     cmocka_unit_test(a_block_that_is_not_wanted_is_not_written),
+    cmocka_unit_test(scratch_memory_is_enough_for_wide_and_for_tall_constraints),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
