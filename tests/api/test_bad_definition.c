@@ -1,0 +1,441 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Definitions, ids and mechanisms that are refused, with the sentence, and nothing changed. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "every_element.h"
+#include "sentence.h"
+
+static const any_id SENTINEL = {77, 88};
+
+enum { PARTS_SIZE = 160 };
+
+/* How many elements there are, seen from outside: a frozen copy is sized. */
+static void check_size(const baum_mechanism *mechanism, int nv, int nc)
+{
+  baum_mechanism *copy = NULL;
+  int32_t found[2] = {0, 0};
+  assert_int_equal(baum_mechanism_copy(mechanism, &copy), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(copy), BAUM_OK);
+  assert_int_equal(baum_mechanism_sizes(copy, NULL, &found[0], &found[1]), BAUM_OK);
+  assert_int_equal(found[0], nv);
+  assert_int_equal(found[1], nc);
+  baum_mechanism_destroy(copy);
+}
+
+/* Refused by add, with the id as it was, and by set, with the definition as it was. */
+static void check_refused(every_element *parts, const element_kind *kind, const any_def *def,
+                          baum_status want, const char *sentence)
+{
+  any_id id = SENTINEL;
+  ASSERT_SAYS(kind->add(parts->mechanism, def, &id), want, sentence);
+  assert_memory_equal(&id, &SENTINEL, sizeof id);
+  any_id present = every_element_id(parts, kind);
+  any_def before;
+  any_def after;
+  assert_int_equal(kind->get(parts->mechanism, present, &before, kind->size), BAUM_OK);
+  ASSERT_SAYS(kind->set(parts->mechanism, present, def), want, sentence);
+  assert_int_equal(kind->get(parts->mechanism, present, &after, kind->size), BAUM_OK);
+  assert_memory_equal(&before, &after, kind->size);
+}
+
+typedef void kind_check(every_element *parts, const element_kind *kind);
+
+/* The check for each kind on one open mechanism, which is the same afterwards. */
+static void for_every_kind(kind_check *check)
+{
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  for (int k = 0; k < ELEMENT_KINDS; k++) {
+    check(&parts, &element_kinds[k]);
+  }
+  check_size(parts.mechanism, EVERY_NV, EVERY_NC);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- struct_size ---- */
+
+static void check_struct_sizes(every_element *parts, const element_kind *kind)
+{
+  const size_t sizes[] = {0, 1, kind->size - 1, kind->size + 1, 4 * kind->size, SIZE_MAX};
+  any_def def;
+  kind->good(parts, &def);
+  for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+    char sentence[PARTS_SIZE];
+    (void)snprintf(sentence, sizeof sentence, "%s: struct_size is %zu|must be %zu|default",
+                   kind->title, sizes[k], kind->size);
+    def.head.struct_size = sizes[k];
+    check_refused(parts, kind, &def, BAUM_ERR_STRUCT, sentence);
+  }
+}
+
+static void a_wrong_struct_size_is_refused(void **state)
+{
+  (void)state;
+  for_every_kind(check_struct_sizes);
+}
+
+/* ---- NULL ---- */
+
+static void check_nulls(every_element *parts, const element_kind *kind)
+{
+  char mechanism_sentence[PARTS_SIZE];
+  char def_sentence[PARTS_SIZE];
+  (void)snprintf(mechanism_sentence, PARTS_SIZE, "%s: the mechanism is NULL", kind->title);
+  (void)snprintf(def_sentence, PARTS_SIZE, "%s: the definition is NULL", kind->title);
+  any_def def;
+  any_id id = SENTINEL;
+  any_id present = every_element_id(parts, kind);
+  kind->good(parts, &def);
+  ASSERT_SAYS(kind->add(NULL, &def, &id), BAUM_ERR_ARGUMENT, mechanism_sentence);
+  ASSERT_SAYS(kind->add(parts->mechanism, NULL, &id), BAUM_ERR_ARGUMENT, def_sentence);
+  assert_memory_equal(&id, &SENTINEL, sizeof id);
+  ASSERT_SAYS(kind->set(NULL, present, &def), BAUM_ERR_ARGUMENT, mechanism_sentence);
+  ASSERT_SAYS(kind->set(parts->mechanism, present, NULL), BAUM_ERR_ARGUMENT, def_sentence);
+  ASSERT_SAYS(kind->get(NULL, present, &def, kind->size), BAUM_ERR_ARGUMENT, mechanism_sentence);
+  ASSERT_SAYS(kind->get(parts->mechanism, present, NULL, kind->size), BAUM_ERR_ARGUMENT,
+              "out is NULL");
+  ASSERT_SAYS(kind->get(parts->mechanism, present, &def, 0), BAUM_ERR_ARGUMENT, "size is 0");
+}
+
+static void null_is_refused_by_add_get_and_set(void **state)
+{
+  (void)state;
+  for_every_kind(check_nulls);
+}
+
+/* ---- numbers ---- */
+
+/* A name as in sentences: body 1 "crank". */
+static void check_number(every_element *parts, const element_kind *kind, const element_field *field,
+                         size_t i, double bad)
+{
+  any_def def;
+  kind->good(parts, &def);
+  double values[2] = {0.0, 0.0};
+  values[i] = bad;
+  memcpy(def.bytes + field->offset, values, field->size);
+  char sentence[PARTS_SIZE];
+  (void)snprintf(sentence, sizeof sentence, "%s|\"%s\"|%s|%g|must be", kind->family, def.head.name,
+                 field->name, bad);
+  check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, sentence);
+}
+
+static bool begins(const char *text, const char *with)
+{
+  return strncmp(text, with, strlen(with)) == 0;
+}
+
+/* NaN says "not given" in these. */
+static bool may_be_nan(const char *name)
+{
+  return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
+         begins(name, "free_length") || strcmp(name, "angle") == 0;
+}
+
+static void check_not_finite(every_element *parts, const element_kind *kind)
+{
+  for (int k = 0; k < kind->field_count; k++) {
+    const element_field *field = &kind->fields[k];
+    bool nan_is_fine = may_be_nan(field->name) && kind != &element_kinds[0];
+    nan_is_fine = nan_is_fine || begins(field->name, "velocity") ||
+                  begins(field->name, "angular_velocity") || begins(field->name, "point");
+    for (size_t i = 0; field->type == FIELD_NUMBERS && i < field->size / sizeof(double); i++) {
+      check_number(parts, kind, field, i, (double)INFINITY);
+      check_number(parts, kind, field, i, -(double)INFINITY);
+      if (!nan_is_fine) {
+        check_number(parts, kind, field, i, (double)NAN);
+      }
+    }
+  }
+}
+
+static void numbers_that_are_not_finite_are_refused(void **state)
+{
+  (void)state;
+  for_every_kind(check_not_finite);
+}
+
+static void masses_inertias_and_lengths_out_of_range_are_refused(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  static const struct {
+    int kind;
+    const char *field;
+    double value;
+    const char *sentence;
+  } bad[] = {
+    {0, "mass", -2.0, "\"crank\": mass is -2 kg, must be finite and > 0"},
+    {0, "mass", 0.0, "\"crank\": mass is 0 kg, must be finite and > 0"},
+    {0, "inertia", 0.0, "\"crank\": inertia is 0 kg m^2, must be finite and > 0"},
+    {0, "inertia", -1e-9, "\"crank\": inertia is -1e-09 kg m^2, must be finite and > 0"},
+    {1, "mass", -0.5, "\"bob\": mass is -0.5 kg, must be finite and > 0"},
+    {4, "length", 0.0, "\"rod\": length is 0 m, must be finite and > 0"},
+    {4, "length", -1.0, "\"rod\": length is -1 m, must be finite and > 0"},
+    {9, "stiffness", -3.0, "\"spring\": stiffness is -3 N/m, must be finite and >= 0"},
+    {9, "damping", -1.0, "\"spring\": damping is -1 N s/m, must be finite and >= 0"},
+    {9, "free_length", -1.0, "\"spring\": free_length is -1 m, must be finite and >= 0"},
+  };
+  for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+    const element_kind *kind = &element_kinds[bad[k].kind];
+    any_def def;
+    kind->good(&parts, &def);
+    for (int f = 0; f < kind->field_count; f++) {
+      if (strcmp(kind->fields[f].name, bad[k].field) == 0) {
+        memcpy(def.bytes + kind->fields[f].offset, &bad[k].value, sizeof(double));
+      }
+    }
+    check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, bad[k].sentence);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- ids ---- */
+
+static void check_ids(every_element *parts, const element_kind *kind)
+{
+  for (int k = 0; k < kind->field_count; k++) {
+    const element_field *field = &kind->fields[k];
+    if (field->type != FIELD_ID) {
+      continue;
+    }
+    any_def def;
+    char sentence[PARTS_SIZE];
+    kind->good(parts, &def);
+    any_id good;
+    memcpy(&good, def.bytes + field->offset, sizeof good);
+    uint32_t tag = parts->crank.tag;
+    const any_id bad[] = {{0, 0}, {0, tag}, {1, tag + 1}, {1, 0}, {99, tag}, {-1, tag}, {-7, 0}};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+      memcpy(def.bytes + field->offset, &bad[i], sizeof bad[i]);
+      (void)snprintf(sentence, sizeof sentence, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
+                     field->name,
+                     bad[i].index1 == 0 ? "none, must be given" : "not of this mechanism");
+      check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, sentence);
+    }
+  }
+}
+
+static void none_and_foreign_ids_in_definitions_are_refused(void **state)
+{
+  (void)state;
+  for_every_kind(check_ids);
+}
+
+static void check_own_id(every_element *parts, const element_kind *kind)
+{
+  any_def def;
+  any_def got;
+  kind->good(parts, &def);
+  any_id good = every_element_id(parts, kind);
+  const any_id bad[] = {{0, 0}, {good.index1, good.tag + 1}, {99, good.tag}, {-1, 0}};
+  int count = strcmp(kind->family, "body") == 0 ? 4 : 3;
+  memset(&got, 0x5A, sizeof got);
+  for (int i = 0; i < count; i++) {
+    ASSERT_SAYS(kind->get(parts->mechanism, bad[i], &got, kind->size), BAUM_ERR_ARGUMENT,
+                kind->title);
+    ASSERT_SAYS(kind->set(parts->mechanism, bad[i], &def), BAUM_ERR_ARGUMENT, kind->title);
+    assert_int_equal(got.bytes[0], 0x5A);
+  }
+}
+
+static void none_foreign_and_ground_ids_have_no_definition(void **state)
+{
+  (void)state;
+  for_every_kind(check_own_id);
+}
+
+/* An id of the same family but of another kind. */
+static void check_other_kind(every_element *parts, const element_kind *kind)
+{
+  for (int k = 0; k < ELEMENT_KINDS; k++) {
+    const element_kind *other = &element_kinds[k];
+    if (other == kind || strcmp(other->family, kind->family) != 0) {
+      continue;
+    }
+    any_def def;
+    char sentence[PARTS_SIZE];
+    (void)snprintf(sentence, sizeof sentence, "is a %s, not a %s", other->title, kind->title);
+    any_id id = every_element_id(parts, other);
+    ASSERT_SAYS(kind->get(parts->mechanism, id, &def, kind->size), BAUM_ERR_ARGUMENT, sentence);
+    kind->good(parts, &def);
+    ASSERT_SAYS(kind->set(parts->mechanism, id, &def), BAUM_ERR_ARGUMENT, sentence);
+  }
+}
+
+static void ids_of_another_kind_of_element_are_refused(void **state)
+{
+  (void)state;
+  for_every_kind(check_other_kind);
+}
+
+static void a_joint_of_a_body_to_itself_is_refused(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  for (int k = 3; k <= 9; k++) {
+    const element_kind *kind = &element_kinds[k];
+    const element_field *b = &kind->fields[3];
+    if (strcmp(b->name, "body_b") != 0) {
+      continue;
+    }
+    any_def def;
+    kind->good(&parts, &def);
+    memcpy(def.bytes + kind->fields[2].offset, &parts.crank, sizeof parts.crank);
+    memcpy(def.bytes + b->offset, &parts.crank, sizeof parts.crank);
+    check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT,
+                  "body_a and body_b are both body 1 \"crank\"");
+    memcpy(def.bytes + kind->fields[2].offset, &BAUM_GROUND, sizeof BAUM_GROUND);
+    memcpy(def.bytes + b->offset, &BAUM_GROUND, sizeof BAUM_GROUND);
+    check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, "body_a and body_b are both ground");
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void ids_stay_valid_in_copies_and_only_there(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  every_element others = every_element_make(NULL);
+  baum_mechanism *copy = NULL;
+  assert_int_equal(baum_mechanism_copy(parts.mechanism, &copy), BAUM_OK);
+  assert_string_equal(baum_mechanism_body_name(copy, parts.crank), "crank");
+  assert_string_equal(baum_mechanism_joint_name(copy, parts.rod), "rod");
+  assert_null(baum_mechanism_body_name(copy, others.crank));
+  assert_null(baum_mechanism_joint_name(others.mechanism, parts.rod));
+  ASSERT_SAYS(baum_mechanism_rows(parts.mechanism, others.rod, NULL, NULL), BAUM_ERR_ARGUMENT,
+              "baum_mechanism_rows: joint is not of this mechanism");
+  ASSERT_SAYS(baum_mechanism_columns(parts.mechanism, others.crank, NULL, NULL), BAUM_ERR_ARGUMENT,
+              "baum_mechanism_columns: body is not of this mechanism");
+  ASSERT_SAYS(baum_mechanism_columns(parts.mechanism, BAUM_GROUND, NULL, NULL), BAUM_ERR_ARGUMENT,
+              "ground has no coordinates");
+  baum_mechanism_destroy(parts.mechanism);
+  assert_string_equal(baum_mechanism_body_name(copy, parts.bob), "bob");
+  baum_mechanism_destroy(copy);
+  baum_mechanism_destroy(others.mechanism);
+}
+
+/* ---- ties ---- */
+
+static void what_an_element_is_tied_to_must_stay(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  baum_planar_revolute_def pin;
+  any_id id = every_element_id(&parts, &element_kinds[3]);
+  baum_joint_id joint = {id.index1, id.tag};
+  assert_int_equal(baum_mechanism_get_planar_revolute(parts.mechanism, joint, &pin, sizeof pin),
+                   BAUM_OK);
+  pin.body_b = parts.tool;
+  ASSERT_SAYS(baum_mechanism_set_planar_revolute(parts.mechanism, joint, &pin), BAUM_ERR_ARGUMENT,
+              "\"pin\": its bodies must stay");
+  baum_coordinates_def masses;
+  assert_int_equal(
+    baum_mechanism_get_coordinates(parts.mechanism, parts.masses, &masses, sizeof masses), BAUM_OK);
+  masses.size = 1;
+  ASSERT_SAYS(baum_mechanism_set_coordinates(parts.mechanism, parts.masses, &masses),
+              BAUM_ERR_ARGUMENT, "\"masses\": its size is 2 and must stay");
+  check_size(parts.mechanism, EVERY_NV, EVERY_NC);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- frozen ---- */
+
+static void nothing_is_added_or_set_after_freeze(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  for (int k = 0; k < ELEMENT_KINDS; k++) {
+    char sentence[PARTS_SIZE];
+    any_def def;
+    const element_kind *kind = &element_kinds[k];
+    kind->good(&parts, &def);
+    (void)snprintf(sentence, sizeof sentence, "%s: the mechanism is frozen; change a copy of it",
+                   kind->title);
+    check_refused(&parts, kind, &def, BAUM_ERR_STATE, sentence);
+  }
+  ASSERT_SAYS(baum_mechanism_set_gravity(parts.mechanism, 0.0, 0.0, 0.0), BAUM_ERR_STATE,
+              "baum_mechanism_set_gravity: the mechanism is frozen");
+  ASSERT_SAYS(baum_mechanism_set_scale(parts.mechanism, 1.0), BAUM_ERR_STATE,
+              "baum_mechanism_set_scale: the mechanism is frozen");
+  assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
+  check_size(parts.mechanism, EVERY_NV, EVERY_NC);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void gravity_and_scale_out_of_range_are_refused(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  double gravity[3];
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  ASSERT_SAYS(baum_mechanism_set_gravity(mechanism, 0.0, (double)NAN, 0.0), BAUM_ERR_ARGUMENT,
+              "gravity is (0, nan, 0) m/s^2, must be finite");
+  assert_int_equal(baum_mechanism_get_gravity(mechanism, gravity), BAUM_OK);
+  assert_true(gravity[1] == -9.81);
+  const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
+  for (int k = 0; k < 4; k++) {
+    ASSERT_SAYS(baum_mechanism_set_scale(mechanism, bad[k]), BAUM_ERR_ARGUMENT,
+                "length scale is | m, must be finite and > 0");
+  }
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_STATE, "the mechanism has no body");
+  assert_false(baum_mechanism_is_frozen(mechanism));
+  baum_mechanism_destroy(mechanism);
+}
+
+/* What only freezing can see: the other definitions it depends on. */
+static void freezing_refuses_points_that_do_not_fit(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_particle_def bead = baum_planar_particle_def_default();
+  baum_body_id id;
+  bead.name = "bead";
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bead, &id), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.name = "pin";
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = id;
+  pin.point[0] = 1.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, NULL), BAUM_OK);
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
+              "joint 1 \"pin\"|point is (1, 0) m|\"bead\"|(0, 0) m");
+  assert_false(baum_mechanism_is_frozen(mechanism));
+  bead.position[0] = 1.0;
+  assert_int_equal(baum_mechanism_set_planar_particle(mechanism, id, &bead), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_mechanism_destroy(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_wrong_struct_size_is_refused),
+    cmocka_unit_test(null_is_refused_by_add_get_and_set),
+    cmocka_unit_test(numbers_that_are_not_finite_are_refused),
+    cmocka_unit_test(masses_inertias_and_lengths_out_of_range_are_refused),
+    cmocka_unit_test(none_and_foreign_ids_in_definitions_are_refused),
+    cmocka_unit_test(none_foreign_and_ground_ids_have_no_definition),
+    cmocka_unit_test(ids_of_another_kind_of_element_are_refused),
+    cmocka_unit_test(a_joint_of_a_body_to_itself_is_refused),
+    cmocka_unit_test(ids_stay_valid_in_copies_and_only_there),
+    cmocka_unit_test(what_an_element_is_tied_to_must_stay),
+    cmocka_unit_test(nothing_is_added_or_set_after_freeze),
+    cmocka_unit_test(gravity_and_scale_out_of_range_are_refused),
+    cmocka_unit_test(freezing_refuses_points_that_do_not_fit),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
