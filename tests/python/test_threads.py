@@ -148,6 +148,7 @@ from mechanisms import *
 
 {setup}
 try:
+    print("ready", flush=True)
     {call}
     print("came to its end")
 except KeyboardInterrupt:
@@ -183,19 +184,14 @@ class Interrupted(unittest.TestCase):
     def test_a_long_run_without_python_functions(self):
         self.assertEqual(
             "interrupted True",
-            self.interrupt(
-                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
-                "s.advance_to(1e9)",
-            ),
+            self.interrupt('s = rod_pendulum().simulation("rk4", step=1e-3)', "s.advance_to(1e9)"),
         )
 
     def test_many_steps(self):
         self.assertEqual(
             "interrupted True",
             self.interrupt(
-                's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10)\n'
-                'print("ready", flush=True)',
-                "s.step(10**10)",
+                's = rod_pendulum().simulation("rk4", step=1e-3); s.step(10)', "s.step(10**10)"
             ),
         )
 
@@ -203,35 +199,27 @@ class Interrupted(unittest.TestCase):
         self.assertEqual(
             "interrupted True",
             self.interrupt(
-                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
-                "while True: s.step(10)",
+                's = rod_pendulum().simulation("rk4", step=1e-3)', "while True: s.step(10)"
             ),
         )
 
     def test_sampling(self):
         self.assertEqual(
             "interrupted",
-            self.interrupt(
-                'm = rod_pendulum(); print("ready", flush=True)',
-                'm.simulate([1e9], "rk4", step=1e-3)',
-                '""',
-            ),
+            self.interrupt("m = rod_pendulum()", 'm.simulate([1e9], "rk4", step=1e-3)', '""'),
         )
 
     def test_python_functions(self):
         self.assertEqual(
             "interrupted True",
-            self.interrupt(
-                's = pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
-                "s.advance_to(1e9)",
-            ),
+            self.interrupt('s = pendulum().simulation("rk4", step=1e-3)', "s.advance_to(1e9)"),
         )
 
     def test_the_run_can_go_on(self):
         self.assertEqual(
             "interrupted Status OK",
             self.interrupt(
-                's = rod_pendulum().simulation("rk4", step=1e-3); print("ready", flush=True)',
+                's = rod_pendulum().simulation("rk4", step=1e-3)',
                 "s.advance_to(1e9)",
                 '"Status", s.advance_to(s.time + 1)',
             ),
@@ -246,8 +234,7 @@ def phi(t, q):
 
 armed = []
 s = pendulum(phi).simulation("rk4", step=1e-3)
-armed.append(True)
-print("ready", flush=True)"""
+armed.append(True)"""
         after = 'rod_pendulum().simulate([1.0], "rk4", step=1e-3).t[-1], bool(s._owner._users)'
         self.assertEqual(
             "interrupted 1.0 True", self.interrupt(setup, "s.advance_to(1.0)", after, times=2)
