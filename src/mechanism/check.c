@@ -5,10 +5,11 @@
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * at one of them; the second part is what rounding may do to an entry that is small beside the others of its row. It is
- * wrong when it never is, and the best d, and one more, differ from it by more than d's own error as well: 20 times the
- * disagreement of the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where the
- * function has a derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at any step.
+ * at one of them; the second part is what rounding may do to an entry that is small beside the others of its row. It
+ * is wrong when it never is, and the best d, and one more, differ from it by more than d's own error as well: 20 times
+ * the disagreement of the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where
+ * the function has a derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at
+ * any step.
  *
  * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is not zero there:
  * derivatives must be those of the function, not only where the constraint is met. A pose that a function of an element
