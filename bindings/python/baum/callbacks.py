@@ -133,10 +133,9 @@ def _shell_law(function, write, nq, nv):
 
 def _answer(error):
     """What the library is told about an exception."""
-    if isinstance(error, Retry):
-        return RETRY
-    _calls.raise_later(error)
-    return STOP
+    asks_again = isinstance(error, Retry)
+    _calls.raise_later(None if asks_again else error)
+    return RETRY if asks_again else STOP
 
 
 SHELLS = {
