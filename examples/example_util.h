@@ -1,0 +1,288 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the examples share. Not a part of the library.
+ *
+ *   example_begin()   reads the command line: [--json FILE] [--data FILE]
+ *   CHECK()           ends the program with the library's sentence when a call fails
+ *   example_table()   begins a table; its cells follow row by row
+ *   example_expect()  a check, which decides the exit code; checks come after all tables
+ *   example_end()     closes the files and gives the exit code
+ *
+ * A table goes to the screen, to the JSON file as  "name": {"columns": {key: title}, "rows": [{key: value}]},
+ * and to the data file as a block that gnuplot finds with  index "name".
+ */
+#ifndef EXAMPLE_UTIL_H
+#define EXAMPLE_UTIL_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <baum/baum.h>
+
+enum { EXAMPLE_SKIPPED = 77 };
+
+/* One column. The key stays as it is for programs that read the JSON; the title is for people. */
+typedef struct example_column {
+  const char *key;
+  const char *title;
+  char format; /* 's' text, 'd' whole number, 'f' fixed point, 'e' exponent */
+  int digits;  /* after the point; least width of a text */
+} example_column;
+
+static struct {
+  const char *name;
+  FILE *json;
+  FILE *data;
+  const example_column *columns;
+  int column_count;
+  int column; /* of the next cell */
+  bool shown; /* on the screen too */
+  long rows;
+  int checks;
+  int failures;
+} example;
+
+/* ---- Statuses ------------------------------------------------------------- */
+
+#define CHECK(call) example_check((call), #call, __FILE__, __LINE__)
+
+static inline void example_check(baum_status status, const char *call, const char *file, int line)
+{
+  if (status >= BAUM_WARNED) {
+    printf("note   %s\n", baum_message());
+  } else if (status != BAUM_OK) {
+    (void)fprintf(stderr, "%s:%d: %s\n%s: %s\n", file, line, call, baum_status_name(status),
+                  baum_message());
+    exit(EXIT_FAILURE);
+  }
+}
+
+/* ---- Begin ---------------------------------------------------------------- */
+
+static inline FILE *example_open(const char *path)
+{
+  FILE *file = fopen(path, "w");
+  if (!file) {
+    perror(path);
+    exit(EXIT_FAILURE);
+  }
+  return file;
+}
+
+static inline void example_begin(int argc, char **argv, const char *name)
+{
+  example.name = name;
+  for (int k = 1; k < argc; k += 2) {
+    if (k + 1 < argc && strcmp(argv[k], "--json") == 0) {
+      example.json = example_open(argv[k + 1]);
+    } else if (k + 1 < argc && strcmp(argv[k], "--data") == 0) {
+      example.data = example_open(argv[k + 1]);
+    } else {
+      (void)fprintf(stderr, "usage: %s [--json FILE] [--data FILE]\n", name);
+      exit(EXIT_FAILURE);
+    }
+  }
+  if (example.json) {
+    (void)fprintf(example.json, "{\"example\": \"%s\", \"version\": \"%s\"", name, baum_version());
+  }
+}
+
+/* Ends the program when a part of the library is not built in. */
+static inline void example_needs(const char *feature)
+{
+  if (!baum_has(feature)) {
+    printf("%s: skipped, this library is built without %s\n", example.name, feature);
+    exit(EXAMPLE_SKIPPED);
+  }
+}
+
+/* ---- Tables --------------------------------------------------------------- */
+
+static inline int example_width(const example_column *column)
+{
+  int title = (int)strlen(column->title);
+  int value = column->format == 'e'   ? column->digits + 7
+              : column->format == 'f' ? column->digits + 5
+                                      : column->digits;
+  return title > value ? title : value;
+}
+
+static inline void example_close_table(void)
+{
+  if (example.columns && example.json) {
+    (void)fprintf(example.json, "\n]}");
+  }
+  if (example.columns && example.data) {
+    (void)fprintf(example.data, "\n\n");
+  }
+  example.columns = NULL;
+}
+
+/* Begins a table; one that is not shown goes to the files only. */
+static inline void example_table(const char *name, const example_column *columns, int count,
+                                 bool shown)
+{
+  example_close_table();
+  example.columns = columns;
+  example.column_count = count;
+  example.column = 0;
+  example.rows = 0;
+  example.shown = shown;
+  if (example.data) {
+    (void)fprintf(example.data, "# %s\n", name);
+  }
+  if (example.json) {
+    (void)fprintf(example.json, ",\n\"%s\": {\"columns\": {", name);
+  }
+  for (int k = 0; k < count; k++) {
+    if (shown) {
+      int width = example_width(&columns[k]);
+      printf("%s%*s", k ? "  " : "", columns[k].format == 's' ? -width : width, columns[k].title);
+    }
+    if (example.data) {
+      (void)fprintf(example.data, "%s\"%s\"", k ? " " : "", columns[k].title);
+    }
+    if (example.json) {
+      (void)fprintf(example.json, "%s\"%s\": \"%s\"", k ? ", " : "", columns[k].key,
+                    columns[k].title);
+    }
+  }
+  if (shown) {
+    printf("\n");
+  }
+  if (example.data) {
+    (void)fprintf(example.data, "\n");
+  }
+  if (example.json) {
+    (void)fprintf(example.json, "}, \"rows\": [");
+  }
+}
+
+/* Opens the next cell in the files: what comes between it and the one before. */
+static inline const example_column *example_next_cell(void)
+{
+  const example_column *column = &example.columns[example.column];
+  bool first = example.column == 0;
+  if (example.json) {
+    const char *gap = !first ? ", " : example.rows > 0 ? ",\n  {" : "\n  {";
+    (void)fprintf(example.json, "%s\"%s\": ", gap, column->key);
+  }
+  example.rows += first;
+  if (example.data && !first) {
+    (void)fprintf(example.data, " ");
+  }
+  if (example.shown && !first) {
+    printf("  ");
+  }
+  example.column = (example.column + 1) % example.column_count;
+  return column;
+}
+
+static inline void example_close_cell(void)
+{
+  if (example.column > 0) {
+    return;
+  }
+  if (example.json) {
+    (void)fprintf(example.json, "}");
+  }
+  if (example.data) {
+    (void)fprintf(example.data, "\n");
+  }
+  if (example.shown) {
+    printf("\n");
+  }
+}
+
+/* The next cell of a row. */
+static inline void example_text(const char *text)
+{
+  const example_column *column = example_next_cell();
+  if (example.json) {
+    (void)fprintf(example.json, "\"%s\"", text);
+  }
+  if (example.data) {
+    (void)fprintf(example.data, "\"%s\"", text);
+  }
+  if (example.shown) {
+    printf("%-*s", example_width(column), text);
+  }
+  example_close_cell();
+}
+
+/* The next cell of a row. What is not a number is shown as a dash, null in JSON, NaN for gnuplot. */
+static inline void example_number(double value)
+{
+  const example_column *column = example_next_cell();
+  if (example.json) {
+    (void)fprintf(example.json, isfinite(value) ? "%.17g" : "null", value);
+  }
+  if (example.data) {
+    (void)fprintf(example.data, isfinite(value) ? "%.17g" : "NaN", value);
+  }
+  if (example.shown) {
+    int width = example_width(column);
+    if (!isfinite(value)) {
+      printf("%*s", width, "-");
+    } else if (column->format == 'e') {
+      printf("%*.*e", width, column->digits, value);
+    } else {
+      printf("%*.*f", width, column->format == 'd' ? 0 : column->digits, value);
+    }
+  }
+  example_close_cell();
+}
+
+/* One line of what a run has cost, also as "counters" in the JSON. */
+static inline void example_counters(baum_simulation *simulation)
+{
+  baum_counters c;
+  CHECK(baum_simulation_counters(simulation, &c, sizeof c));
+  example_close_table();
+  printf("\nsteps %lld   evaluations %lld   rejected %lld   factorizations %lld\n",
+         (long long)c.steps, (long long)c.evaluations, (long long)c.rejected,
+         (long long)c.factorizations);
+  if (example.json) {
+    (void)fprintf(example.json,
+                  ",\n\"counters\": {\"steps\": %lld, \"evaluations\": %lld, "
+                  "\"rejected\": %lld, \"factorizations\": %lld}",
+                  (long long)c.steps, (long long)c.evaluations, (long long)c.rejected,
+                  (long long)c.factorizations);
+  }
+}
+
+/* ---- Judgement ------------------------------------------------------------ */
+
+/* A check that value <= limit; what is not a number fails. */
+static inline void example_expect(const char *name, double value, double limit)
+{
+  bool ok = value <= limit;
+  example_close_table();
+  printf("check  %-40s  %8.1e <= %-7.1e  %s\n", name, value, limit, ok ? "ok" : "FAILED");
+  if (example.json) {
+    (void)fprintf(example.json, "%s{\"name\": \"%s\", \"value\": ",
+                  example.checks ? ",\n  " : ",\n\"checks\": [\n  ", name);
+    (void)fprintf(example.json, isfinite(value) ? "%.17g" : "null", value);
+    (void)fprintf(example.json, ", \"limit\": %.17g, \"ok\": %s}", limit, ok ? "true" : "false");
+  }
+  example.checks++;
+  example.failures += !ok;
+}
+
+/* Closes the files. @return the exit code of the program */
+static inline int example_end(void)
+{
+  example_close_table();
+  if (example.json) {
+    (void)fprintf(example.json, "%s,\n\"ok\": %s}\n", example.checks ? "\n]" : "",
+                  example.failures ? "false" : "true");
+    (void)fclose(example.json);
+  }
+  if (example.data) {
+    (void)fclose(example.data);
+  }
+  return example.failures ? EXIT_FAILURE : EXIT_SUCCESS;
+}
+
+#endif

@@ -1,0 +1,113 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A pendulum by one function: 1 kg on a massless rod of 1 m, let go from the horizontal. */
+#include <baum/baum.h>
+
+#include "example_util.h"
+
+enum { SAMPLES = 21 };
+
+/* Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod. */
+static int circle(double t, const double *q, double *phi, void *user)
+{
+  (void)t;
+  (void)user;
+  phi[0] = q[0] * q[0] + q[1] * q[1] - 1.0;
+  return 0;
+}
+
+static baum_mechanism *pendulum(void)
+{
+  baum_mechanism *mechanism = NULL;
+  CHECK(baum_mechanism_create(&mechanism));
+
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  bob.name = "bob";
+  bob.position[0] = 1.0;
+  baum_body_id body;
+  CHECK(baum_mechanism_add_planar_particle(mechanism, &bob, &body));
+
+  baum_user_constraint_def rod = baum_user_constraint_def_default();
+  rod.name = "rod";
+  rod.bodies = &body;
+  rod.body_count = 1;
+  rod.row_count = 1;
+  rod.phi = circle;
+  CHECK(baum_mechanism_add_user_constraint(mechanism, &rod, NULL));
+
+  CHECK(baum_mechanism_freeze(mechanism));
+  return mechanism;
+}
+
+/* The exact motion. With s = sin(angle / 2), angle from the lowest point and k^2 = 1/2, s = k sn(K - sqrt(g/l) t, k),
+ * sn by the arithmetic-geometric mean (Abramowitz, Stegun 1964, 16.4), K = pi / (2 agm(1, sqrt(1 - k^2))). */
+static void exact(double t, double *x, double *y)
+{
+  enum { LEVELS = 6 };
+  const double k = sqrt(0.5);
+  double a[LEVELS + 1] = {1.0};
+  double c[LEVELS + 1] = {k};
+  double b = sqrt(1.0 - k * k);
+  for (int n = 0; n < LEVELS; n++) {
+    a[n + 1] = (a[n] + b) / 2.0;
+    c[n + 1] = (a[n] - b) / 2.0;
+    b = sqrt(a[n] * b);
+  }
+  double u = acos(-1.0) / (2.0 * a[LEVELS]) - sqrt(9.81) * t;
+  double phase = ldexp(a[LEVELS] * u, LEVELS);
+  for (int n = LEVELS; n > 0; n--) {
+    phase = (phase + asin(c[n] / a[n] * sin(phase))) / 2.0;
+  }
+  double s = k * sin(phase);
+  *x = 2.0 * s * sqrt(1.0 - s * s);
+  *y = 2.0 * s * s - 1.0;
+}
+
+int main(int argc, char **argv)
+{
+  example_begin(argc, argv, "pendulum");
+  example_needs("sundials");
+  baum_mechanism *mechanism = pendulum();
+
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_cvode_adams();
+  options.rtol = 1e-9;
+  baum_simulation *run = NULL;
+  CHECK(baum_simulation_create(mechanism, &options, &run));
+  printf("pendulum: 1 particle, 1 constraint, 1 degree of freedom\n%s\n\n",
+         baum_simulation_explain(run));
+
+  static const example_column columns[] = {{"t", "t [s]", 'f', 1},
+                                           {"x", "x [m]", 'f', 9},
+                                           {"y", "y [m]", 'f', 9},
+                                           {"error", "error [m]", 'e', 1},
+                                           {"max_phi", "max|Phi| [m^2]", 'e', 1},
+                                           {"energy_change", "energy change [J]", 'e', 1}};
+  example_table("motion", columns, 6, true);
+  double worst = 0.0;
+  baum_counters counters;
+  for (int k = 0; k < SAMPLES; k++) {
+    double t = 0.5 * k;
+    double x;
+    double y;
+    CHECK(baum_simulation_advance_to(run, t));
+    CHECK(baum_simulation_counters(run, &counters, sizeof counters));
+    exact(t, &x, &y);
+    const double *q = baum_simulation_q(run);
+    double error = hypot(q[0] - x, q[1] - y);
+    worst = fmax(worst, error);
+    example_number(t);
+    example_number(q[0]);
+    example_number(q[1]);
+    example_number(error);
+    example_number(counters.max_phi);
+    example_number(counters.energy_change);
+  }
+  example_counters(run);
+  example_expect("largest error of position [m]", worst, 1e-6);
+  example_expect("largest violation max|Phi| [m^2]", counters.max_phi, 1e-7);
+  example_expect("energy change [J]", fabs(counters.energy_change), 1e-6);
+
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+  return example_end();
+}

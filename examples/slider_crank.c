@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fig. 3 of Flores et al. 2008: the eccentric slider-crank, its crank driven at constant speed, by explicit Euler
+ * with eight sets of Baumgarte's gains: what becomes of Phi_3.
+ *
+ * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e; what was there before goes on
+ * by (6), so that
+ *   Phi_3+ = Phi_3 + h Phi_3' + d,   Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e,
+ * the recursion with the characteristic equation (19). */
+#include "slider_crank_model.h"
+
+enum { STEPS = 10000, EVERY = 5, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
+
+static const double H = 1e-4; /* [s] */
+
+/* What the runs are compared with, at every step. */
+static struct {
+  double t[STEPS + 1];
+  double x[STEPS + 1]; /* of the slider */
+  double d[STEPS + 1];
+  double e[STEPS + 1];
+} exact;
+
+/* One run at every step: Phi_3 and Phi_4; x, y and angle of the slider; Phi_3 predicted. */
+enum { PHI3, PHI4, X, Y, ANGLE, CHANNELS };
+static double rows[SETS][STEPS + 1][CHANNELS];
+static double predicted[SETS][STEPS + 1];
+
+/* A driven mechanism has no freedom left: its motion follows from the constraints alone. */
+static void solve_kinematics(const baum_mechanism *mechanism)
+{
+  baum_workspace *workspace = NULL;
+  double q[N];
+  double v[N];
+  double a[N];
+  double phi[N];
+  double jacobian[N * N];
+  double nu[N];
+  CHECK(baum_workspace_create(mechanism, &workspace));
+  CHECK(baum_workspace_drawn(workspace, q, v));
+  for (int k = 0; k <= STEPS; k++) {
+    double t = k * H;
+    for (int i = 0; i < N; i++) {
+      v[i] = (double)NAN; /* not known yet */
+    }
+    CHECK(baum_workspace_assemble(workspace, t, q, v, NULL, 0));
+    CHECK(baum_workspace_acceleration(workspace, t, q, v, 0.0, 0.0, a, NULL));
+    exact.t[k] = t;
+    exact.x[k] = q[SLIDER_X];
+    for (int i = 0; i < N; i++) {
+      q[i] += H * v[i];
+      v[i] += H * a[i];
+    }
+    CHECK(baum_workspace_phi(workspace, t + H, q, phi));
+    CHECK(baum_workspace_jacobian(workspace, t + H, q, jacobian));
+    CHECK(baum_workspace_nu(workspace, t + H, q, nu));
+    exact.d[k] = phi[ROW3];
+    exact.e[k] = -nu[ROW3];
+    for (int i = 0; i < N; i++) {
+      exact.e[k] += jacobian[N * ROW3 + i] * v[i];
+    }
+  }
+  baum_workspace_destroy(workspace);
+}
+
+static void predict(double alpha, double beta, double *phi)
+{
+  double rate = 0.0;
+  phi[0] = 0.0;
+  for (int k = 0; k < STEPS; k++) {
+    phi[k + 1] = phi[k] + H * rate + exact.d[k];
+    rate += exact.e[k] - H * (2.0 * alpha * rate + beta * beta * phi[k]);
+  }
+}
+
+/* One run and its row of the table. */
+static void simulate(const slider_crank *s, const char *name, baum_gains gains, int set)
+{
+  static const char *const classes[] = {"stable", "marginal", "unstable", "-"};
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_euler();
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.gains = gains;
+  options.step = H;
+  baum_simulation *run = NULL;
+  CHECK(baum_simulation_create(s->mechanism, &options, &run));
+  const baum_channel channels[] = {{.quantity = BAUM_PHI, .joint = s->pin_b},
+                                   {.quantity = BAUM_BODY_POSE, .body = s->slider}};
+  baum_status status =
+      baum_simulation_sample(run, exact.t, STEPS + 1, channels, 2, rows[set][0], NULL);
+  if (status != BAUM_WARNED) { /* of marginal gains, as the table shows */
+    CHECK(status);
+  }
+
+  baum_counters c;
+  baum_amplification z;
+  CHECK(baum_simulation_counters(run, &c, sizeof c));
+  CHECK(baum_stability_at(options.integrator, c.alpha * H, c.beta * H * c.beta * H, &z, sizeof z));
+  baum_simulation_destroy(run);
+  predict(c.alpha, c.beta, predicted[set]);
+
+  double observed = 0.0;
+  double expected = 0.0;
+  double slider = 0.0;
+  for (int k = 0; k <= STEPS; k++) {
+    observed = fmax(observed, fabs(rows[set][k][PHI3]));
+    expected = fmax(expected, fabs(predicted[set][k]));
+    slider = fmax(slider, fabs(rows[set][k][X] - exact.x[k]));
+  }
+  example_text(name);
+  example_number(c.alpha);
+  example_number(c.beta);
+  example_number(z.spectral_radius);
+  example_text(classes[z.stability]);
+  example_number(observed);
+  example_number(expected);
+  example_number(fabs(rows[set][STEPS][PHI3]));
+  example_number(fabs(predicted[set][STEPS]));
+  example_number(slider);
+}
+
+int main(int argc, char **argv)
+{
+  static const struct {
+    const char *name;
+    baum_gain_rule rule;
+    double value[2];
+  } sets[SETS] = {
+      {"none", BAUM_GAINS_FIXED, {0.0, 0.0}},
+      {"alpha = beta = 5", BAUM_GAINS_FIXED, {5.0, 5.0}},
+      {"alpha = beta = 50", BAUM_GAINS_FIXED, {50.0, 50.0}},
+      {"alpha = beta = 500", BAUM_GAINS_FIXED, {500.0, 500.0}},
+      {"100 Hz, damping ratio 0.2", BAUM_GAINS_FREQUENCY, {100.0, 0.2}},
+      {"10 Hz, damping ratio 3", BAUM_GAINS_FREQUENCY, {10.0, 3.0}},
+      {"Taylor (10, 11)", BAUM_GAINS_TAYLOR, {0.0, 0.0}},
+      {"stiff, alpha = beta = 1/h", BAUM_GAINS_SCALED, {1.0, 1.0}},
+  };
+  static const example_column columns[] = {{"gains", "gains", 's', 26},
+                                           {"alpha", "alpha [1/s]", 'f', 1},
+                                           {"beta", "beta [1/s]", 'f', 1},
+                                           {"spectral_radius", "largest |z|", 'f', 5},
+                                           {"stability", "class", 's', 8},
+                                           {"max_phi3", "max|Phi_3| [m]", 'e', 2},
+                                           {"max_phi3_predicted", "predicted [m]", 'e', 2},
+                                           {"final_phi3", "at the end [m]", 'e', 2},
+                                           {"final_phi3_predicted", "predicted [m]", 'e', 2},
+                                           {"slider_error", "slider off by [m]", 'e', 1}};
+  example_begin(argc, argv, "slider_crank");
+  slider_crank s = slider_crank_build(true);
+  solve_kinematics(s.mechanism);
+  example_table("gain_sets", columns, 10, true);
+  for (int k = 0; k < SETS; k++) {
+    baum_gains gains = {.rule = (int32_t)sets[k].rule, .value = {sets[k].value[0], sets[k].value[1]}};
+    simulate(&s, sets[k].name, gains, k);
+  }
+  baum_mechanism_destroy(s.mechanism);
+  return example_end();
+}

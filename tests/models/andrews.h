@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Data of Andrews' squeezing mechanism, in SI units, as in the test set (andrews.f). */
+#ifndef BAUM_TEST_MODELS_ANDREWS_H
+#define BAUM_TEST_MODELS_ANDREWS_H
+
+/* Bodies K1 to K7 are 0 to 6. */
+static const double ANDREWS_MASS[7] = {.04325, .00365, .02373, .00706, .07050, .00706, .05498};
+static const double ANDREWS_INERTIA[7] = {2.194e-6, 4.410e-7, 5.255e-6, 5.667e-7,
+                                          1.169e-5, 5.667e-7, 1.912e-5};
+
+static const double ANDREWS_A[2] = {-.06934, -.00227};
+static const double ANDREWS_B[2] = {-.03635, .03273};
+static const double ANDREWS_C[2] = {.014, .072};
+
+#define ANDREWS_C0     4530.0 /* stiffness */
+#define ANDREWS_L0     .07785 /* free length */
+#define ANDREWS_MOMENT .033
+
+#define ANDREWS_RR .007
+#define ANDREWS_RA .00092
+#define ANDREWS_D  .028
+#define ANDREWS_DA .0115
+#define ANDREWS_SS .035
+#define ANDREWS_SA .01874
+#define ANDREWS_SB .01043
+#define ANDREWS_SC .018
+#define ANDREWS_SD .02
+#define ANDREWS_E  .02
+#define ANDREWS_EA .01421
+#define ANDREWS_ZT .04
+#define ANDREWS_TA .02308
+#define ANDREWS_TB .00916
+#define ANDREWS_ZF .02
+#define ANDREWS_FA .01421
+#define ANDREWS_U  .04
+#define ANDREWS_UA .01228
+#define ANDREWS_UB .00449
+
+/* beta, Theta, gamma, Phi, delta, Omega, epsilon at start; all rates are 0. */
+static const double ANDREWS_START[7] = {-0.0617138900142764496, 0,
+                                        0.455279819163070380,   0.222668390165885885,
+                                        0.487364979543842550,   -0.222668390165885885,
+                                        1.23054744454982119};
+
+#endif

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): p = (xl, yl, xr, yr) on two springs over a
+ * bump that goes up and down, yb = r sin(w t), xb = sqrt(L^2 - yb^2), with k = eps^2 M / 2:
+ *
+ *   k xl'' = (L0 - Ll) xl / Ll              + multipliers          Ll = |(xl, yl)|
+ *   k yl'' = (L0 - Ll) yl / Ll - k g        + multipliers
+ *   k xr'' = (L0 - Lr) (xr - xb) / Lr       + multipliers          Lr = |(xr - xb, yr - yb)|
+ *   k yr'' = (L0 - Lr) (yr - yb) / Lr - k g + multipliers
+ *   0 = xl xb + yl yb,  0 = (xl - xr)^2 + (yl - yr)^2 - L^2        (2)
+ */
+#include "builder.h"
+
+#include <math.h>
+#include <stddef.h>
+
+static const double LENGTH = 1.0;
+static const double FREE_LENGTH = 0.5;
+static const double MASS = 1e-2 * 1e-2 * 10.0 / 2;
+static const double BUMP = 0.1;
+static const double FREQUENCY = 10.0;
+static const double GRAVITY = 1.0;
+
+static int mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  for (int i = 0; i < 4; i++) {
+    out[5 * i] = MASS;
+  }
+  return 0;
+}
+
+static void bump(double t, double b[2])
+{
+  b[1] = BUMP * sin(FREQUENCY * t);
+  b[0] = sqrt(LENGTH * LENGTH - b[1] * b[1]);
+}
+
+static void spring(double x, double y, double out[2])
+{
+  double length = hypot(x, y);
+  out[0] = (FREE_LENGTH - length) * x / length;
+  out[1] = (FREE_LENGTH - length) * y / length - MASS * GRAVITY;
+}
+
+static int force(double t, const double *q, const double *v, const double *inputs, double *out,
+                 void *user)
+{
+  (void)v;
+  (void)inputs;
+  (void)user;
+  double b[2];
+  bump(t, b);
+  spring(q[0], q[1], out);
+  spring(q[2] - b[0], q[3] - b[1], out + 2);
+  return 0;
+}
+
+static int phi(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  double b[2];
+  bump(t, b);
+  double x = q[0] - q[2];
+  double y = q[1] - q[3];
+  out[0] = q[0] * b[0] + q[1] * b[1];
+  out[1] = x * x + y * y - LENGTH * LENGTH;
+  return 0;
+}
+
+static int jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  double b[2];
+  bump(t, b);
+  out[0] = b[0];
+  out[1] = b[1];
+  out[4] = 2 * (q[0] - q[2]);
+  out[5] = 2 * (q[1] - q[3]);
+  out[6] = -out[4];
+  out[7] = -out[5];
+  return 0;
+}
+
+static int nu(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  double b[2];
+  bump(t, b);
+  double rate = BUMP * FREQUENCY * cos(FREQUENCY * t);
+  out[0] = q[0] * b[1] * rate / b[0] - q[1] * rate;
+  return 0;
+}
+
+baum_status model_car_axis(bool with_derivatives, model *out)
+{
+  static const double start[4] = {0.0, 0.5, 1.0, 0.5};
+  static const double rate[4] = {-0.5, 0.0, -0.5, 0.0};
+  builder build = build_begin(out);
+  baum_coordinates_def axis = baum_coordinates_def_default();
+  axis.name = "axis";
+  axis.size = 4;
+  axis.q = start;
+  axis.v = rate;
+  axis.mass = mass;
+  axis.constant_mass = true;
+  axis.force = force;
+  baum_body_id body = build_coordinates(&build, &axis);
+  baum_user_constraint_def rows = baum_user_constraint_def_default();
+  rows.name = "axis and bump";
+  rows.bodies = &body;
+  rows.body_count = 1;
+  rows.row_count = 2;
+  rows.phi = phi;
+  rows.jacobian = with_derivatives ? jacobian : NULL;
+  rows.nu = with_derivatives ? nu : NULL;
+  build_constraint(&build, &rows);
+  return build_finish(&build);
+}

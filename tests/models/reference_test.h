@@ -1,0 +1,56 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What tests against reference trajectories have in common. Include after cmocka.h. */
+#ifndef BAUM_TEST_REFERENCE_TEST_H
+#define BAUM_TEST_REFERENCE_TEST_H
+
+#include <math.h>
+#include <stdio.h>
+
+#include "reference.h"
+
+/* A build without SUNDIALS has no variable-step integrators. */
+static inline void need_sundials(void)
+{
+  if (!BAUM_HAVE_SUNDIALS) {
+    skip();
+  }
+}
+
+/* Adams, BAUMGARTE with gains by the rule `auto`. */
+static inline baum_simulation_options adams_options(void)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_cvode_adams();
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  return options;
+}
+
+/* Climb, print, and demand that `wanted` is reached at some tolerance and kept from there on. */
+static inline void assert_reached(const reference *with, const baum_mechanism *mechanism,
+                                  const baum_simulation_options *options, double wanted)
+{
+  reference_ladder ladder = reference_climb(with, mechanism, options);
+  double needed = reference_rtol_needed(&ladder, wanted);
+  if (isnan(needed)) {
+    fail_msg("%s: error %.3g at rtol 1e-12, wanted %.3g", with->name,
+             ladder.runs[REFERENCE_RUNGS - 1].error, wanted);
+  }
+  printf("error %.0e needs rtol %.0e\n", wanted, needed);
+}
+
+/* RK4 with projection, without any library: an independent way to the same values. */
+static inline void assert_reached_by_rk4(const reference *with, const baum_mechanism *mechanism,
+                                         double step, double wanted)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk4();
+  options.formulation = BAUM_FORMULATION_PROJECTION;
+  options.step = step;
+  reference_run run = reference_compare(with, mechanism, &options);
+  printf("\n%s: rk4, projection, h = %g s: error %.2e, steps %lld %s\n", with->name, step,
+         run.error, (long long)run.counters.steps, run.message);
+  assert_true(run.status >= 0);
+  assert_true(run.error <= wanted);
+}
+
+#endif

@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Car axis: four user coordinates, two rows that depend on time, with and without their derivatives, against tests/data
+ * (18 digits).
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "car_axis_reference.h"
+#include "reference_test.h"
+
+static const reference AXIS = {.name = "car axis",
+                               .samples = CAR_AXIS_SAMPLES,
+                               .width = CAR_AXIS_WIDTH,
+                               .t = CAR_AXIS_T,
+                               .q = CAR_AXIS_Q[0],
+                               .lengths = "mmmm"};
+
+static void adams_reaches_the_reference_with_derivatives_given(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_car_axis(true, &m), BAUM_OK);
+  baum_simulation_options options = adams_options();
+  assert_reached(&AXIS, m.mechanism, &options, 1e-8);
+  model_destroy(&m);
+}
+
+static void adams_reaches_the_reference_with_phi_alone(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_car_axis(false, &m), BAUM_OK);
+  baum_simulation_options options = adams_options();
+  reference phi_alone = AXIS;
+  phi_alone.name = "car axis, Phi alone";
+  assert_reached(&phi_alone, m.mechanism, &options, 1e-8);
+  model_destroy(&m);
+}
+
+static void rk4_with_projection_reaches_it_too(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_car_axis(true, &m), BAUM_OK);
+  /* Springs of 1 N/m on 5e-4 kg: 45 rad/s, (45 h)^4 = 4e-10 over the error constant of 5!. */
+  assert_reached_by_rk4(&AXIS, m.mechanism, 1e-4, 1e-10);
+  model_destroy(&m);
+}
+
+static void multipliers_are_the_negative_of_the_test_set(void **state)
+{
+  (void)state;
+  static const baum_channel channels[2] = {{.quantity = BAUM_V}, {.quantity = BAUM_LAMBDA}};
+  enum { ROW = 6 };
+  model m;
+  assert_int_equal(model_car_axis(true, &m), BAUM_OK);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk4();
+  options.formulation = BAUM_FORMULATION_PROJECTION;
+  options.step = 1e-4;
+  baum_simulation *run = NULL;
+  double rows[CAR_AXIS_SAMPLES * ROW];
+  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  assert_int_equal(
+    baum_simulation_sample(run, CAR_AXIS_T, CAR_AXIS_SAMPLES, channels, 2, rows, NULL), BAUM_OK);
+  for (int i = 0; i < CAR_AXIS_SAMPLES; i++) {
+    for (int k = 0; k < 4; k++) {
+      /* Positions are off by less than 1e-10 (above); times 45 1/s. */
+      ASSERT_NEAR(rows[i * ROW + k], CAR_AXIS_V[i][k], 0.0, 4.5e-9);
+    }
+    for (int k = 0; k < 2; k++) {
+      /* Springs of 1 N/m times that error. */
+      ASSERT_NEAR(rows[i * ROW + 4 + k], -CAR_AXIS_LAMBDA[i][k], 0.0, 1e-10);
+    }
+  }
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(adams_reaches_the_reference_with_derivatives_given),
+    cmocka_unit_test(adams_reaches_the_reference_with_phi_alone),
+    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+    cmocka_unit_test(multipliers_are_the_negative_of_the_test_set),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

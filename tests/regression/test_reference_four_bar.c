@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Crank-rocker four-bar under gravity against tests/data (15 digits). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "four_bar_reference.h"
+#include "reference_test.h"
+
+static const reference NINE = {.name = "four-bar",
+                               .samples = FOUR_BAR_SAMPLES,
+                               .width = FOUR_BAR_WIDTH,
+                               .t = FOUR_BAR_T,
+                               .q = FOUR_BAR_Q[0],
+                               .lengths = "mmrmmrmmr"};
+
+static void adams_reaches_the_reference_within_1e_8(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  baum_simulation_options options = adams_options();
+  assert_reached(&NINE, m.mechanism, &options, 1e-8);
+  model_destroy(&m);
+}
+
+static void rk4_with_projection_reaches_it_too(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  /* Rates up to 9 rad/s: (9 h)^4 = 1.5e-12, times 5 s at that rate. */
+  assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-10);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(adams_reaches_the_reference_within_1e_8),
+    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Slider-crank of SUNDIALS' idaSlCrank_dns, as two bodies, against tests/data (20 digits). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "reference_test.h"
+#include "sundials_slider_crank_reference.h"
+
+/* Crank angle, the rod's x and angle. */
+static void three_coordinates(const double *q, double *out)
+{
+  out[0] = q[2];
+  out[1] = q[3];
+  out[2] = q[5];
+}
+
+static const reference THREE = {.name = "SUNDIALS slider-crank",
+                                .samples = SUNDIALS_SLIDER_CRANK_SAMPLES,
+                                .width = SUNDIALS_SLIDER_CRANK_WIDTH,
+                                .t = SUNDIALS_SLIDER_CRANK_T,
+                                .q = SUNDIALS_SLIDER_CRANK_Q[0],
+                                .lengths = "rmr",
+                                .columns = three_coordinates};
+
+static void adams_reaches_the_reference_within_1e_8(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_sundials_slider_crank(&m), BAUM_OK);
+  baum_simulation_options options = adams_options();
+  assert_reached(&THREE, m.mechanism, &options, 1e-8);
+  model_destroy(&m);
+}
+
+static void rk4_with_projection_reaches_it_too(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_sundials_slider_crank(&m), BAUM_OK);
+  /* Rates about 1 rad/s: h^4 = 2e-10 over the error constant of 5!. */
+  assert_reached_by_rk4(&THREE, m.mechanism, 1.0 / 256, 1e-10);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(adams_reaches_the_reference_within_1e_8),
+    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
