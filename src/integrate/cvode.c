@@ -190,6 +190,7 @@ static void count(const void *self, baum_i_statistics *out)
   (void)CVodeGetNumNonlinSolvIters(run->cvode, &iterations);
   out->rejected = run->before.rejected + rejected[0] + rejected[1];
   out->factorizations = run->before.factorizations + setups;
+  out->full_factorizations = 0; /* a dense one allocates nothing */
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
@@ -300,9 +301,10 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   if (status != BAUM_OK) {
     return status;
   }
-  run->y = N_VNew_Serial(mechanism->nq + mechanism->nv, run->sundials.context);
-  run->inside = run->y ? N_VClone(run->y) : NULL;
-  if (!run->inside) {
+  sunindextype n = mechanism->nq + mechanism->nv;
+  run->y = N_VNew_Serial(n, run->sundials.context);
+  run->inside = N_VNew_Serial(n, run->sundials.context);
+  if (!run->y || !run->inside) {
     return baum_i_fail_memory();
   }
   baum_i_sundials_begin(&run->sundials, problem, start->t);

@@ -14,6 +14,8 @@
  *   search for a consistent start can succeed with wrong accelerations.
  * - The first step is given. IDA's own is too large for index 3.
  * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
+ * - KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition, is always poor
+ *   here, as c = O(1/h) and 1 stand side by side, and would choose pivots anew, and allocate, in every step.
  */
 #include "integrate/integrator.h"
 
@@ -43,7 +45,13 @@ typedef struct ida_run {
   N_Vector inside; /* interpolated */
   N_Vector tested; /* 1 where the error test looks, else 0 */
   SUNMatrix matrix;
-  SUNLinearSolver solver;
+  SUNLinearSolver solver;           /* what IDA calls: dense, or a front before klu */
+  SUNLinearSolver klu;              /* NULL: dense */
+  N_Vector defect;                  /* b - A x */
+  N_Vector size;                    /* |b| + |A| |x| */
+  N_Vector entry;                   /* largest of each row of A */
+  bool fresh;                       /* pivots were chosen at the present matrix */
+  int64_t full_factorizations;      /* times pivots were chosen */
   baum_i_residual_matrix *jacobian; /* NULL: differences */
   baum_dae dae;
   baum_i_statistics before; /* up to the last restart */
@@ -130,6 +138,108 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
   return 0;
 }
 
+/* ---- linear solver ---- */
+
+static int choose_pivots(ida_run *run, SUNMatrix matrix)
+{
+  run->fresh = true;
+  run->full_factorizations++;
+  (void)SUNLinSol_KLUReInit(run->klu, matrix, 0, SUNKLU_REINIT_PARTIAL);
+  if (SUNLinSolSetup_KLU(run->klu, matrix) == 0) {
+    return 0;
+  }
+  bool memory = SUNLinSol_KLUGetCommon(run->klu)->status == KLU_OUT_OF_MEMORY;
+  return memory ? baum_i_sundials_answer(&run->sundials, baum_i_fail_memory()) : 1;
+}
+
+static int factor(SUNLinearSolver solver, SUNMatrix matrix)
+{
+  ida_run *run = solver->content;
+  sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(run->klu);
+  run->fresh = false;
+  if (!numeric) {
+    return choose_pivots(run, matrix);
+  }
+  /* KLU's name for the index type depends on its release. */
+  void *starts = SUNSparseMatrix_IndexPointers(matrix);
+  void *indices = SUNSparseMatrix_IndexValues(matrix);
+  int kept = (int)sun_klu_refactor(starts, indices, SUNSparseMatrix_Data(matrix),
+                                   SUNLinSol_KLUGetSymbolic(run->klu), numeric,
+                                   SUNLinSol_KLUGetCommon(run->klu));
+  return kept ? 0 : choose_pivots(run, matrix);
+}
+
+/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for Newton's iteration.
+ * NaN is not accurate. */
+static bool is_accurate(const ida_run *run, SUNMatrix matrix, N_Vector solution, N_Vector right)
+{
+  const sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
+  const sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
+  const double *values = SUNSparseMatrix_Data(matrix);
+  const double *x = N_VGetArrayPointer(solution);
+  double *defect = N_VGetArrayPointer(run->defect);
+  double *size = N_VGetArrayPointer(run->size);
+  double *entry = N_VGetArrayPointer(run->entry);
+  sunindextype n = SUNSparseMatrix_Columns(matrix);
+  N_VScale(1.0, right, run->defect);
+  N_VAbs(right, run->size);
+  N_VConst(DBL_MIN, run->entry);
+  for (sunindextype j = 0; j < n; j++) {
+    for (sunindextype p = starts[j]; p < starts[j + 1]; p++) {
+      sunindextype i = indices[p];
+      defect[i] -= values[p] * x[j];
+      size[i] += fabs(values[p] * x[j]);
+      entry[i] = fmax(entry[i], fabs(values[p]));
+    }
+  }
+  double largest = 0.0;
+  for (sunindextype i = 0; i < n; i++) {
+    largest = fmax(largest, size[i] / entry[i]);
+  }
+  bool accurate = true;
+  for (sunindextype i = 0; i < n; i++) {
+    accurate = accurate && fabs(defect[i]) <= 1e-6 * largest * entry[i];
+  }
+  return accurate;
+}
+
+static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
+                 sunrealtype tolerance)
+{
+  ida_run *run = solver->content;
+  int failed = SUNLinSolSolve_KLU(run->klu, matrix, x, b, tolerance);
+  if (failed == 0 && (run->fresh || is_accurate(run, matrix, x, b))) {
+    return 0;
+  }
+  failed = choose_pivots(run, matrix);
+  return failed != 0 ? failed : SUNLinSolSolve_KLU(run->klu, matrix, x, b, tolerance);
+}
+
+static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
+{
+  (void)solver;
+  return SUNLINEARSOLVER_DIRECT;
+}
+
+static int release(SUNLinearSolver solver)
+{
+  SUNLinSolFreeEmpty(solver);
+  return 0;
+}
+
+static SUNLinearSolver make_front(ida_run *run)
+{
+  SUNLinearSolver front = SUNLinSolNewEmpty(run->sundials.context);
+  if (front) {
+    front->content = run;
+    front->ops->gettype = tell_type;
+    front->ops->setup = factor;
+    front->ops->solve = solve;
+    front->ops->free = release;
+  }
+  return front;
+}
+
 /* ---- in and out ---- */
 
 static void begin(ida_run *run, const baum_i_problem *problem, double t)
@@ -186,6 +296,7 @@ static void count(const void *self, baum_i_statistics *out)
   (void)IDAGetNumNonlinSolvIters(run->ida, &iterations);
   out->rejected = run->before.rejected + rejected[0] + rejected[1];
   out->factorizations = run->before.factorizations + setups;
+  out->full_factorizations = run->full_factorizations;
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
@@ -279,6 +390,10 @@ static void destroy(void *self)
   }
   IDAFree(&run->ida);
   (void)SUNLinSolFree(run->solver);
+  (void)SUNLinSolFree(run->klu);
+  N_VDestroy(run->entry);
+  N_VDestroy(run->size);
+  N_VDestroy(run->defect);
   SUNMatDestroy(run->matrix);
   baum_i_residual_matrix_destroy(run->jacobian);
   N_VDestroy(run->tested);
@@ -289,14 +404,19 @@ static void destroy(void *self)
   baum_i_free(run);
 }
 
+/* Each anew: SUNDIALS 6.4 cannot clone when memory has run out. */
 static int make_vectors(ida_run *run, const baum_mechanism *mechanism)
 {
+  N_Vector *const all[] = {&run->y,      &run->dy,   &run->inside, &run->tested,
+                           &run->defect, &run->size, &run->entry};
   sunindextype n = mechanism->nq + mechanism->nv + mechanism->nc;
-  run->y = N_VNew_Serial(n, run->sundials.context);
-  run->dy = run->y ? N_VClone(run->y) : NULL;
-  run->inside = run->dy ? N_VClone(run->y) : NULL;
-  run->tested = run->inside ? N_VClone(run->y) : NULL;
-  return run->tested ? IDA_SUCCESS : IDA_MEM_FAIL;
+  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+    *all[k] = N_VNew_Serial(n, run->sundials.context);
+    if (!*all[k]) {
+      return IDA_MEM_FAIL;
+    }
+  }
+  return IDA_SUCCESS;
 }
 
 static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
@@ -326,8 +446,9 @@ static int attach_klu(ida_run *run)
   sunindextype nonzeros = baum_i_residual_matrix_nonzeros(run->jacobian);
   run->matrix = SUNSparseMatrix(n, n, nonzeros, CSC_MAT, run->sundials.context);
   if (run->matrix) {
-    run->solver = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
+    run->klu = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
   }
+  run->solver = run->klu ? make_front(run) : NULL;
   if (!run->solver) {
     return IDA_MEM_FAIL;
   }

@@ -36,7 +36,8 @@ typedef struct baum_i_state {
 /* What a variable-step method has done, since it was created. */
 typedef struct baum_i_statistics {
   int64_t rejected;
-  int64_t factorizations; /* of its own matrix */
+  int64_t factorizations;      /* of its own matrix */
+  int64_t full_factorizations; /* those that chose pivots anew and may allocate */
   int64_t nonlinear_iterations;
 } baum_i_statistics;
 

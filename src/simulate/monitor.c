@@ -118,7 +118,7 @@ static void count_work(baum_simulation *run, baum_counters *c)
   }
   c->evaluations = run->workspace->evaluations;
   c->factorizations = kkt.factorizations + statistics.factorizations;
-  c->full_factorizations = kkt.full_factorizations;
+  c->full_factorizations = kkt.full_factorizations + statistics.full_factorizations;
   c->near_singular = run->workspace->near_singular;
   c->rejected = statistics.rejected;
   c->nonlinear_iterations = statistics.nonlinear_iterations;
