@@ -2,6 +2,7 @@
 /* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one solution of (5), which is made
  * once per row and only when a channel asks for it.
  */
+#include <math.h>
 #include <string.h>
 
 #include "mechanism/planar.h"
@@ -25,6 +26,11 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
   bool rigid = m->bodies[body]->type->frame == BAUM_I_FRAME_BODY;
   if (!rigid && (c->point[0] != 0.0 || c->point[1] != 0.0)) {
     return fail_channel(k, "point is given, but the body has no axes");
+  }
+  if (!isfinite(c->point[0]) || !isfinite(c->point[1])) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: point is (%g, %g) m, must be finite", k,
+                      c->point[0], c->point[1]);
+    return -1;
   }
   return m->bodies[body]->nv;
 }
