@@ -13,12 +13,6 @@
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
 
-baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
-{
-  memcpy(run->message, baum_message(), sizeof run->message);
-  return status;
-}
-
 /* ---- interruptions ---- */
 
 void baum_simulation_cancel(baum_simulation *simulation)

@@ -38,6 +38,14 @@ baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k
   return BAUM_OK;
 }
 
+/* ---- the sentence of the run ---- */
+
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
+{
+  memcpy(run->message, baum_message(), sizeof run->message);
+  return status;
+}
+
 baum_status baum_i_run_finish(baum_simulation *run)
 {
   if (run->counters.warnings == run->signalled) {

@@ -61,17 +61,15 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
 /* Make the trial state the present one: grid, integrator, energy begin anew. */
 baum_status baum_i_run_accept(baum_simulation *run);
 
-/* ---- advance.c ---- */
-
-/* Remember the sentence of a failure in the run and return its status. */
-baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
-
 /* ---- monitor.c ---- */
 
 void baum_i_run_warn(baum_simulation *run, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
 /* Violation, gamma and near-singular poses from the workspace's last velocity stage, which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
+
+/* Remember the sentence of a failure in the run and return its status. */
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
 /* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
