@@ -36,7 +36,7 @@ class Library(unittest.TestCase):
 
     def test_a_missing_library_is_an_import_error_that_names_it(self):
         said = import_with("/nowhere/libbaum.so")
-        self.assertIn("ImportError: baum: the C library was not found", said)
+        self.assertIn("ImportError: baum: the C library could not be loaded", said)
         self.assertIn("/nowhere/libbaum.so", said)
         self.assertIn("BAUM_LIBRARY", said)
 

@@ -54,7 +54,7 @@ def _open():
         except OSError as error:
             failures.append(f"  {candidate}: {error}")
     raise ImportError(
-        "baum: the C library was not found; install it, or name it in BAUM_LIBRARY. "
+        "baum: the C library could not be loaded; install it, or name it in BAUM_LIBRARY. "
         "Tried:\n" + "\n".join(failures)
     )
 
