@@ -283,6 +283,8 @@ static int start_cvode(cvode_run *run, int method, double t)
   }
   if (flag == CV_SUCCESS) {
     flag = CVodeInit(run->cvode, evaluate, t, run->y);
+    /* Out of memory: SUNDIALS 6.4 has freed its vectors and would again; what is left of it is lost. */
+    run->cvode = flag == CV_MEM_FAIL ? NULL : run->cvode;
   }
   if (flag == CV_SUCCESS) {
     flag = CVodeWFtolerances(run->cvode, weigh);

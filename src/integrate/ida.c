@@ -468,6 +468,8 @@ static int start_ida(ida_run *run, double t)
   }
   if (flag == IDA_SUCCESS) {
     flag = IDAInit(run->ida, evaluate, t, run->y, run->dy);
+    /* Out of memory: SUNDIALS 6.4 has freed its vectors and would again; what is left of it is lost. */
+    run->ida = flag == IDA_MEM_FAIL ? NULL : run->ida;
   }
   if (flag == IDA_SUCCESS) {
     flag = IDAWFtolerances(run->ida, weigh);
