@@ -226,9 +226,9 @@ static void wrong_arguments_are_refused_with_the_argument(void **state)
   const baum_integrator *e = baum_euler();
   ASSERT_REFUSED(baum_stability_at(NULL, 1.0, 1.0, &out, sizeof out), BAUM_ERR_ARGUMENT,
                  "integrator is NULL, must be one such as baum_euler()");
-  ASSERT_REFUSED(baum_stability_at(e, NAN, 1.0, &out, sizeof out), BAUM_ERR_ARGUMENT,
+  ASSERT_REFUSED(baum_stability_at(e, (double)NAN, 1.0, &out, sizeof out), BAUM_ERR_ARGUMENT,
                  "alpha_h is nan, must be finite");
-  ASSERT_REFUSED(baum_stability_at(e, 1.0, INFINITY, &out, sizeof out), BAUM_ERR_ARGUMENT,
+  ASSERT_REFUSED(baum_stability_at(e, 1.0, (double)INFINITY, &out, sizeof out), BAUM_ERR_ARGUMENT,
                  "beta2_h2 is inf, must be finite");
   ASSERT_REFUSED(baum_stability_at(e, 1.0, 1.0, NULL, sizeof out), BAUM_ERR_ARGUMENT,
                  "out is NULL");
@@ -238,12 +238,12 @@ static void wrong_arguments_are_refused_with_the_argument(void **state)
                  "integrator is NULL, must be one such as baum_euler()");
   ASSERT_REFUSED(baum_stability_limit(e, 0.0, &x), BAUM_ERR_ARGUMENT,
                  "damping_ratio is 0, must be > 0 and finite");
-  ASSERT_REFUSED(baum_stability_limit(e, INFINITY, &x), BAUM_ERR_ARGUMENT,
+  ASSERT_REFUSED(baum_stability_limit(e, (double)INFINITY, &x), BAUM_ERR_ARGUMENT,
                  "damping_ratio is inf, must be > 0 and finite");
   ASSERT_REFUSED(baum_stability_limit(e, 1.0, NULL), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
   ASSERT_REFUSED(baum_stability_deadbeat(e, NULL, &y), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
   ASSERT_REFUSED(baum_stability_deadbeat(e, &x, NULL), BAUM_ERR_ARGUMENT, "beta2_h2 is NULL");
-  ASSERT_REFUSED(baum_stability_nearest(e, NAN, 1.0, &x, &y), BAUM_ERR_ARGUMENT,
+  ASSERT_REFUSED(baum_stability_nearest(e, (double)NAN, 1.0, &x, &y), BAUM_ERR_ARGUMENT,
                  "alpha_h is nan, must be finite");
   ASSERT_REFUSED(baum_stability_nearest(e, 1.0, 1.0, NULL, &y), BAUM_ERR_ARGUMENT,
                  "good_alpha_h is NULL");
@@ -417,7 +417,7 @@ static void begin_anew(const baum_integrator *integrator, baum_formulation formu
   assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
   baum_i_statistics before;
   integrator->statistics(run.self, &before);
-  fault.after = INFINITY;
+  fault.after = (double)INFINITY;
   double q[2];
   double v[2];
   pendulum_motion(0.0, q, v);
@@ -455,7 +455,7 @@ static void go_on(const baum_integrator *integrator, baum_formulation formulatio
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
   assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
   assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
-  fault.after = INFINITY;
+  fault.after = (double)INFINITY;
   assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
   pendulum_motion(1.0, q, v);
   assert_true(motion_error(2, run.q, run.v, q, v, 4.43) <= allowed(&setup));

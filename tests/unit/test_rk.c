@@ -103,7 +103,7 @@ static void a_failing_stage_leaves_the_state(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
-    force_fault fault = {.after = INFINITY, .answer = -1};
+    force_fault fault = {.after = (double)INFINITY, .answer = -1};
     baum_mechanism *mechanism = make_faulty_pendulum(&fault);
     integrator_setup setup = setup_of(mechanism, METHODS[k]());
     integrator_run run;
@@ -122,7 +122,7 @@ static void a_failing_stage_leaves_the_state(void **state)
       assert_memory_equal(run.state_q, q, sizeof q);
       assert_memory_equal(run.state_v, v, sizeof v);
     }
-    fault.after = INFINITY;
+    fault.after = (double)INFINITY;
     assert_int_equal(integrator_run_step(&run), BAUM_OK);
     integrator_run_close(&run);
     baum_mechanism_destroy(mechanism);
