@@ -24,6 +24,12 @@ endif()
 check_c_compiler_flag(-ffp-contract=off BAUM_KNOWS_fp_contract)
 check_linker_flag(C LINKER:--as-needed BAUM_KNOWS_as_needed)
 
+check_linker_flag(C LINKER:-z,defs BAUM_KNOWS_z_defs)
+
+# A symbol that nobody defines is found here and not by the first user; sanitizers leave theirs open.
+if(BAUM_KNOWS_z_defs AND NOT BAUM_SANITIZE)
+  set(BAUM_NO_UNDEFINED LINKER:-z,defs)
+endif()
 set(BAUM_AS_NEEDED $<$<BOOL:${BAUM_KNOWS_as_needed}>:LINKER:--as-needed>)
 
 if(BAUM_SANITIZE)

@@ -73,7 +73,8 @@ typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, 
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
 
-/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. */
+/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. It is also called at times
+ *  outside of the run: by the check of derivatives, and where the constraints around the start are explored. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions ------------------------------------------------------------------ */

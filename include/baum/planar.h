@@ -190,8 +190,7 @@ typedef struct baum_planar_translational_def {
   double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double axis
-    [2]; /**< [-] not zero; axes as the points: ground with `point`, else body_a. Default: (1, 0). */
+  double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
   double angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
 } baum_planar_translational_def;
 

@@ -164,7 +164,8 @@ BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, dou
  */
 BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t count);
 
-/** Ask a run to stop after its present step. The next call goes on. From any thread or signal handler.
+/** Ask a run to stop after its present step; the next call goes on. A run that no call is advancing stops at the start
+ *  of the next call, and the one after goes on. From any thread or signal handler.
  *  @param simulation  may be NULL
  */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
@@ -264,10 +265,11 @@ typedef struct baum_counters {
   double
     predicted_phi; /**< Both Eulers, stable gains >= 0.1/h: largest (alpha/beta^2) h |gamma_i|; else NaN. */
   double predicted_phi_rate; /**< Likewise largest (h/2) |gamma_i|; else NaN. */
-  double energy_change; /**< [J] total energy now minus at start, drivers and dampers included. */
-  double start_change;  /**< [-] largest displacement at assembly relative to the scale. */
-  double alpha;         /**< [1/s] in use. */
-  double beta;          /**< [1/s] in use. */
+  double
+    energy_change; /**< [J] kinetic and potential energy now minus at start; work of drivers and dampers is in it. */
+  double start_change; /**< [-] largest displacement at assembly relative to the scale. */
+  double alpha;        /**< [1/s] in use. */
+  double beta;         /**< [1/s] in use. */
 } baum_counters;
 
 /** Read the counters.

@@ -30,6 +30,19 @@ baum_status baum_i_fail_memory(void)
   return baum_i_fail(BAUM_ERR_MEMORY, "out of memory");
 }
 
+void baum_i_message_keep(baum_i_sentence *kept)
+{
+  memcpy(kept->text, sentence, sizeof sentence);
+}
+
+baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kept)
+{
+  if (status == BAUM_OK) {
+    memcpy(sentence, kept->text, sizeof sentence);
+  }
+  return status;
+}
+
 void baum_i_message_prefix(const char *format, ...)
 {
   char text[BAUM_I_MESSAGE_SIZE];

@@ -20,6 +20,17 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
 /* The sentence for BAUM_ERR_MEMORY. */
 baum_status baum_i_fail_memory(void);
 
+/* A sentence put aside while something is tried whose failures do not matter. */
+typedef struct baum_i_sentence {
+  char text[BAUM_I_MESSAGE_SIZE];
+} baum_i_sentence;
+
+/* Put this thread's sentence aside. */
+void baum_i_message_keep(baum_i_sentence *kept);
+
+/* Return status; if all went well in the end, the sentence from before is this thread's again. */
+baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kept);
+
 /* Put a prefix such as "t = 1.2 s: " before this thread's sentence. */
 void baum_i_message_prefix(const char *format, ...) BAUM_I_PRINTF(1, 2);
 

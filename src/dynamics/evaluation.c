@@ -387,12 +387,14 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   if (!flags) {
     return baum_i_fail_memory();
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   status = mark_held(workspace->mechanism, held, held_count, flags);
   if (status == BAUM_OK) {
     status = baum_i_assemble(workspace, t, q, v, flags, NULL);
   }
   baum_i_free(flags);
-  return status;
+  return baum_i_message_settle(status, &kept);
 }
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)

@@ -120,6 +120,8 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
   if (!out || caller_size < sizeof(size_t)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_mobility: out is NULL or its size is 0");
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
   baum_status status = baum_workspace_create(mechanism, &w);
   if (status != BAUM_OK) {
@@ -134,5 +136,5 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
   }
   baum_i_free(q);
   baum_workspace_destroy(w);
-  return status;
+  return baum_i_message_settle(status, &kept);
 }

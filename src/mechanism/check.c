@@ -348,10 +348,12 @@ baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
                        "baum_mechanism_check_derivatives: the mechanism is not frozen");
   }
   place p;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   baum_status status = make_place(mechanism, &p);
   if (status == BAUM_OK) {
     status = check_elements(mechanism, &p);
   }
   release_place(&p);
-  return status;
+  return baum_i_message_settle(status, &kept);
 }

@@ -68,13 +68,16 @@ static baum_status check_finite(const baum_simulation *run, const baum_i_state *
   return BAUM_OK;
 }
 
-static baum_status explain_retry(const baum_simulation *run, baum_status status)
+/* What a function of the user answers knows nothing of the run. */
+static baum_status explain_callback(const baum_simulation *run, baum_status status)
 {
-  if (status == BAUM_ERR_CALLBACK && run->workspace->point.retry) {
+  if (status == BAUM_ERR_CALLBACK) {
     char reason[BAUM_I_MESSAGE_SIZE];
     memcpy(reason, baum_message(), sizeof reason);
-    return baum_i_fail(status, "t = %.9g s: %.600s; %s cannot take a smaller step", run->state.t,
-                       reason, run->integrator->name);
+    bool retry = run->workspace->point.retry;
+    (void)baum_i_fail(status, "t = %.9g s: %.600s%s%s%s", run->state.t, reason, retry ? "; " : "",
+                      retry ? run->integrator->name : "",
+                      retry ? " cannot take a smaller step" : "");
   }
   return status;
 }
@@ -86,7 +89,7 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
   const baum_i_state *state = &run->state;
   baum_status status = baum_i_problem_acceleration(&run->problem, state->t, state->q, state->v);
   if (status != BAUM_OK) {
-    return explain_retry(run, status);
+    return explain_callback(run, status);
   }
   if (observe) {
     baum_i_run_observe(run, state->t, true);
@@ -104,7 +107,7 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
   if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
     status = baum_i_project(run->workspace, t_next, trial->q, trial->v);
   }
-  return explain_retry(run, status);
+  return explain_callback(run, status);
 }
 
 static void keep_trial(baum_simulation *run)
@@ -283,6 +286,7 @@ static baum_status finish(baum_simulation *run, baum_status status, const struct
   const baum_i_state *state = &run->state;
   char reason[BAUM_I_MESSAGE_SIZE];
   memcpy(reason, baum_message(), sizeof reason);
+  atomic_store(&run->cancelled, 0);
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);

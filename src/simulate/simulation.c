@@ -218,7 +218,9 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   run->options = checked;
   run->integrator = checked.integrator;
   atomic_init(&run->cancelled, 0);
-  status = prepare(run, mechanism);
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  status = baum_i_message_settle(prepare(run, mechanism), &kept);
   if (status != BAUM_OK) {
     baum_simulation_destroy(run);
     return status;

@@ -189,6 +189,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   if (status != BAUM_OK) {
     return status;
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   status = baum_i_run_start(simulation, t, q, v);
   if (status == BAUM_OK && simulation->integrator->restart) {
     status =
@@ -198,5 +200,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   if (status == BAUM_OK) {
     status = baum_i_run_accept(simulation);
   }
-  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
+  if (status != BAUM_OK) {
+    return baum_i_run_fail(simulation, status);
+  }
+  return baum_i_message_settle(status, &kept);
 }
