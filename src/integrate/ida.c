@@ -97,9 +97,11 @@ static void copy_pattern(const baum_i_residual_matrix *jacobian, SUNMatrix matri
   }
 }
 
+/* NOLINTNEXTLINE(readability-function-size): IDA's parameters. */
 static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Vector residual,
                      SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2, N_Vector work3)
 {
+  /* #lizard forgives: IDA's parameters */
   (void)residual;
   (void)work1;
   (void)work2;
