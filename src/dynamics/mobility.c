@@ -120,6 +120,11 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
   if (!out || caller_size < sizeof(size_t)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_mobility: out is NULL or its size is 0");
   }
+  if (!baum_mechanism_is_frozen(mechanism)) {
+    return baum_i_fail(mechanism ? BAUM_ERR_STATE : BAUM_ERR_ARGUMENT,
+                       "baum_mechanism_mobility: the mechanism is %s",
+                       mechanism ? "not frozen" : "NULL");
+  }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
