@@ -1,0 +1,393 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Starts that are inconsistent, and functions of the user that fail: named, and a run keeps its last good step. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "every_element.h"
+#include "sentence.h"
+
+static void *const GARBAGE = (void *)(uintptr_t)16;
+
+static baum_simulation_options euler_options(void)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_euler();
+  o.step = 1e-3;
+  return o;
+}
+
+static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
+                          baum_status want, const char *sentence)
+{
+  baum_simulation *run = GARBAGE;
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, sentence);
+  assert_null(run);
+}
+
+/* ---- a bead on a rod about the origin, drawn at (x, y), with a velocity ---- */
+
+typedef struct bead_def {
+  double x;
+  double y;
+  double v[2];
+  double length;
+  double second_length; /* of a second rod, or 0 for none */
+  bool held;
+} bead_def;
+
+static const bead_def GOOD_BEAD = {1.0, 0.0, {(double)NAN, (double)NAN}, 1.0, 0.0, false};
+
+static void add_rod(baum_mechanism *mechanism, const char *name, baum_body_id body, double length)
+{
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.name = name;
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = body;
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  rod.length = length;
+  assert_int_equal(baum_mechanism_add_planar_distance(mechanism, &rod, NULL), BAUM_OK);
+}
+
+static baum_mechanism *make_bead(const bead_def *def)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_planar_particle_def bead = baum_planar_particle_def_default();
+  baum_body_id id;
+  bead.name = "bead";
+  bead.position[0] = def->x;
+  bead.position[1] = def->y;
+  memcpy(bead.velocity, def->v, sizeof bead.velocity);
+  bead.held = def->held;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bead, &id), BAUM_OK);
+  add_rod(mechanism, "rod", id, def->length);
+  if (def->second_length > 0.0) {
+    add_rod(mechanism, "second rod", id, def->second_length);
+  }
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  return mechanism;
+}
+
+static void check_bead_refused(const bead_def *def, baum_start start, const char *sentence)
+{
+  baum_mechanism *mechanism = make_bead(def);
+  baum_simulation_options o = euler_options();
+  o.start = start;
+  check_refused(mechanism, &o, BAUM_ERR_INCONSISTENT, sentence);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void exact_refuses_a_pose_that_is_not(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.length = 1.01;
+  check_bead_refused(
+    &def, BAUM_START_EXACT,
+    "t = 0 s: the start is not exact: joint 1 \"rod\" has Phi = -0.00995 m or rad");
+}
+
+static void exact_refuses_velocities_that_are_not(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.v[0] = 0.5;
+  def.v[1] = 2.0;
+  check_bead_refused(
+    &def, BAUM_START_EXACT,
+    "t = 0 s: the start is not exact: joint 1 \"rod\" has Phi' = 0.5 m/s or rad/s");
+}
+
+static void given_velocities_that_conflict_are_named(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.v[0] = 0.5;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE,
+                     "the given velocities and the constraints contradict each other|\"rod\"|0.5");
+}
+
+static void given_velocities_that_fit_are_held_exactly(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.v[1] = 0.1;
+  baum_mechanism *mechanism = make_bead(&def);
+  baum_simulation_options o = euler_options();
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  assert_true(baum_simulation_v(run)[1] == 0.1);
+  ASSERT_NEAR(baum_simulation_v(run)[0], 0.0, 0.0, 1e-15);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void joints_that_contradict_each_other_are_named(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.second_length = 1.1;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE, "contradict each other|\"rod\"|\"second rod\"");
+  baum_mechanism *mechanism = make_bead(&def);
+  baum_mobility mobility;
+  assert_int_equal(baum_mechanism_mobility(mechanism, &mobility, sizeof mobility), BAUM_OK);
+  assert_int_equal(mobility.conflicting_rows, 2);
+  assert_non_null(strstr(mobility.text, "\"second rod\""));
+  baum_mechanism_destroy(mechanism);
+}
+
+static void a_held_body_out_of_place_is_named(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.length = 1.01;
+  def.held = true;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE, "constraints and held bodies|\"rod\"");
+}
+
+static void a_drawing_too_far_off_is_refused(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.length = 2.0;
+  check_bead_refused(&def, BAUM_START_ASSEMBLE,
+                     "assembly would move body 1 \"bead\" by 1 m, more than|\"rod\"|closer");
+}
+
+static void a_rough_drawing_is_assembled_and_reported(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.length = 1.01;
+  baum_mechanism *mechanism = make_bead(&def);
+  baum_simulation_options o = euler_options();
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  double scale = 0.0;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  assert_int_equal(baum_mechanism_get_scale(mechanism, &scale), BAUM_OK);
+  ASSERT_NEAR(baum_simulation_q(run)[0], 1.01, 1e-10, 0.0);
+  ASSERT_NEAR(counters.start_change, 0.01 / scale, 1e-6, 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void as_given_takes_what_is_drawn(void **state)
+{
+  (void)state;
+  bead_def def = GOOD_BEAD;
+  def.length = 1.01;
+  def.v[1] = -3.0;
+  baum_mechanism *mechanism = make_bead(&def);
+  baum_simulation_options o = euler_options();
+  o.start = BAUM_START_AS_GIVEN;
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  assert_true(baum_simulation_q(run)[0] == 1.0);
+  assert_true(baum_simulation_v(run)[0] == 0.0);
+  assert_true(baum_simulation_v(run)[1] == -3.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- functions that fail ---- */
+
+static void start_options(const baum_integrator *integrator, baum_simulation_options *o)
+{
+  *o = baum_simulation_options_default();
+  o->integrator = integrator;
+  if (baum_integrator_has_fixed_step(integrator)) {
+    o->step = 2e-3;
+  } else {
+    o->rtol = 1e-5;
+  }
+}
+
+static bool is_absent(const baum_integrator *integrator)
+{
+  return !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
+}
+
+static const struct {
+  int answer;
+  baum_status status;
+  const char *sentence;
+} faults[] = {
+  {-3, BAUM_ERR_CALLBACK, "returned -3 (stop)"},
+  {4, BAUM_ERR_CALLBACK, "returned 4 (retry)"},
+  {0, BAUM_ERR_NOT_FINITE, "nan"},
+};
+enum { FAULTS = 3 };
+
+static bool all_finite(const double *values, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(values[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+static void check_readable(baum_simulation *run)
+{
+  double q[EVERY_NV];
+  const baum_channel channel = {.quantity = BAUM_Q};
+  baum_counters counters;
+  assert_int_equal(baum_simulation_get(run, &channel, 1, q), BAUM_OK);
+  assert_memory_equal(q, baum_simulation_q(run), sizeof q);
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  assert_true(counters.steps > 0);
+}
+
+/* Steps up to the place where a function begins to fail, then what can still be read and done. */
+static void check_fault_on_the_way(const baum_integrator *integrator, int f)
+{
+  every_fault fault = {.answer = faults[f].answer, .fails = true, .after = 0.0505};
+  every_element parts = every_element_make(&fault);
+  baum_simulation_options o;
+  start_options(integrator, &o);
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].sentence);
+  assert_non_null(strstr(baum_simulation_message(run), faults[f].sentence));
+  assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
+  double t = baum_simulation_time(run);
+  /* The step before the fault; Euler's last step ends after it, for it looks at the beginning of steps only. */
+  bool fixed = baum_integrator_has_fixed_step(integrator);
+  if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
+    fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(integrator),
+             faults[f].sentence, t);
+  }
+  assert_true(all_finite(baum_simulation_q(run), EVERY_NV));
+  assert_true(all_finite(baum_simulation_v(run), EVERY_NV));
+  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].sentence);
+  fault.fails = false;
+  check_readable(run);
+  baum_status status = baum_simulation_advance_to(run, 0.2);
+  assert_true(status == BAUM_OK || status == BAUM_WARNED);
+  assert_true(baum_simulation_time(run) == 0.2);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void a_function_that_fails_on_the_way_leaves_the_last_good_step(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; baum_integrator_at(k) != NULL; k++) {
+    for (int f = 0; f < FAULTS && !is_absent(baum_integrator_at(k)); f++) {
+      check_fault_on_the_way(baum_integrator_at(k), f);
+    }
+  }
+}
+
+static bool is_documented_failure(baum_status status, int f)
+{
+  return status == faults[f].status;
+}
+
+/* The n-th call of any function fails, and all after it, for as many n as create makes calls. */
+static void check_fault_at_create(const baum_integrator *integrator, int f, baum_start start)
+{
+  every_fault fault = {.answer = faults[f].answer, .fails = false, .from = 1};
+  every_element parts = every_element_make(&fault);
+  baum_simulation_options o;
+  start_options(integrator, &o);
+  o.start = start;
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  baum_simulation_destroy(run);
+  int64_t calls = fault.calls;
+  fault.fails = true;
+  for (int64_t n = 1; n <= calls; n += 1 + n / 8) {
+    fault.calls = 0;
+    fault.from = n;
+    run = GARBAGE;
+    baum_status status = baum_simulation_create(parts.mechanism, &o, &run);
+    if (!is_documented_failure(status, f) || run != NULL ||
+        strstr(baum_message(), faults[f].sentence) == NULL) {
+      fail_msg("call %lld fails: %s: %s", (long long)n, baum_status_name(status), baum_message());
+    }
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void a_function_that_fails_at_create_is_named(void **state)
+{
+  (void)state;
+  for (int f = 0; f < FAULTS; f++) {
+    check_fault_at_create(baum_rk4(), f, BAUM_START_ASSEMBLE);
+    check_fault_at_create(baum_euler(), f, BAUM_START_AS_GIVEN);
+    if (baum_has("sundials")) {
+      check_fault_at_create(baum_ida(), f, BAUM_START_AS_GIVEN);
+    }
+  }
+}
+
+/* One call fails and the next are fine: whichever it is, the run stands at a good step and goes on. */
+static void check_single_fault(const baum_integrator *integrator, int f, int64_t n)
+{
+  every_fault fault = {.answer = faults[f].answer};
+  every_element parts = every_element_make(&fault);
+  baum_simulation_options o;
+  start_options(integrator, &o);
+  o.check_derivatives = false;
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+  fault.fails = true;
+  fault.from = fault.calls + n;
+  baum_status status = baum_simulation_advance_to(run, 0.02);
+  fault.fails = false;
+  if (status != BAUM_OK && status != BAUM_WARNED && status != faults[f].status) {
+    fail_msg("%s, call %lld: %s: %s", baum_integrator_name(integrator), (long long)n,
+             baum_status_name(status), baum_message());
+  }
+  assert_true(all_finite(baum_simulation_q(run), EVERY_NV));
+  assert_true(all_finite(baum_simulation_v(run), EVERY_NV));
+  status = baum_simulation_advance_to(run, 0.02);
+  assert_true(status == BAUM_OK || status == BAUM_WARNED);
+  assert_true(baum_simulation_time(run) == 0.02);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void whichever_call_fails_the_run_can_go_on(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; baum_integrator_at(k) != NULL; k++) {
+    for (int f = 0; f < FAULTS && !is_absent(baum_integrator_at(k)); f++) {
+      for (int64_t n = 1; n < 60; n += 1 + n / 10) {
+        check_single_fault(baum_integrator_at(k), f, n);
+      }
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(exact_refuses_a_pose_that_is_not),
+    cmocka_unit_test(exact_refuses_velocities_that_are_not),
+    cmocka_unit_test(given_velocities_that_conflict_are_named),
+    cmocka_unit_test(given_velocities_that_fit_are_held_exactly),
+    cmocka_unit_test(joints_that_contradict_each_other_are_named),
+    cmocka_unit_test(a_held_body_out_of_place_is_named),
+    cmocka_unit_test(a_drawing_too_far_off_is_refused),
+    cmocka_unit_test(a_rough_drawing_is_assembled_and_reported),
+    cmocka_unit_test(as_given_takes_what_is_drawn),
+    cmocka_unit_test(a_function_that_fails_on_the_way_leaves_the_last_good_step),
+    cmocka_unit_test(a_function_that_fails_at_create_is_named),
+    cmocka_unit_test(whichever_call_fails_the_run_can_go_on),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
