@@ -1,0 +1,553 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How a run is driven: steps, targets, samples, progress, cancelling, warnings, counters, words. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "every_element.h"
+#include "sentence.h"
+
+static const double STEP = 0.01;
+
+/* A run and its mechanism. */
+typedef struct scene {
+  every_element parts;
+  baum_simulation *run;
+} scene;
+
+static baum_simulation_options options_for(const baum_integrator *integrator)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = integrator;
+  if (baum_integrator_has_fixed_step(integrator)) {
+    o.step = STEP;
+  } else {
+    o.rtol = 1e-8;
+  }
+  return o;
+}
+
+static scene open_with(const baum_simulation_options *o)
+{
+  scene s = {.parts = every_element_make(NULL)};
+  assert_int_equal(baum_simulation_create(s.parts.mechanism, o, &s.run), BAUM_OK);
+  return s;
+}
+
+static scene open_scene(const baum_integrator *integrator)
+{
+  baum_simulation_options o = options_for(integrator);
+  return open_with(&o);
+}
+
+static void close_scene(scene *s)
+{
+  baum_simulation_destroy(s->run);
+  baum_mechanism_destroy(s->parts.mechanism);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters;
+}
+
+/* Every integrator that this build can run. */
+static const baum_integrator *integrator_at(int32_t k)
+{
+  const baum_integrator *integrator = baum_integrator_at(k);
+  bool absent = integrator && !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
+  return absent ? NULL : integrator;
+}
+
+/* Bit for bit. */
+static void check_same_state(const baum_simulation *a, const baum_simulation *b)
+{
+  assert_true(baum_simulation_time(a) == baum_simulation_time(b));
+  assert_memory_equal(baum_simulation_q(a), baum_simulation_q(b), EVERY_NV * sizeof(double));
+  assert_memory_equal(baum_simulation_v(a), baum_simulation_v(b), EVERY_NV * sizeof(double));
+}
+
+/* ---- steps and targets ---- */
+
+static void whole_steps_end_where_the_grid_says(void **state)
+{
+  (void)state;
+  scene s = open_scene(baum_rk4());
+  assert_int_equal(baum_simulation_step(s.run, 7), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 7 * STEP);
+  assert_int_equal(baum_simulation_step(s.run, 1), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 8 * STEP);
+  baum_counters counters = counters_of(s.run);
+  assert_int_equal(counters.steps, 8);
+  assert_int_equal(counters.short_steps, 0);
+  close_scene(&s);
+}
+
+static void times_do_not_drift_however_many_steps(void **state)
+{
+  (void)state;
+  baum_simulation_options o = options_for(baum_semi_implicit_euler());
+  o.step = 0.001;
+  o.start_time = 0.1;
+  scene s = open_with(&o);
+  assert_int_equal(baum_simulation_step(s.run, 2000), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 0.1 + 2000 * 0.001);
+  close_scene(&s);
+}
+
+static void steps_in_one_call_or_many_are_the_same(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    assert_true(baum_simulation_step(a.run, 12) >= BAUM_OK);
+    for (int i = 0; i < 12; i++) {
+      assert_true(baum_simulation_step(b.run, 1) >= BAUM_OK);
+    }
+    check_same_state(a.run, b.run);
+    assert_int_equal(counters_of(a.run).steps, 12);
+    assert_int_equal(counters_of(b.run).steps, 12);
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+static void a_target_on_the_grid_takes_whole_steps(void **state)
+{
+  (void)state;
+  scene a = open_scene(baum_rk3());
+  scene b = open_scene(baum_rk3());
+  assert_int_equal(baum_simulation_advance_to(a.run, 0.07), BAUM_OK);
+  assert_int_equal(baum_simulation_step(b.run, 7), BAUM_OK);
+  check_same_state(a.run, b.run);
+  assert_int_equal(counters_of(a.run).short_steps, 0);
+  close_scene(&a);
+  close_scene(&b);
+}
+
+static void a_target_off_the_grid_takes_one_short_step_and_begins_a_grid(void **state)
+{
+  (void)state;
+  scene s = open_scene(baum_rk3());
+  assert_int_equal(baum_simulation_advance_to(s.run, 0.0345), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 0.0345);
+  baum_counters counters = counters_of(s.run);
+  assert_int_equal(counters.steps, 4);
+  assert_int_equal(counters.short_steps, 1);
+  assert_int_equal(baum_simulation_step(s.run, 2), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 0.0345 + 2 * STEP);
+  assert_int_equal(counters_of(s.run).short_steps, 1);
+  close_scene(&s);
+}
+
+static void the_present_time_as_target_does_nothing(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene s = open_scene(integrator_at(k));
+    assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(s.run, 0.025) >= BAUM_OK);
+    int64_t steps = counters_of(s.run).steps;
+    assert_int_equal(baum_simulation_advance_to(s.run, 0.025), BAUM_OK);
+    assert_int_equal(counters_of(s.run).steps, steps);
+    close_scene(&s);
+  }
+}
+
+/* A target is met exactly, and one step further than the error of the method would be a different motion. */
+static void out_and_back_ends_near_the_start(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    baum_simulation_options o = options_for(integrator_at(k));
+    o.step = isnan(o.step) ? o.step : 1e-4;
+    scene s = open_with(&o);
+    double start[EVERY_NV];
+    memcpy(start, baum_simulation_q(s.run), sizeof start);
+    assert_true(baum_simulation_advance_to(s.run, 0.05) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(s.run, -0.05) >= BAUM_OK);
+    assert_true(baum_simulation_time(s.run) == -0.05);
+    assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
+    assert_true(baum_simulation_time(s.run) == 0.0);
+    for (int i = 0; i < EVERY_NV; i++) {
+      /* Order 1 with h = 1e-4 over 0.2 s: |a| h t is about 1e-3. */
+      ASSERT_NEAR(baum_simulation_q(s.run)[i], start[i], 0.0, 1e-3);
+    }
+    assert_true(counters_of(s.run).max_phi < 1e-3);
+    close_scene(&s);
+  }
+}
+
+static void targets_do_not_alter_the_steps_of_a_variable_step_method(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    if (baum_integrator_has_fixed_step(integrator_at(k))) {
+      continue;
+    }
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    assert_true(baum_simulation_advance_to(a.run, 0.2) >= BAUM_OK);
+    for (int i = 1; i <= 100; i++) {
+      assert_true(baum_simulation_advance_to(b.run, 0.002 * i) >= BAUM_OK);
+    }
+    assert_true(baum_simulation_advance_to(b.run, 0.2) >= BAUM_OK);
+    check_same_state(a.run, b.run);
+    assert_int_equal(counters_of(a.run).steps, counters_of(b.run).steps);
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+static void max_steps_ends_a_call_and_the_next_goes_on(void **state)
+{
+  (void)state;
+  baum_simulation_options o = options_for(baum_rk2());
+  o.max_steps = 5;
+  scene s = open_with(&o);
+  ASSERT_SAYS(baum_simulation_advance_to(s.run, 0.08), BAUM_ERR_STEP,
+              "t = 0.05 s: max_steps = 5 steps taken in one call");
+  assert_true(baum_simulation_time(s.run) == 5 * STEP);
+  assert_int_equal(baum_simulation_advance_to(s.run, 0.08), BAUM_OK);
+  close_scene(&s);
+}
+
+static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    double q[EVERY_NV];
+    double v[EVERY_NV];
+    memcpy(q, baum_simulation_q(a.run), sizeof q);
+    memcpy(v, baum_simulation_v(a.run), sizeof v);
+    assert_true(baum_simulation_advance_to(a.run, 0.043) >= BAUM_OK);
+    assert_int_equal(baum_simulation_set_state(a.run, 0.0, q, v), BAUM_OK);
+    assert_true(baum_simulation_time(a.run) == 0.0);
+    assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(b.run, 0.1) >= BAUM_OK);
+    for (int i = 0; i < EVERY_NV; i++) {
+      /* Assembly of the state that was set moves it by rounding. */
+      ASSERT_NEAR(baum_simulation_q(a.run)[i], baum_simulation_q(b.run)[i], 0.0, 1e-7);
+    }
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+/* ---- samples ---- */
+
+enum { TIMES = 9 };
+
+static void samples_off_the_grid_do_not_alter_the_motion(void **state)
+{
+  (void)state;
+  const double off[TIMES] = {0.0, 0.003, 0.0101, 0.0255, 0.0256, 0.03, 0.047, 0.0699, 0.1};
+  const baum_channel channel = {.quantity = BAUM_Q};
+  double rows[TIMES * EVERY_NV];
+  int64_t done = 0;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
+    assert_true(baum_simulation_sample(b.run, off, TIMES, &channel, 1, rows, &done) >= BAUM_OK);
+    assert_int_equal(done, TIMES);
+    check_same_state(a.run, b.run);
+    assert_memory_equal(rows + (TIMES - 1) * EVERY_NV, baum_simulation_q(a.run),
+                        EVERY_NV * sizeof(double));
+    assert_int_equal(counters_of(a.run).steps, counters_of(b.run).steps);
+    assert_int_equal(counters_of(b.run).short_steps, 0);
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+static void a_sample_is_what_an_advance_to_its_time_finds(void **state)
+{
+  (void)state;
+  const double times[3] = {0.0134, 0.0345, 0.06};
+  const baum_channel channel = {.quantity = BAUM_Q};
+  double rows[3 * EVERY_NV];
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    assert_true(baum_simulation_sample(a.run, times, 3, &channel, 1, rows, NULL) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(b.run, times[0]) >= BAUM_OK);
+    assert_memory_equal(rows, baum_simulation_q(b.run), EVERY_NV * sizeof(double));
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+static void samples_backward_and_at_the_present_time_are_fine(void **state)
+{
+  (void)state;
+  const double times[4] = {0.0, 0.0, -0.015, -0.02};
+  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  double rows[8];
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene s = open_scene(integrator_at(k));
+    assert_true(baum_simulation_sample(s.run, times, 4, &channel, 1, rows, NULL) >= BAUM_OK);
+    assert_true(baum_simulation_time(s.run) == -0.02);
+    assert_memory_equal(rows, rows + 2, 2 * sizeof *rows);
+    close_scene(&s);
+  }
+}
+
+/* ---- channels ---- */
+
+static void channels_agree_with_each_other(void **state)
+{
+  (void)state;
+  scene s = open_scene(baum_rk4());
+  assert_int_equal(baum_simulation_advance_to(s.run, 0.05), BAUM_OK);
+  const baum_channel channels[] = {
+    {.quantity = BAUM_Q},
+    {.quantity = BAUM_BODY_POSE, .body = s.parts.crank, .point = {0.05, 0.0}},
+    {.quantity = BAUM_BODY_VELOCITY, .body = s.parts.crank},
+    {.quantity = BAUM_JOINT_COORDINATE, .joint = s.parts.pin},
+    {.quantity = BAUM_PHI},
+    {.quantity = BAUM_PHI, .joint = s.parts.motor},
+    {.quantity = BAUM_BODY_POSE, .body = s.parts.masses},
+  };
+  enum { COUNT = sizeof channels / sizeof *channels };
+  double row[EVERY_NV + 3 + 3 + 2 + EVERY_NC + 1 + 2];
+  assert_int_equal(baum_channels_width(s.parts.mechanism, channels, COUNT),
+                   (int)(sizeof row / sizeof *row));
+  assert_int_equal(baum_simulation_get(s.run, channels, COUNT, row), BAUM_OK);
+  const double *q = row;
+  const double *tip = q + EVERY_NV;
+  const double *rate = tip + 3;
+  const double *coordinate = rate + 3;
+  const double *phi = coordinate + 2;
+  assert_memory_equal(q, baum_simulation_q(s.run), EVERY_NV * sizeof *q);
+  ASSERT_NEAR(tip[0], q[0] + 0.05 * cos(q[2]), 1e-14, 0.0);
+  ASSERT_NEAR(tip[1], q[1] + 0.05 * sin(q[2]), 1e-14, 0.0);
+  assert_memory_equal(rate, baum_simulation_v(s.run), 3 * sizeof *rate);
+  ASSERT_NEAR(coordinate[0], q[2], 1e-14, 0.0);
+  ASSERT_NEAR(coordinate[1], rate[2], 1e-14, 0.0);
+  assert_true(phi[8] == phi[EVERY_NC]);
+  assert_memory_equal(phi + EVERY_NC + 1, q + 11, 2 * sizeof *q);
+  close_scene(&s);
+}
+
+/* ---- progress and cancelling ---- */
+
+typedef struct progress_log {
+  int calls;
+  int cancel_at; /* call that cancels, 0 for none */
+  double last;
+  const baum_simulation *run;
+} progress_log;
+
+static int log_progress(const baum_simulation *run, double t, void *user)
+{
+  progress_log *log = user;
+  log->calls++;
+  log->last = t;
+  log->run = run;
+  assert_true(t == baum_simulation_time(run));
+  return log->calls == log->cancel_at ? 1 : 0;
+}
+
+static scene open_with_progress(progress_log *log, double interval)
+{
+  baum_simulation_options o = options_for(baum_rk4());
+  o.progress = log_progress;
+  o.progress_interval = interval;
+  o.user = log;
+  return open_with(&o);
+}
+
+static void progress_is_called_by_wall_time(void **state)
+{
+  (void)state;
+  progress_log every_step = {.calls = 0};
+  progress_log never = {.calls = 0};
+  scene a = open_with_progress(&every_step, 0.0);
+  scene b = open_with_progress(&never, 3600.0);
+  assert_int_equal(baum_simulation_advance_to(a.run, 0.1), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(b.run, 0.1), BAUM_OK);
+  assert_int_equal(every_step.calls, 10);
+  assert_ptr_equal(every_step.run, a.run);
+  assert_int_equal(never.calls, 0);
+  check_same_state(a.run, b.run);
+  close_scene(&a);
+  close_scene(&b);
+}
+
+static void progress_can_cancel_and_the_next_call_goes_on(void **state)
+{
+  (void)state;
+  progress_log log = {.cancel_at = 4};
+  scene s = open_with_progress(&log, 0.0);
+  ASSERT_SAYS(baum_simulation_advance_to(s.run, 0.1), BAUM_STOP_CANCELLED, "t = 0.03 s: cancelled");
+  assert_string_equal(baum_simulation_message(s.run), baum_message());
+  assert_true(baum_simulation_time(s.run) == 3 * STEP);
+  assert_int_equal(baum_simulation_advance_to(s.run, 0.1), BAUM_OK);
+  close_scene(&s);
+}
+
+static void cancelling_before_a_call_stops_that_call_only(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene a = open_scene(integrator_at(k));
+    scene b = open_scene(integrator_at(k));
+    baum_simulation_cancel(a.run);
+    ASSERT_SAYS(baum_simulation_advance_to(a.run, 0.1), BAUM_STOP_CANCELLED, "t = 0 s: cancelled");
+    assert_true(baum_simulation_time(a.run) == 0.0);
+    assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(b.run, 0.1) >= BAUM_OK);
+    check_same_state(a.run, b.run);
+    close_scene(&a);
+    close_scene(&b);
+  }
+}
+
+/* ---- warnings, words, counters ---- */
+
+static void warnings_are_announced_once_and_stay_listed(void **state)
+{
+  (void)state;
+  baum_simulation_options o = options_for(baum_euler());
+  o.gains = baum_gains_taylor();
+  scene s = open_with(&o);
+  char text[320];
+  char cut[9];
+  assert_int_equal(counters_of(s.run).warnings, 1);
+  assert_int_equal(baum_simulation_warning(s.run, 0, text, sizeof text), BAUM_OK);
+  assert_non_null(strstr(text, "marginal"));
+  assert_int_equal(baum_simulation_warning(s.run, 0, cut, sizeof cut), BAUM_OK);
+  assert_int_equal(strlen(cut), sizeof cut - 1);
+  assert_memory_equal(cut, text, sizeof cut - 1);
+  ASSERT_SAYS(baum_simulation_step(s.run, 1), BAUM_WARNED,
+              "t = 0.01 s: 1 new warning, the first: ");
+  assert_non_null(strstr(baum_message(), "marginal"));
+  assert_int_equal(baum_simulation_step(s.run, 1), BAUM_OK);
+  assert_int_equal(counters_of(s.run).warnings, 1);
+  close_scene(&s);
+}
+
+static void a_run_explains_itself(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    baum_simulation_options o = options_for(integrator_at(k));
+    o.formulation = BAUM_FORMULATION_BAUMGARTE;
+    o.gains = baum_gains_fixed(4.5, 5.5);
+    scene s = open_with(&o);
+    const char *text = baum_simulation_explain(s.run);
+    assert_non_null(strstr(text, baum_integrator_name(o.integrator)));
+    assert_non_null(strstr(text, "baumgarte"));
+    assert_non_null(strstr(text, "alpha 4.5 1/s, beta 5.5 1/s"));
+    assert_non_null(strstr(text, isnan(o.step) ? "rtol 1e-08" : "fixed step 0.01 s"));
+    assert_non_null(strstr(text, "klu"));
+    assert_non_null(strstr(text, "3 freedoms"));
+    close_scene(&s);
+  }
+}
+
+static void counters_fit_what_was_done(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    baum_simulation_options o = options_for(integrator_at(k));
+    o.formulation = BAUM_FORMULATION_BAUMGARTE;
+    o.gains = baum_gains_fixed(4.5, 5.5);
+    scene s = open_with(&o);
+    baum_counters before = counters_of(s.run);
+    assert_int_equal(before.steps, 0);
+    assert_true(before.wall == 0.0);
+    assert_true(baum_simulation_advance_to(s.run, 0.1) >= BAUM_OK);
+    baum_counters c = counters_of(s.run);
+    assert_int_equal(c.struct_size, sizeof c);
+    assert_true(c.steps >= 10);
+    assert_true(c.evaluations - before.evaluations >= c.steps);
+    assert_true(c.factorizations >= c.full_factorizations);
+    assert_true(c.wall > 0.0);
+    assert_true(c.max_phi > 0.0 && c.max_phi < 1e-2);
+    assert_true(c.max_phi_rate > 0.0 && c.max_phi_rate < 1.0);
+    assert_non_null(baum_mechanism_joint_name(s.parts.mechanism, c.max_phi_joint));
+    assert_non_null(baum_mechanism_joint_name(s.parts.mechanism, c.max_phi_rate_joint));
+    assert_true(c.alpha == 4.5 && c.beta == 5.5);
+    assert_true(isfinite(c.energy_change));
+    assert_int_equal(c.restarts, 0);
+    assert_int_equal(c.near_singular, 0);
+    close_scene(&s);
+  }
+}
+
+static void evaluations_of_a_fixed_step_method_are_its_stages(void **state)
+{
+  (void)state;
+  const struct {
+    const baum_integrator *integrator;
+    int64_t stages;
+  } rows[] = {{baum_euler(), 1},
+              {baum_semi_implicit_euler(), 1},
+              {baum_rk2(), 2},
+              {baum_rk3(), 3},
+              {baum_rk4(), 4}};
+  for (int k = 0; k < 5; k++) {
+    scene s = open_scene(rows[k].integrator);
+    int64_t before = counters_of(s.run).evaluations;
+    assert_int_equal(baum_simulation_step(s.run, 20), BAUM_OK);
+    assert_int_equal(counters_of(s.run).evaluations - before, 20 * rows[k].stages);
+    close_scene(&s);
+  }
+}
+
+static void turning_round_restarts_multistep_methods_only(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene s = open_scene(integrator_at(k));
+    assert_true(baum_simulation_advance_to(s.run, 0.03) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(s.run, 0.01) >= BAUM_OK);
+    assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
+    bool fixed = baum_integrator_has_fixed_step(integrator_at(k));
+    assert_int_equal(counters_of(s.run).restarts, fixed ? 0 : 1);
+    close_scene(&s);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(whole_steps_end_where_the_grid_says),
+    cmocka_unit_test(times_do_not_drift_however_many_steps),
+    cmocka_unit_test(steps_in_one_call_or_many_are_the_same),
+    cmocka_unit_test(a_target_on_the_grid_takes_whole_steps),
+    cmocka_unit_test(a_target_off_the_grid_takes_one_short_step_and_begins_a_grid),
+    cmocka_unit_test(the_present_time_as_target_does_nothing),
+    cmocka_unit_test(out_and_back_ends_near_the_start),
+    cmocka_unit_test(targets_do_not_alter_the_steps_of_a_variable_step_method),
+    cmocka_unit_test(max_steps_ends_a_call_and_the_next_goes_on),
+    cmocka_unit_test(a_state_can_be_set_and_the_run_goes_on_from_there),
+    cmocka_unit_test(samples_off_the_grid_do_not_alter_the_motion),
+    cmocka_unit_test(a_sample_is_what_an_advance_to_its_time_finds),
+    cmocka_unit_test(samples_backward_and_at_the_present_time_are_fine),
+    cmocka_unit_test(channels_agree_with_each_other),
+    cmocka_unit_test(progress_is_called_by_wall_time),
+    cmocka_unit_test(progress_can_cancel_and_the_next_call_goes_on),
+    cmocka_unit_test(cancelling_before_a_call_stops_that_call_only),
+    cmocka_unit_test(warnings_are_announced_once_and_stay_listed),
+    cmocka_unit_test(a_run_explains_itself),
+    cmocka_unit_test(counters_fit_what_was_done),
+    cmocka_unit_test(evaluations_of_a_fixed_step_method_are_its_stages),
+    cmocka_unit_test(turning_round_restarts_multistep_methods_only),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
