@@ -11,7 +11,7 @@
  *   dy'/dy = [ 0     I   ]
  *            [ da/dq da/dv ]                         (2 nv x 2 nv), differences column by column
  *
- * CVODE's own differences would allocate. Errors are measured in the weighted root mean square over y, with the
+ * (CVODE's own differences would allocate). Errors are measured in the weighted root mean square over y, with the
  * tolerances of baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
@@ -39,6 +39,7 @@ typedef struct cvode_run {
   SUNNonlinearSolver fixed_point; /* Adams */
   SUNMatrix matrix;               /* BDF */
   SUNLinearSolver dense;          /* BDF */
+  double *jacobian;               /* BDF: (2 nv x nv) da/dy, column by column */
   baum_i_statistics before;       /* up to the last restart */
 } cvode_run;
 
@@ -107,27 +108,59 @@ static baum_status difference(const baum_i_problem *problem, double t, double *y
   return status;
 }
 
-/* The matrix arrives zeroed. */
-static int linearize(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix, void *user,
-                     N_Vector work1, N_Vector work2, N_Vector work3)
+/* Both blocks of accelerations at (t, y) into run->jacobian; moved is scratch. */
+static baum_status differentiate(const cvode_run *run, double t, const double *y, const double *a,
+                                 double *moved)
 {
+  const baum_i_problem *problem = run->sundials.problem;
+  int nv = problem->workspace->mechanism->nv;
+  int n = problem->workspace->mechanism->nq + nv;
+  memcpy(moved, y, (size_t)n * sizeof *moved);
+  baum_status status = BAUM_OK;
+  for (int j = 0; j < n && status == BAUM_OK; j++) {
+    status = difference(problem, t, moved, j, a, run->jacobian + (size_t)j * nv);
+  }
+  return status;
+}
+
+/* matrix = I - gamma dy'/dy */
+static void fill(const cvode_run *run, double gamma, SUNMatrix matrix)
+{
+  const baum_mechanism *mechanism = run->sundials.problem->workspace->mechanism;
+  int nq = mechanism->nq;
+  int nv = mechanism->nv;
+  (void)SUNMatZero(matrix);
+  for (int j = 0; j < nq + nv; j++) {
+    double *column = SUNDenseMatrix_Column(matrix, j);
+    const double *accelerations = run->jacobian + (size_t)j * nv;
+    for (int i = 0; i < nv; i++) {
+      column[nq + i] = -gamma * accelerations[i];
+    }
+    if (j >= nq) {
+      column[j - nq] = -gamma;
+    }
+    column[j] += 1.0;
+  }
+}
+
+/* The system of Newton's iteration. CVODE's own way clones the matrix without looking whether there is memory.
+ * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
+static int build(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
+                 sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
+                 N_Vector work1, N_Vector work2, N_Vector work3)
+{
+  /* #lizard forgives: CVODE's parameters */
   (void)work2;
   (void)work3;
   cvode_run *run = user;
-  const baum_i_problem *problem = run->sundials.problem;
-  int nq = problem->workspace->mechanism->nq;
-  int n = nq + problem->workspace->mechanism->nv;
-  const double *a = N_VGetArrayPointer(rate) + nq;
-  double *moved = N_VGetArrayPointer(work1);
-  memcpy(moved, N_VGetArrayPointer(y), (size_t)n * sizeof *moved);
+  int nq = run->sundials.problem->workspace->mechanism->nq;
   baum_status status = BAUM_OK;
-  for (int j = 0; j < n && status == BAUM_OK; j++) {
-    double *column = SUNDenseMatrix_Column(matrix, j);
-    if (j >= nq) {
-      column[j - nq] = 1.0;
-    }
-    status = difference(problem, t, moved, j, a, column + nq);
+  *is_new = !may_keep;
+  if (!may_keep) {
+    const double *a = N_VGetArrayPointer(rate) + nq;
+    status = differentiate(run, t, N_VGetArrayPointer(y), a, N_VGetArrayPointer(work1));
   }
+  fill(run, gamma, matrix);
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
@@ -244,9 +277,8 @@ static void destroy(void *self)
   (void)SUNNonlinSolFree(run->fixed_point);
   (void)SUNLinSolFree(run->dense);
   SUNMatDestroy(run->matrix);
-  N_VDestroy(run->inside);
-  N_VDestroy(run->y);
   baum_i_sundials_close(&run->sundials);
+  baum_i_free(run->jacobian);
   baum_i_free(run);
 }
 
@@ -259,16 +291,16 @@ static int attach_fixed_point(cvode_run *run)
 static int attach_dense(cvode_run *run)
 {
   sunindextype n = N_VGetLength(run->y);
-  run->matrix = SUNDenseMatrix(n, n, run->sundials.context);
-  if (!run->matrix) {
-    return CV_MEM_FAIL;
+  run->jacobian = baum_i_alloc((size_t)n * (size_t)n / 2, sizeof *run->jacobian);
+  run->matrix = run->jacobian ? SUNDenseMatrix(n, n, run->sundials.context) : NULL;
+  if (run->matrix) {
+    run->dense = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
   }
-  run->dense = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
-  if (!run->dense) {
-    return CV_MEM_FAIL;
-  }
-  int flag = CVodeSetLinearSolver(run->cvode, run->dense, run->matrix);
-  return flag == CV_SUCCESS ? CVodeSetJacFn(run->cvode, linearize) : flag;
+  /* These two have flags of their own; only memory can be wrong. */
+  bool attached = run->dense &&
+                  CVodeSetLinearSolver(run->cvode, run->dense, run->matrix) == CVLS_SUCCESS &&
+                  CVodeSetLinSysFn(run->cvode, build) == CVLS_SUCCESS;
+  return attached ? CV_SUCCESS : CV_MEM_FAIL;
 }
 
 static int start_cvode(cvode_run *run, int method, double t)
@@ -283,8 +315,6 @@ static int start_cvode(cvode_run *run, int method, double t)
   }
   if (flag == CV_SUCCESS) {
     flag = CVodeInit(run->cvode, evaluate, t, run->y);
-    /* Out of memory: SUNDIALS 6.4 has freed its vectors and would again; what is left of it is lost. */
-    run->cvode = flag == CV_MEM_FAIL ? NULL : run->cvode;
   }
   if (flag == CV_SUCCESS) {
     flag = CVodeWFtolerances(run->cvode, weigh);
@@ -299,16 +329,12 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
                           const baum_i_problem *problem, const baum_i_state *start)
 {
   const baum_mechanism *mechanism = problem->workspace->mechanism;
-  baum_status status = baum_i_sundials_open(&run->sundials, name);
+  baum_status status = baum_i_sundials_open(&run->sundials, name, mechanism->nq + mechanism->nv);
   if (status != BAUM_OK) {
     return status;
   }
-  sunindextype n = mechanism->nq + mechanism->nv;
-  run->y = N_VNew_Serial(n, run->sundials.context);
-  run->inside = N_VNew_Serial(n, run->sundials.context);
-  if (!run->y || !run->inside) {
-    return baum_i_fail_memory();
-  }
+  run->y = baum_i_sundials_vector(&run->sundials);
+  run->inside = baum_i_sundials_vector(&run->sundials);
   baum_i_sundials_begin(&run->sundials, problem, start->t);
   load(run, problem, start);
   int flag = start_cvode(run, method, start->t);

@@ -393,32 +393,19 @@ static void destroy(void *self)
   IDAFree(&run->ida);
   (void)SUNLinSolFree(run->solver);
   (void)SUNLinSolFree(run->klu);
-  N_VDestroy(run->entry);
-  N_VDestroy(run->size);
-  N_VDestroy(run->defect);
   SUNMatDestroy(run->matrix);
   baum_i_residual_matrix_destroy(run->jacobian);
-  N_VDestroy(run->tested);
-  N_VDestroy(run->inside);
-  N_VDestroy(run->dy);
-  N_VDestroy(run->y);
   baum_i_sundials_close(&run->sundials);
   baum_i_free(run);
 }
 
-/* Each anew: SUNDIALS 6.4 cannot clone when memory has run out. */
-static int make_vectors(ida_run *run, const baum_mechanism *mechanism)
+static void take_vectors(ida_run *run)
 {
   N_Vector *const all[] = {&run->y,      &run->dy,   &run->inside, &run->tested,
                            &run->defect, &run->size, &run->entry};
-  sunindextype n = mechanism->nq + mechanism->nv + mechanism->nc;
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
-    *all[k] = N_VNew_Serial(n, run->sundials.context);
-    if (!*all[k]) {
-      return IDA_MEM_FAIL;
-    }
+    *all[k] = baum_i_sundials_vector(&run->sundials);
   }
-  return IDA_SUCCESS;
 }
 
 static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
@@ -439,7 +426,9 @@ static int attach_dense(ida_run *run)
   if (run->matrix) {
     run->solver = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
   }
-  return run->solver ? IDASetLinearSolver(run->ida, run->solver, run->matrix) : IDA_MEM_FAIL;
+  bool attached =
+    run->solver && IDASetLinearSolver(run->ida, run->solver, run->matrix) == IDALS_SUCCESS;
+  return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
 }
 
 static int attach_klu(ida_run *run)
@@ -451,11 +440,11 @@ static int attach_klu(ida_run *run)
     run->klu = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
   }
   run->solver = run->klu ? make_front(run) : NULL;
-  if (!run->solver) {
-    return IDA_MEM_FAIL;
-  }
-  int flag = IDASetLinearSolver(run->ida, run->solver, run->matrix);
-  return flag == IDA_SUCCESS ? IDASetJacFn(run->ida, linearize) : flag;
+  /* These two have flags of their own; only memory can be wrong. */
+  bool attached = run->solver &&
+                  IDASetLinearSolver(run->ida, run->solver, run->matrix) == IDALS_SUCCESS &&
+                  IDASetJacFn(run->ida, linearize) == IDALS_SUCCESS;
+  return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
 }
 
 static int start_ida(ida_run *run, double t)
@@ -470,8 +459,6 @@ static int start_ida(ida_run *run, double t)
   }
   if (flag == IDA_SUCCESS) {
     flag = IDAInit(run->ida, evaluate, t, run->y, run->dy);
-    /* Out of memory: SUNDIALS 6.4 has freed its vectors and would again; what is left of it is lost. */
-    run->ida = flag == IDA_MEM_FAIL ? NULL : run->ida;
   }
   if (flag == IDA_SUCCESS) {
     flag = IDAWFtolerances(run->ida, weigh);
@@ -492,12 +479,11 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
                           bool differences)
 {
   const baum_mechanism *mechanism = problem->workspace->mechanism;
-  baum_status status = baum_i_sundials_open(&run->sundials, "ida");
+  int n = mechanism->nq + mechanism->nv + mechanism->nc;
+  baum_status status = baum_i_sundials_open(&run->sundials, "ida", n);
   begin(run, problem, start->t);
-  if (status == BAUM_OK && make_vectors(run, mechanism) != IDA_SUCCESS) {
-    status = baum_i_fail_memory();
-  }
   if (status == BAUM_OK) {
+    take_vectors(run);
     status = load(run, problem, start);
   }
   if (status == BAUM_OK && !differences) {

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/alloc.h"
+
 /* ---- 6.4 and 7 ---- */
 
 static void keep_complaint(baum_i_sundials *sundials, const char *text)
@@ -58,16 +60,88 @@ static int create_context(baum_i_sundials *sundials)
 
 #endif
 
+/* ---- vectors ----
+ *
+ * SUNDIALS 6.4 clones vectors without looking whether there was memory, and after a failure at start frees those it has
+ * twice. So all are made beforehand, where a failure is a status; cloning takes the next, destroying does nothing,
+ * closing frees them. Each one's numbers are preceded by a pointer to its stock. */
+
+enum { PREFIX = 1 };
+
+/* A vector of SUNDIALS' own making goes its own ways. */
+static N_Vector let_go(N_Vector vector)
+{
+  if (vector) {
+    vector->ops->nvclone = N_VClone_Serial;
+    vector->ops->nvcloneempty = N_VCloneEmpty_Serial;
+    vector->ops->nvdestroy = N_VDestroy_Serial;
+  }
+  return vector;
+}
+
+static N_Vector clone(N_Vector like)
+{
+  baum_i_sundials *sundials;
+  memcpy(&sundials, N_VGetArrayPointer(like) - PREFIX, sizeof sundials);
+  N_Vector vector = baum_i_sundials_vector(sundials);
+  return vector ? vector : let_go(N_VClone_Serial(like));
+}
+
+/* For differences of IDA: a shell around numbers that are not ours. */
+static N_Vector clone_empty(N_Vector like)
+{
+  return let_go(N_VCloneEmpty_Serial(like));
+}
+
+static void keep(N_Vector vector)
+{
+  (void)vector;
+}
+
+static baum_status make_vectors(baum_i_sundials *sundials, int n)
+{
+  size_t stride = (size_t)n + PREFIX;
+  sundials->numbers = baum_i_alloc(BAUM_I_SUNDIALS_VECTORS * stride, sizeof(double));
+  if (!sundials->numbers) {
+    return baum_i_fail_memory();
+  }
+  for (size_t k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
+    double *numbers = sundials->numbers + k * stride + PREFIX;
+    memcpy(numbers - PREFIX, &sundials, sizeof sundials);
+    N_Vector vector = N_VMake_Serial(n, numbers, sundials->context);
+    if (!vector) {
+      return baum_i_fail_memory();
+    }
+    vector->ops->nvclone = clone;
+    vector->ops->nvcloneempty = clone_empty;
+    vector->ops->nvdestroy = keep;
+    sundials->vectors[k] = vector;
+  }
+  return BAUM_OK;
+}
+
+N_Vector baum_i_sundials_vector(baum_i_sundials *sundials)
+{
+  bool left = sundials->taken < BAUM_I_SUNDIALS_VECTORS;
+  return left ? sundials->vectors[sundials->taken++] : NULL;
+}
+
 /* ---- life ---- */
 
-baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator)
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator, int n)
 {
   sundials->integrator = integrator;
-  return create_context(sundials) == 0 ? BAUM_OK : baum_i_fail_memory();
+  return create_context(sundials) == 0 ? make_vectors(sundials, n) : baum_i_fail_memory();
 }
 
 void baum_i_sundials_close(baum_i_sundials *sundials)
 {
+  for (int k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
+    if (sundials->vectors[k]) {
+      N_VDestroy_Serial(sundials->vectors[k]);
+    }
+  }
+  baum_i_free(sundials->numbers);
   if (sundials->context) {
     (void)SUNContext_Free(&sundials->context);
   }

@@ -15,18 +15,21 @@
 #include "base/message.h"
 #include "integrate/integrator.h"
 
-enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256 };
+enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256, BAUM_I_SUNDIALS_VECTORS = 40 };
 
 /* First member of a run. */
 typedef struct baum_i_sundials {
   const char *integrator; /* name in messages */
   SUNContext context;
-  const baum_i_problem *problem; /* of the call under way */
-  bool unfinished;               /* since begin: a start or step that failed must be begun anew */
-  bool stopped;                  /* an evaluation of this call failed for good */
-  baum_status evaluation;        /* the last failing one here and now, or BAUM_OK */
-  double t;                      /* start of the step under way */
-  double evaluated_at;           /* start of the step in which that evaluation failed */
+  N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all that a run needs, made at once */
+  int taken;                                 /* of them */
+  double *numbers;                           /* their memory */
+  const baum_i_problem *problem;             /* of the call under way */
+  bool unfinished;        /* since begin: a start or step that failed must be begun anew */
+  bool stopped;           /* an evaluation of this call failed for good */
+  baum_status evaluation; /* the last failing one here and now, or BAUM_OK */
+  double t;               /* start of the step under way */
+  double evaluated_at;    /* start of the step in which that evaluation failed */
   char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
 } baum_i_sundials;
@@ -38,9 +41,13 @@ typedef struct baum_i_sundials_flag {
   const char *meaning; /* and advice; begins in lower case */
 } baum_i_sundials_flag;
 
-/* Context with a silent error handler; close it after everything made with it. Closing accepts zeroes. */
-baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator);
+/* Context with a silent error handler and vectors of length n; close it after everything made with it. Closing
+ * accepts zeroes. */
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
+
+/* One of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for our own few. */
+N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
 /* Before a start at t; before a step from t. Clear `unfinished` after success. */
 void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
