@@ -82,7 +82,7 @@ static N_Vector let_go(N_Vector vector)
 static N_Vector clone(N_Vector like)
 {
   baum_i_sundials *sundials;
-  memcpy(&sundials, N_VGetArrayPointer(like) - PREFIX, sizeof sundials);
+  memcpy(&sundials, N_VGetArrayPointer(like) - PREFIX, sizeof(void *));
   N_Vector vector = baum_i_sundials_vector(sundials);
   return vector ? vector : let_go(N_VClone_Serial(like));
 }
@@ -107,7 +107,7 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
   }
   for (size_t k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
     double *numbers = sundials->numbers + k * stride + PREFIX;
-    memcpy(numbers - PREFIX, &sundials, sizeof sundials);
+    memcpy(numbers - PREFIX, &sundials, sizeof(void *));
     N_Vector vector = N_VMake_Serial(n, numbers, sundials->context);
     if (!vector) {
       return baum_i_fail_memory();
