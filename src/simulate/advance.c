@@ -84,7 +84,6 @@ static baum_status explain_callback(const baum_simulation *run, baum_status stat
 
 static baum_status try_step(baum_simulation *run, double t_next, bool observe)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
   baum_i_state *trial = &run->trial;
   const baum_i_state *state = &run->state;
   baum_status status = baum_i_problem_acceleration(&run->problem, state->t, state->q, state->v);
@@ -94,10 +93,9 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
   if (observe) {
     baum_i_run_observe(run, state->t, true);
   }
-  memcpy(run->acceleration, run->workspace->a, (size_t)m->nv * sizeof(double));
-  memcpy(trial->q, state->q, (size_t)m->nq * sizeof(double));
-  memcpy(trial->v, state->v, (size_t)m->nv * sizeof(double));
-  trial->t = state->t;
+  memcpy(run->acceleration, run->workspace->a,
+         (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
+  baum_i_run_copy(run, state, trial);
   status =
     run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
   trial->t = t_next;
@@ -112,10 +110,7 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
 
 static void keep_trial(baum_simulation *run)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
-  run->state.t = run->trial.t;
-  memcpy(run->state.q, run->trial.q, (size_t)m->nq * sizeof(double));
-  memcpy(run->state.v, run->trial.v, (size_t)m->nv * sizeof(double));
+  baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
 }
 
@@ -190,11 +185,13 @@ static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
 static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
-  baum_status status = run->integrator->advance(run->self, &run->problem, &run->ahead);
+  baum_i_run_copy(run, &run->ahead, &run->trial);
+  baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
   if (status == BAUM_OK) {
-    status = check_finite(run, &run->ahead);
+    status = check_finite(run, &run->trial);
   }
   if (status == BAUM_OK) {
+    baum_i_run_copy(run, &run->trial, &run->ahead);
     run->counters.steps++;
     status = baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v);
   }
@@ -207,10 +204,7 @@ static baum_status internal_step(baum_simulation *run)
 /* The end of the last internal step becomes the present state. */
 static void catch_up(baum_simulation *run)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
-  run->state.t = run->ahead.t;
-  memcpy(run->state.q, run->ahead.q, (size_t)m->nq * sizeof(double));
-  memcpy(run->state.v, run->ahead.v, (size_t)m->nv * sizeof(double));
+  baum_i_run_copy(run, &run->ahead, &run->state);
 }
 
 static baum_status interpolate(baum_simulation *run, double t)
@@ -222,8 +216,7 @@ static baum_status interpolate(baum_simulation *run, double t)
     status = check_finite(run, &run->trial);
   }
   if (status == BAUM_OK) {
-    keep_trial(run);
-    run->counters.steps--; /* an interpolation is no step */
+    baum_i_run_copy(run, &run->trial, &run->state);
   }
   return status;
 }
@@ -249,23 +242,27 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- what every call begins and ends with ---- */
 
-/* Point the run towards t. A multistep method that turns round begins anew from the present state. */
+/* Point the run towards t. A multistep method that turns round begins anew from the present state; when it cannot, it
+ * has not turned. */
 static baum_status turn(baum_simulation *run, double t)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
+  double before = run->problem.direction;
   double direction = t < run->state.t ? -1.0 : 1.0;
-  if (direction == run->problem.direction) {
+  if (direction == before) {
     return BAUM_OK;
   }
   run->problem.direction = direction;
   if (!run->integrator->restart) {
     return BAUM_OK;
   }
+  baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
+  if (status != BAUM_OK) {
+    run->problem.direction = before;
+    return status;
+  }
   run->counters.restarts++;
-  run->ahead.t = run->state.t;
-  memcpy(run->ahead.q, run->state.q, (size_t)m->nq * sizeof(double));
-  memcpy(run->ahead.v, run->state.v, (size_t)m->nv * sizeof(double));
-  return run->integrator->restart(run->self, &run->problem, &run->ahead);
+  baum_i_run_copy(run, &run->state, &run->ahead);
+  return BAUM_OK;
 }
 
 static baum_status advance(baum_simulation *run, double t, int64_t *taken)

@@ -58,8 +58,14 @@ struct baum_simulation {
 /* Bring a state onto the constraints as the option `start` says, into trial; the present state is untouched. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
-/* Make the trial state the present one: grid, integrator, energy begin anew. */
-baum_status baum_i_run_accept(baum_simulation *run);
+/* Energy of the trial state; leaves Phi and Phi' there in the workspace. */
+baum_status baum_i_run_measure(baum_simulation *run, double *energy);
+
+/* Make the trial state, just measured, the present one: grid and energy begin anew. */
+void baum_i_run_accept(baum_simulation *run, double energy);
+
+/* Time, positions and velocities from one state to another. */
+void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
 /* ---- monitor.c ---- */
 

@@ -148,6 +148,7 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
 {
   const baum_simulation_options *o = &run->options;
+  double energy = 0.0;
   baum_status status = o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
   if (status == BAUM_OK) {
     status = baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace);
@@ -170,7 +171,10 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
   if (status == BAUM_OK) {
     warn_redundancy(run);
     warn_settings(run);
-    status = baum_i_run_accept(run);
+    status = baum_i_run_measure(run, &energy);
+  }
+  if (status == BAUM_OK) {
+    baum_i_run_accept(run, energy);
   }
   return status;
 }

@@ -14,7 +14,7 @@ static const double EXACT = 1e-9; /* of the scales */
 
 /* ---- assembled ---- */
 
-static int owner(const baum_mechanism *m, int coordinate)
+static int owner_of(const baum_mechanism *m, int coordinate)
 {
   int body = m->body_count;
   while (m->bodies[body]->q > coordinate) {
@@ -23,10 +23,18 @@ static int owner(const baum_mechanism *m, int coordinate)
   return body;
 }
 
-static bool is_angle(const baum_mechanism *m, int coordinate)
+static bool is_angle(const baum_i_body *body, int coordinate)
 {
-  const baum_i_body *body = m->bodies[owner(m, coordinate)];
   return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->q + 2;
+}
+
+/* User coordinates have units of their own. */
+static const char *unit_of(const baum_i_body *body, int coordinate)
+{
+  if (body->type->frame == BAUM_I_FRAME_NONE) {
+    return "";
+  }
+  return is_angle(body, coordinate) ? " rad" : " m";
 }
 
 /* The joint that the drawing violates most. */
@@ -51,20 +59,20 @@ static baum_status check_displacement(baum_simulation *run, const double *drawn,
   const baum_mechanism *m = run->workspace->mechanism;
   *largest = 0.0;
   for (int i = 0; i < m->nq; i++) {
+    const baum_i_body *owner = m->bodies[owner_of(m, i)];
     double move = fabs(run->trial.q[i] - drawn[i]) / m->scale[i];
-    double limit = is_angle(m, i) ? LARGEST_TURN : LARGEST_MOVE;
+    double limit = is_angle(owner, i) ? LARGEST_TURN : LARGEST_MOVE;
     *largest = fmax(*largest, move);
     if (move > limit) {
       char body[BAUM_I_LABEL_SIZE];
       char joint[BAUM_I_LABEL_SIZE];
-      (void)baum_i_label(&m->bodies[owner(m, i)]->element, "body", body);
+      (void)baum_i_label(&owner->element, "body", body);
       name_worst_joint(run, run->trial.t, drawn, joint);
       return baum_i_fail(
         BAUM_ERR_INCONSISTENT,
-        "t = %.9g s: assembly would move %s by %.3g %s, more than %.3g; the drawing "
+        "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g; the drawing "
         "fits least in %s; draw the start pose closer",
-        run->trial.t, body, move * m->scale[i], is_angle(m, i) ? "rad" : "m", limit * m->scale[i],
-        joint);
+        run->trial.t, body, move * m->scale[i], unit_of(owner, i), limit * m->scale[i], joint);
     }
   }
   return BAUM_OK;
@@ -134,30 +142,35 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
   return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
 }
 
-static void copy_state(const baum_mechanism *m, baum_i_state *to, const baum_i_state *from)
+void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to)
 {
+  const baum_mechanism *m = run->workspace->mechanism;
   to->t = from->t;
   memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
   memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
 }
 
-baum_status baum_i_run_accept(baum_simulation *run)
+baum_status baum_i_run_measure(baum_simulation *run, double *energy)
 {
   baum_workspace *w = run->workspace;
-  double energy[2];
-  baum_status status = baum_i_violation(w, run->trial.t, run->trial.q, run->trial.v);
+  const baum_i_state *trial = &run->trial;
+  double kinetic = 0.0;
+  double potential = 0.0;
+  baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
   if (status == BAUM_OK) {
-    baum_i_run_observe(run, run->trial.t, false);
-    status = baum_i_energy(w, run->trial.t, run->trial.q, run->trial.v, &energy[0], &energy[1]);
+    status = baum_i_energy(w, trial->t, trial->q, trial->v, &kinetic, &potential);
   }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  copy_state(w->mechanism, &run->state, &run->trial);
-  copy_state(w->mechanism, &run->ahead, &run->trial);
-  run->start_energy = energy[0] + energy[1];
+  *energy = kinetic + potential;
+  return status;
+}
+
+void baum_i_run_accept(baum_simulation *run, double energy)
+{
+  baum_i_run_observe(run, run->trial.t, false);
+  baum_i_run_copy(run, &run->trial, &run->state);
+  baum_i_run_copy(run, &run->trial, &run->ahead);
+  run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
-  return BAUM_OK;
 }
 
 static baum_status check_state(const baum_simulation *run, double t, const double *q,
@@ -182,6 +195,13 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return BAUM_OK;
 }
 
+static baum_status restart(baum_simulation *run)
+{
+  baum_status status = run->integrator->restart(run->self, &run->problem, &run->trial);
+  run->counters.restarts += status == BAUM_OK;
+  return status;
+}
+
 baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
                                       const double *v)
 {
@@ -191,17 +211,20 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
+  double start_change = simulation->counters.start_change;
+  double energy = 0.0;
   status = baum_i_run_start(simulation, t, q, v);
-  if (status == BAUM_OK && simulation->integrator->restart) {
-    status =
-      simulation->integrator->restart(simulation->self, &simulation->problem, &simulation->trial);
-    simulation->counters.restarts++;
-  }
   if (status == BAUM_OK) {
-    status = baum_i_run_accept(simulation);
+    status = baum_i_run_measure(simulation, &energy);
+  }
+  /* Last of what may fail, for it cannot be undone. */
+  if (status == BAUM_OK && simulation->integrator->restart) {
+    status = restart(simulation);
   }
   if (status != BAUM_OK) {
+    simulation->counters.start_change = start_change;
     return baum_i_run_fail(simulation, status);
   }
+  baum_i_run_accept(simulation, energy);
   return baum_i_message_settle(status, &kept);
 }
