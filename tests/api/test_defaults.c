@@ -16,7 +16,7 @@
 
 /* ---- the headers ---- */
 
-enum { HEADER_SIZE = 65536, TEXT_SIZE = 128, FILL = 0xA5, OTHER_FILL = 0x5A };
+enum { HEADER_SIZE = 65536, TEXT_SIZE = 128, NAME_SIZE = 64, FILL = 0xA5, OTHER_FILL = 0x5A };
 
 static const char *const header_names[] = {"mechanism.h", "planar.h", "simulation.h"};
 
@@ -170,7 +170,7 @@ static bool is_as_documented(const element_field *field, const char *text, const
 
 /* A definition or the options. */
 typedef struct defaults {
-  char name[TEXT_SIZE];
+  char name[NAME_SIZE];
   size_t size;
   void (*init)(any_def *def, size_t caller_size);
   const element_field *fields;

@@ -1,0 +1,220 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The heap of a test program, to be counted and to fail: everything that the program loads allocates through the
+ * functions defined here. They have to be in the program itself, so only its one source may include this, after
+ * defining _GNU_SOURCE and including cmocka.h.
+ *
+ * For glibc. Where something else stands in for malloc, as valgrind and the thread sanitizer do, heap_is_ours() is
+ * false; the address sanitizer is reached by its other names, and watches what is done after a failure.
+ */
+#ifndef BAUM_TEST_HEAP_H
+#define BAUM_TEST_HEAP_H
+
+#include <dlfcn.h>
+#include <errno.h>
+#include <limits.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define HEAP_OF_ADDRESS_SANITIZER 1
+#elif __has_feature(thread_sanitizer)
+#define HEAP_LEFT_ALONE 1
+#endif
+#endif
+#if defined(__SANITIZE_ADDRESS__)
+#define HEAP_OF_ADDRESS_SANITIZER 1
+#elif defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
+#define HEAP_LEFT_ALONE 1
+#endif
+
+static struct {
+  atomic_long blocks;  /* alive */
+  atomic_long count;   /* allocations since heap_watch() */
+  long fail_from;      /* the first of them to fail */
+  long fail_to;        /* one past the last */
+  bool inside;         /* of an excluded call */
+  long may_still_fail; /* allocations inside of it that are not excluded */
+} heap;
+
+/* ---- watching ---- */
+
+static void heap_watch(void)
+{
+  heap.fail_from = LONG_MAX;
+  heap.fail_to = LONG_MAX;
+  atomic_store(&heap.count, 0);
+}
+
+/* From now on the n-th allocation fails, or all from it on. */
+static void heap_fail(long n, bool for_good)
+{
+  heap_watch();
+  heap.fail_from = n;
+  heap.fail_to = for_good ? LONG_MAX : n + 1;
+}
+
+/* How many there were. */
+static long heap_stop(void)
+{
+  long count = atomic_load(&heap.count);
+  heap_watch();
+  return count;
+}
+
+static long heap_blocks(void)
+{
+  return atomic_load(&heap.blocks);
+}
+
+#ifndef HEAP_LEFT_ALONE
+
+/* ---- the functions ---- */
+
+#ifdef HEAP_OF_ADDRESS_SANITIZER
+#define HEAP_REAL(name) __interceptor_##name
+#else
+#define HEAP_REAL(name) __libc_##name
+#endif
+/* Called before the sanitizer is ready. */
+#define HEAP_EARLY  __attribute__((no_sanitize("address", "undefined")))
+#define HEAP_PUBLIC __attribute__((visibility("default"))) HEAP_EARLY
+
+void *HEAP_REAL(malloc)(size_t size);
+void *HEAP_REAL(calloc)(size_t number, size_t size);
+void *HEAP_REAL(realloc)(void *old, size_t size);
+void HEAP_REAL(free)(void *memory);
+
+/* Excluded allocations are not counted, so that no number means one of them. */
+HEAP_EARLY static bool heap_refuses(void)
+{
+  if (heap.inside && heap.may_still_fail-- <= 0) {
+    return false;
+  }
+  long k = atomic_fetch_add(&heap.count, 1);
+  if (k < heap.fail_from || k >= heap.fail_to) {
+    return false;
+  }
+  errno = ENOMEM;
+  return true;
+}
+
+HEAP_EARLY static void *heap_counted(void *memory)
+{
+  atomic_fetch_add(&heap.blocks, memory ? 1 : 0);
+  return memory;
+}
+
+HEAP_PUBLIC void *malloc(size_t size)
+{
+  return heap_refuses() ? NULL : heap_counted(HEAP_REAL(malloc)(size));
+}
+
+HEAP_PUBLIC void *calloc(size_t number, size_t size)
+{
+  return heap_refuses() ? NULL : heap_counted(HEAP_REAL(calloc)(number, size));
+}
+
+HEAP_PUBLIC void *realloc(void *old, size_t size)
+{
+  if (heap_refuses()) {
+    return NULL;
+  }
+  void *memory = HEAP_REAL(realloc)(old, size);
+  return old ? memory : heap_counted(memory);
+}
+
+HEAP_PUBLIC void free(void *memory)
+{
+  atomic_fetch_sub(&heap.blocks, memory ? 1 : 0);
+  HEAP_REAL(free)(memory);
+}
+
+/* ---- what is excluded, and why ----
+ *
+ * All of it is in SUNDIALS 6.4.1, and nobody outside can help it.
+ *
+ * SUNLogger_Create(), called by SUNContext_Create(): the first allocation is checked; then SUNHashMap_New() allocates a
+ * map and writes to it unchecked (it compares `map` with NULL where `*map` is meant), and when the buckets of the
+ * map cannot be allocated it frees the map, which the logger keeps and later destroys. So all but the first may not
+ * fail.
+ *
+ * SUNMatClone(), called by CVODE's first step to keep a Jacobian: it writes to what the matrix's own function gives
+ * without asking whether it is NULL.
+ */
+#if BAUM_HAVE_SUNDIALS
+
+typedef int heap_create_logger(void *communicator, int rank, void **logger);
+typedef void *heap_clone_matrix(void *matrix);
+
+static struct {
+  heap_create_logger *create_logger;
+  heap_clone_matrix *clone_matrix;
+} heap_real;
+
+/* Looked up beforehand: it allocates. */
+static bool heap_find_excluded(void)
+{
+  void *create_logger = dlsym(RTLD_NEXT, "SUNLogger_Create");
+  void *clone_matrix = dlsym(RTLD_NEXT, "SUNMatClone");
+  memcpy(&heap_real.create_logger, &create_logger, sizeof create_logger);
+  memcpy(&heap_real.clone_matrix, &clone_matrix, sizeof clone_matrix);
+  return create_logger && clone_matrix;
+}
+
+static void heap_enter(long may_still_fail)
+{
+  heap.inside = true;
+  heap.may_still_fail = may_still_fail;
+}
+
+/* As in SUNDIALS' headers, but for the names of its types. */
+int SUNLogger_Create(void *communicator, int rank, void **logger);
+void *SUNMatClone(void *matrix);
+
+HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
+{
+  heap_enter(1);
+  int code = heap_real.create_logger(communicator, rank, logger);
+  heap.inside = false;
+  return code;
+}
+
+HEAP_PUBLIC void *SUNMatClone(void *matrix)
+{
+  heap_enter(0);
+  void *copy = heap_real.clone_matrix(matrix);
+  heap.inside = false;
+  return copy;
+}
+
+#else
+
+static bool heap_find_excluded(void)
+{
+  return true;
+}
+
+#endif
+
+static bool heap_is_ours(void)
+{
+  bool found = heap_find_excluded();
+  heap_watch();
+  void *volatile block = malloc(1);
+  free(block);
+  return heap_stop() == 1 && found;
+}
+
+#else
+
+static bool heap_is_ours(void)
+{
+  return false;
+}
+
+#endif
+
+#endif

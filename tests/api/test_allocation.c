@@ -1,0 +1,456 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Steps and evaluations allocate nothing, and every allocation may fail without more than BAUM_ERR_MEMORY coming of
+ * it: SuiteSparse's and SUNDIALS' too, but for those that heap.h names.
+ */
+#define _GNU_SOURCE /* of heap.h */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "every_element.h"
+#include "heap.h"
+
+/* ---- what is run ---- */
+
+enum { CHANNELS = 11, WIDTH_MAX = 100, SAMPLES = 7 };
+
+static int make_channels(const every_element *parts, baum_channel channels[CHANNELS])
+{
+  for (int k = 0; k < CHANNELS; k++) {
+    channels[k] = (baum_channel){.quantity = (baum_quantity)(k + 1),
+                                 .body = k + 1 == BAUM_BODY_POSE || k + 1 == BAUM_BODY_VELOCITY
+                                           ? parts->tool
+                                           : (baum_body_id){0, 0}};
+    if (k + 1 == BAUM_JOINT_REACTION || k + 1 == BAUM_JOINT_COORDINATE) {
+      channels[k].joint = parts->pin;
+    }
+  }
+  int width = baum_channels_width(parts->mechanism, channels, CHANNELS);
+  assert_in_range(width, 1, WIDTH_MAX);
+  return width;
+}
+
+static baum_simulation_options options_for(const baum_integrator *integrator,
+                                           baum_formulation formulation)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = integrator;
+  o.formulation = formulation;
+  if (baum_integrator_has_fixed_step(integrator)) {
+    o.step = 1e-3;
+  } else {
+    o.rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
+  }
+  return o;
+}
+
+static bool reached_the_end(baum_status status)
+{
+  return status == BAUM_OK || status == BAUM_WARNED;
+}
+
+/* The k-th pair of integrator and formulation that this build offers; false when there are no more. */
+static bool find_pair(int k, baum_simulation_options *o)
+{
+  for (int32_t i = 0; baum_integrator_at(i) != NULL; i++) {
+    const baum_integrator *integrator = baum_integrator_at(i);
+    if (!baum_integrator_has_fixed_step(integrator) && !baum_has("sundials")) {
+      continue;
+    }
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      if (baum_integrator_offers(integrator, (baum_formulation)f) && k-- == 0) {
+        *o = options_for(integrator, (baum_formulation)f);
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/* ---- steps allocate nothing ---- */
+
+static void run_a_while(baum_simulation *run, const baum_channel *channels, double *rows)
+{
+  assert_true(reached_the_end(baum_simulation_step(run, 10)));
+  double t = baum_simulation_time(run) + 0.0105;
+  assert_true(reached_the_end(baum_simulation_advance_to(run, t)));
+  double times[SAMPLES];
+  for (int k = 0; k < SAMPLES; k++) {
+    times[k] = t + 0.0213 * (k + 1);
+  }
+  assert_true(
+    reached_the_end(baum_simulation_sample(run, times, SAMPLES, channels, CHANNELS, rows, NULL)));
+  assert_int_equal(baum_simulation_get(run, channels, CHANNELS, rows), BAUM_OK);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters;
+}
+
+static void check_steady(const every_element *parts, const baum_simulation_options *o)
+{
+  static double rows[SAMPLES * WIDTH_MAX];
+  baum_channel channels[CHANNELS];
+  (void)make_channels(parts, channels);
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(parts->mechanism, o, &run), BAUM_OK);
+  run_a_while(run, channels, rows);
+  int64_t full = counters_of(run).full_factorizations;
+  heap_watch();
+  run_a_while(run, channels, rows);
+  run_a_while(run, channels, rows);
+  baum_counters counters = counters_of(run);
+  long allocations = heap_stop();
+  if (allocations != 0 || counters.full_factorizations != full) {
+    fail_msg("%s, %s: %ld allocations, %lld full factorizations",
+             baum_integrator_name(o->integrator), baum_formulation_name(o->formulation),
+             allocations, (long long)(counters.full_factorizations - full));
+  }
+  baum_simulation_destroy(run);
+}
+
+static void steps_samples_and_channels_allocate_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  every_element parts = every_element_make(NULL);
+  baum_simulation_options o;
+  for (int k = 0; find_pair(k, &o); k++) {
+    check_steady(&parts, &o);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* A state to evaluate at. */
+typedef struct point {
+  double q[EVERY_NV];
+  double v[EVERY_NV];
+  double y[2 * EVERY_NV + EVERY_NC];
+  double out[EVERY_NV * EVERY_NV];
+} point;
+
+static baum_status evaluate(baum_workspace *w, const every_element *parts, point *p)
+{
+  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1, .alpha = 5.0, .beta = 5.0};
+  double energy[2];
+  const baum_status all[] = {
+    baum_workspace_phi(w, 0.0, p->q, p->out),
+    baum_workspace_jacobian(w, 0.0, p->q, p->out),
+    baum_workspace_nu(w, 0.0, p->q, p->out),
+    baum_workspace_mass(w, 0.0, p->q, p->out),
+    baum_workspace_gamma(w, 0.0, p->q, p->v, p->out),
+    baum_workspace_force(w, 0.0, p->q, p->v, p->out),
+    baum_workspace_energy(w, 0.0, p->q, p->v, &energy[0], &energy[1]),
+    baum_workspace_acceleration(w, 0.0, p->q, p->v, 5.0, 5.0, p->out, NULL),
+    baum_workspace_acceleration(w, 0.0, p->q, p->v, 0.0, 0.0, NULL, p->out),
+    baum_workspace_reaction(w, 0.0, p->q, p->out, parts->rod, p->out + EVERY_NC),
+    baum_workspace_residual(w, &dae, 0.0, p->y, p->y, p->out),
+  };
+  for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+    if (all[k] != BAUM_OK) {
+      return all[k];
+    }
+  }
+  return BAUM_OK;
+}
+
+static void start_point(baum_workspace *w, point *p)
+{
+  memset(p, 0, sizeof *p);
+  assert_int_equal(baum_workspace_drawn(w, p->q, NULL), BAUM_OK);
+  memcpy(p->y, p->q, sizeof p->q);
+}
+
+static void evaluations_allocate_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  every_element parts = every_element_make(NULL);
+  baum_workspace *w = NULL;
+  point p;
+  assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);
+  start_point(w, &p);
+  assert_int_equal(evaluate(w, &parts, &p), BAUM_OK);
+  heap_watch();
+  assert_int_equal(evaluate(w, &parts, &p), BAUM_OK);
+  assert_int_equal(heap_stop(), 0);
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- every allocation may fail ---- */
+
+/* Something that cleans up after itself and returns its first failure. */
+typedef baum_status scenario(void *context);
+
+static void *const GARBAGE = (void *)(uintptr_t)16;
+
+static void fail_once(scenario *run, void *context, long n, bool for_good)
+{
+  long before = heap_blocks();
+  heap_fail(n, for_good);
+  baum_status status = run(context);
+  (void)heap_stop();
+  if (status != BAUM_OK && status != BAUM_ERR_MEMORY) {
+    fail_msg("allocation %ld%s: %s: %s", n, for_good ? " and all after it" : "",
+             baum_status_name(status), baum_message());
+  }
+  if (heap_blocks() != before) {
+    fail_msg("allocation %ld%s: %ld blocks are lost", n, for_good ? " and all after it" : "",
+             heap_blocks() - before);
+  }
+}
+
+/* First once without failure, which also lets libraries make what they keep for good. */
+static void fail_every_allocation(scenario *run, void *context)
+{
+  assert_int_equal(run(context), BAUM_OK);
+  long before = heap_blocks();
+  heap_watch();
+  assert_int_equal(run(context), BAUM_OK);
+  long allocations = heap_stop();
+  assert_int_equal(heap_blocks(), before);
+  for (long n = 0; n < allocations; n++) {
+    fail_once(run, context, n, false);
+    fail_once(run, context, n, true);
+  }
+}
+
+static baum_status build_everything(void *context)
+{
+  (void)context;
+  every_element parts = {.fault = NULL};
+  baum_mechanism *copy = GARBAGE;
+  baum_mobility mobility;
+  baum_status status = every_element_build(&parts);
+  if (status == BAUM_OK) {
+    status = baum_mechanism_freeze(parts.mechanism);
+    assert_int_equal(baum_mechanism_is_frozen(parts.mechanism), status == BAUM_OK);
+  }
+  if (status == BAUM_OK) {
+    status = baum_mechanism_copy(parts.mechanism, &copy);
+    assert_true(status == BAUM_OK || copy == NULL);
+  }
+  copy = copy == GARBAGE ? NULL : copy;
+  if (status == BAUM_OK) {
+    status = baum_mechanism_freeze(copy);
+  }
+  if (status == BAUM_OK) {
+    status = baum_mechanism_mobility(copy, &mobility, sizeof mobility);
+  }
+  if (status == BAUM_OK) {
+    assert_int_equal(mobility.freedoms, EVERY_NV - EVERY_NC);
+    status = baum_mechanism_check_derivatives(parts.mechanism);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+  baum_mechanism_destroy(copy);
+  return status;
+}
+
+static void building_survives_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  fail_every_allocation(build_everything, NULL);
+}
+
+/* The last definition stays when a new one cannot be kept. */
+static baum_status replace_definitions(void *context)
+{
+  every_element *parts = context;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < ELEMENT_KINDS; k++) {
+    any_def def;
+    any_def got;
+    element_kinds[k].good(parts, &def);
+    any_id id = every_element_id(parts, &element_kinds[k]);
+    baum_status set = element_kinds[k].set(parts->mechanism, id, &def);
+    assert_int_equal(element_kinds[k].get(parts->mechanism, id, &got, sizeof got), BAUM_OK);
+    assert_string_equal(got.head.name, def.head.name);
+    status = status == BAUM_OK ? set : status;
+  }
+  return status;
+}
+
+static void replacing_survives_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  fail_every_allocation(replace_definitions, &parts);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* Sizes first, then all three arrays, as a caller would. */
+static baum_status evaluate_jacobian(baum_workspace *w, const point *p)
+{
+  static int32_t columns[2 * EVERY_NV + EVERY_NC + 1];
+  static int32_t rows[(2 * EVERY_NV + EVERY_NC) * (2 * EVERY_NV + EVERY_NC)];
+  static double values[(2 * EVERY_NV + EVERY_NC) * (2 * EVERY_NV + EVERY_NC)];
+  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
+  baum_sparse out = {NULL, NULL, NULL, 0};
+  baum_status status = baum_workspace_residual_jacobian(w, &dae, 1.0, 0.0, p->y, p->y, &out);
+  if (status == BAUM_OK) {
+    out = (baum_sparse){columns, rows, values, 0};
+    status = baum_workspace_residual_jacobian(w, &dae, 1.0, 0.0, p->y, p->y, &out);
+  }
+  return status;
+}
+
+static baum_status work(void *context)
+{
+  const every_element *parts = context;
+  baum_workspace *w = GARBAGE;
+  baum_status status = baum_workspace_create(parts->mechanism, &w);
+  if (status != BAUM_OK) {
+    assert_null(w);
+    return status;
+  }
+  point p;
+  start_point(w, &p);
+  status = evaluate(w, parts, &p);
+  if (status == BAUM_OK) {
+    for (int i = 0; i < EVERY_NV; i++) {
+      p.v[i] = (double)NAN;
+    }
+    status = baum_workspace_assemble(w, 0.0, p.q, p.v, &parts->slider, 1);
+    assert_true(status == BAUM_OK || p.v[0] != p.v[0]);
+  }
+  if (status == BAUM_OK) {
+    status = baum_workspace_project(w, 0.0, p.q, p.v);
+  }
+  if (status == BAUM_OK) {
+    status = evaluate_jacobian(w, &p);
+  }
+  baum_workspace_destroy(w);
+  return status;
+}
+
+static void a_workspace_survives_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  every_element parts = every_element_make(NULL);
+  fail_every_allocation(work, &parts);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- runs ---- */
+
+typedef struct run_scenario {
+  every_element parts;
+  baum_simulation_options options;
+} run_scenario;
+
+/* Out, a look, and back. */
+static baum_status go(baum_simulation *run, const every_element *parts)
+{
+  baum_channel channels[CHANNELS];
+  double row[WIDTH_MAX];
+  double state[2 * EVERY_NV];
+  (void)make_channels(parts, channels);
+  memcpy(state, baum_simulation_q(run), EVERY_NV * sizeof *state);
+  memcpy(state + EVERY_NV, baum_simulation_v(run), EVERY_NV * sizeof *state);
+  baum_status status = baum_simulation_advance_to(run, 0.005);
+  if (reached_the_end(status)) {
+    status = baum_simulation_get(run, channels, CHANNELS, row);
+  }
+  if (status == BAUM_OK) {
+    status = baum_simulation_set_state(run, 0.0, state, state + EVERY_NV);
+  }
+  return status == BAUM_OK ? baum_simulation_advance_to(run, -0.003) : status;
+}
+
+static baum_status simulate(void *context)
+{
+  const run_scenario *s = context;
+  baum_simulation *run = GARBAGE;
+  baum_status status = baum_simulation_create(s->parts.mechanism, &s->options, &run);
+  if (status != BAUM_OK) {
+    assert_null(run);
+    return status;
+  }
+  status = go(run, &s->parts);
+  baum_simulation_destroy(run);
+  return reached_the_end(status) ? BAUM_OK : status;
+}
+
+/* What all runs have in common is gone through with the first. */
+static void runs_survive_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  run_scenario s = {.parts = every_element_make(NULL)};
+  for (int k = 0; find_pair(k, &s.options); k++) {
+    s.options.check_derivatives = k == 0;
+    s.options.start = k == 0 ? BAUM_START_ASSEMBLE : BAUM_START_AS_GIVEN;
+    if (k == 0 || s.options.formulation != BAUM_FORMULATION_UNSTABILIZED) {
+      fail_every_allocation(simulate, &s);
+    }
+  }
+  baum_mechanism_destroy(s.parts.mechanism);
+}
+
+/* The weld twice: rank, dropped rows and least-norm multipliers allocate too. */
+static every_element make_redundant(void)
+{
+  every_element parts = {.fault = NULL};
+  any_def weld;
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  element_kinds[6].good(&parts, &weld);
+  weld.head.name = "second weld";
+  assert_int_equal(element_kinds[6].add(parts.mechanism, &weld, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
+  return parts;
+}
+
+static void runs_with_redundant_joints_and_any_solver_survive_likewise(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  run_scenario s = {.parts = make_redundant()};
+  s.options = options_for(baum_rk2(), BAUM_FORMULATION_PROJECTION);
+  for (int solver = BAUM_SOLVER_AUTO; solver <= BAUM_SOLVER_QR; solver++) {
+    s.options.solver = (baum_solver)solver;
+    s.options.check_derivatives = false;
+    fail_every_allocation(simulate, &s);
+  }
+  baum_mechanism_destroy(s.parts.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(steps_samples_and_channels_allocate_nothing),
+    cmocka_unit_test(evaluations_allocate_nothing),
+    cmocka_unit_test(building_survives_every_failing_allocation),
+    cmocka_unit_test(replacing_survives_every_failing_allocation),
+    cmocka_unit_test(a_workspace_survives_every_failing_allocation),
+    cmocka_unit_test(runs_survive_every_failing_allocation),
+    cmocka_unit_test(runs_with_redundant_joints_and_any_solver_survive_likewise),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
