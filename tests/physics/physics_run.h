@@ -1,0 +1,104 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What the tests of this folder have in common: mechanisms by number, and runs whose constraints are watched from outside.
+ * Include after cmocka.h.
+ */
+#ifndef BAUM_TEST_PHYSICS_RUN_H
+#define BAUM_TEST_PHYSICS_RUN_H
+
+#include <math.h>
+#include <stdio.h>
+
+#include "models.h"
+
+enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 }; /* the largest are the slider-cranks */
+
+static inline void check(baum_status status)
+{
+  if (status < BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+}
+
+/* ---- mechanisms ---- */
+
+typedef enum physics_mechanism { PENDULUM, FREE_CRANK, DRIVEN_CRANK, FOUR_BAR } physics_mechanism;
+
+static inline const char *mechanism_name(physics_mechanism which)
+{
+  static const char *const names[] = {"pendulum", "slider-crank, free", "slider-crank, driven",
+                                      "four-bar"};
+  return names[which];
+}
+
+static inline model build_mechanism(physics_mechanism which)
+{
+  model out = {0};
+  model_slider_crank crank = {.driven = which == DRIVEN_CRANK};
+  switch (which) {
+  case PENDULUM: check(model_pendulum_rod(&MODEL_PENDULUM_A01, &out)); break;
+  case FOUR_BAR: check(model_four_bar(&out)); break;
+  case FREE_CRANK:
+  case DRIVEN_CRANK: check(model_slider_crank_build(crank, &out)); break;
+  }
+  return out;
+}
+
+/* ---- runs ---- */
+
+/* A run, its equations for looking on, and a consistent start. */
+typedef struct watched_run {
+  baum_simulation *run;
+  baum_workspace *workspace;
+  int32_t nq;
+  int32_t nc;
+} watched_run;
+
+static inline watched_run watch(const baum_mechanism *mechanism,
+                                const baum_simulation_options *options)
+{
+  watched_run out = {0};
+  check(baum_mechanism_sizes(mechanism, &out.nq, NULL, &out.nc));
+  assert_true(out.nq <= PHYSICS_NQ && out.nc <= PHYSICS_NC);
+  check(baum_simulation_create(mechanism, options, &out.run));
+  check(baum_workspace_create(mechanism, &out.workspace));
+  return out;
+}
+
+static inline void unwatch(watched_run *watched)
+{
+  baum_simulation_destroy(watched->run);
+  baum_workspace_destroy(watched->workspace);
+}
+
+static inline baum_counters read_counters(const watched_run *watched)
+{
+  baum_counters out;
+  check(baum_simulation_counters(watched->run, &out, sizeof out));
+  return out;
+}
+
+static inline double largest_of(const double *values, int count)
+{
+  double largest = 0.0;
+  for (int i = 0; i < count; i++) {
+    largest = fabs(values[i]) > largest ? fabs(values[i]) : largest;
+  }
+  return largest;
+}
+
+/* Phi of the present state, row by row. */
+static inline void watch_phi(const watched_run *watched, double phi[PHYSICS_NC])
+{
+  check(baum_workspace_phi(watched->workspace, baum_simulation_time(watched->run),
+                           baum_simulation_q(watched->run), phi));
+}
+
+/* A build without SUNDIALS has no variable-step integrators. */
+static inline void need_sundials(void)
+{
+  if (!BAUM_HAVE_SUNDIALS) {
+    skip();
+  }
+}
+
+#endif
