@@ -14,6 +14,7 @@
 #include "assert_near.h"
 #include "models.h"
 
+#if BAUM_HAVE_GSL
 enum { SIZE = 64 };
 
 static double scatter(int k)
@@ -22,7 +23,6 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-#if BAUM_HAVE_GSL
 /* M, J, g, gamma and the violation terms at a state, as the dense system of (7). */
 static void dense_system(baum_workspace *w, const double *q, const double *v, int nv, int nc,
                          double gain, double *matrix, double *right)
