@@ -17,10 +17,12 @@
 
 enum { CELLS = 44, STEPS = 3000, CALM = 32, TAYLOR_STEPS = 400 };
 
-static const double OFF = 1e-6;  /* of the length scale, and rad */
-static const double GROWN = 1e3; /* times the start: 1e-3 of the scale, hardly still linear */
-static const double DECAYED =
-  1e-3; /* of the start; slow modes have at least 1/100 of it (z1 - 1) / (z1 - z2) */
+static const double OFF = 1e-6; /* of the length scale, and rad */
+/* Times the start's violation: 1e-3 of the scale, hardly still linear. */
+static const double GROWN = 1e3;
+/* Of the start's violation. A start with Phi' = 0 gives a mode a share of (1 - z1) / (z2 - z1), 1/100 or more here, so that no
+ * mode hides below this from the beginning. */
+static const double DECAYED = 1e-3;
 
 /* Steps of 1e-5 over omega: 3.1 and 150 rad/s at start. */
 static double step_of(physics_mechanism which)
