@@ -6,6 +6,7 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/dynamics.h"
+#include "mechanism/definition.h"
 
 /* ---- arguments ---- */
 
@@ -37,10 +38,8 @@ static baum_status check_point(const char *call, const baum_workspace *w, double
   if (!out) {
     return fail_null(call, "the output");
   }
-  if (!isfinite(t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
-  }
-  return check_finite(call, "q", q, w->mechanism->nq);
+  baum_status status = baum_i_check_finite(call, "t", "s", t);
+  return status == BAUM_OK ? check_finite(call, "q", q, w->mechanism->nq) : status;
 }
 
 static baum_status check_state(const char *call, const baum_workspace *w, double t, const double *q,
@@ -212,14 +211,20 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
 
 /* ---- solutions ---- */
 
+static baum_status check_gains(const char *call, double alpha, double beta)
+{
+  baum_status status = baum_i_check_finite(call, "alpha", "1/s", alpha);
+  return status == BAUM_OK ? baum_i_check_finite(call, "beta", "1/s", beta) : status;
+}
+
 baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, const double *q,
                                         const double *v, double alpha, double beta, double *a,
                                         double *lambda)
 {
   const char *call = "baum_workspace_acceleration";
-  baum_status status = check_state(call, workspace, t, q, v, q);
+  baum_status status = check_state(call, workspace, t, q, v, &t); /* a and lambda may be NULL */
   if (status == BAUM_OK) {
-    status = check_finite(call, "alpha, beta", (const double[]){alpha, beta}, 2);
+    status = check_gains(call, alpha, beta);
   }
   if (status != BAUM_OK) {
     return status;
@@ -261,7 +266,7 @@ baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const d
 /* ---- residual forms ---- */
 
 static baum_status check_dae(const char *call, const baum_workspace *w, const baum_dae *dae,
-                             const double *y, const double *dy)
+                             double t, const double *y, const double *dy)
 {
   if (!w || !dae) {
     return fail_null(call, w ? "dae" : "the workspace");
@@ -270,8 +275,10 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call, (int)dae->index);
   }
   int size = 2 * w->mechanism->nv + w->mechanism->nc;
-  baum_status status =
-    check_finite(call, "alpha, beta", (const double[]){dae->alpha, dae->beta}, 2);
+  baum_status status = check_gains(call, dae->alpha, dae->beta);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(call, "t", "s", t);
+  }
   if (status == BAUM_OK) {
     status = check_finite(call, "y", y, size);
   }
@@ -282,10 +289,7 @@ baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *d
                                     const double *y, const double *dy, double *residual)
 {
   const char *call = "baum_workspace_residual";
-  baum_status status = check_dae(call, workspace, dae, y, dy);
-  if (status == BAUM_OK) {
-    status = check_finite(call, "t", &t, 1);
-  }
+  baum_status status = check_dae(call, workspace, dae, t, y, dy);
   if (status == BAUM_OK && !residual) {
     status = fail_null(call, "the output");
   }
@@ -313,9 +317,9 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
   if (!out) {
     return fail_null(call, "the output");
   }
-  baum_status status = check_dae(call, workspace, dae, y, dy);
+  baum_status status = check_dae(call, workspace, dae, t, y, dy);
   if (status == BAUM_OK) {
-    status = check_finite(call, "c, t", (const double[]){c, t}, 2);
+    status = baum_i_check_finite(call, "c", "1/s", c);
   }
   if (status != BAUM_OK) {
     return status;
@@ -355,7 +359,7 @@ static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, 
 static baum_status check_guess(const char *call, const baum_workspace *w, double t, const double *q,
                                const double *v)
 {
-  baum_status status = check_point(call, w, t, q, q);
+  baum_status status = check_point(call, w, t, q, &t);
   if (status != BAUM_OK) {
     return status;
   }
@@ -399,7 +403,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)
 {
-  baum_status status = check_state("baum_workspace_project", workspace, t, q, v, q);
+  baum_status status = check_state("baum_workspace_project", workspace, t, q, v, &t);
   if (status != BAUM_OK) {
     return status;
   }

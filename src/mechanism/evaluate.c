@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "mechanism/mechanism.h"
 
 /* ---- frames ---- */

@@ -67,13 +67,6 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 
 /* ---- numbering ---- */
 
-static void widen(int *largest, int candidate)
-{
-  if (candidate > *largest) {
-    *largest = candidate;
-  }
-}
-
 /* Every index of the frozen structure is an int; what would not fit is refused here. */
 static bool fits(int present, int64_t more)
 {
@@ -87,6 +80,19 @@ static baum_status fail_too_large(const baum_i_element *element, const char *fam
                      baum_i_label(element, family, label), INT_MAX);
 }
 
+/* Scratch memory for the largest element: nl columns, that many rows. False when it is too large. */
+static bool widen_scratch(baum_mechanism *mechanism, int nl, int rows)
+{
+  int64_t size = baum_i_scratch_size(nl, rows);
+  if (!fits(0, size)) {
+    return false;
+  }
+  if (size > mechanism->scratch_size) {
+    mechanism->scratch_size = (int)size;
+  }
+  return true;
+}
+
 static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
 {
   mechanism->nv = 0;
@@ -94,7 +100,8 @@ static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
   mechanism->constant_mass = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     baum_i_body *body = mechanism->bodies[i];
-    if (!fits(mechanism->mass_size, (int64_t)body->nv * body->nv)) {
+    if (!fits(mechanism->mass_size, (int64_t)body->nv * body->nv) ||
+        !widen_scratch(mechanism, body->nv, body->nv)) {
       return fail_too_large(&body->element, "body");
     }
     body->q = mechanism->nv;
@@ -105,7 +112,6 @@ static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
     mechanism->nv += body->nv;
     mechanism->mass_size += body->nv * body->nv;
     mechanism->constant_mass &= body->type->constant_mass(body->element.def);
-    widen(&mechanism->scratch_size, baum_i_scratch_size(body->nv, body->nv));
   }
   mechanism->nq = mechanism->nv;
   return BAUM_OK;
@@ -160,7 +166,8 @@ static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
     }
     int nl = joint->span.nl;
     if (!fits(mechanism->jacobian_size, (int64_t)joint->rows * nl) ||
-        !fits(mechanism->joint_square_size, (int64_t)nl * nl)) {
+        !fits(mechanism->joint_square_size, (int64_t)nl * nl) ||
+        !widen_scratch(mechanism, nl, joint->rows)) {
       return fail_too_large(&joint->element, "joint");
     }
     joint->row = mechanism->nc;
@@ -171,7 +178,6 @@ static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
     mechanism->nc += joint->rows;
     mechanism->jacobian_size += joint->rows * nl;
     mechanism->joint_square_size += nl * nl;
-    widen(&mechanism->scratch_size, baum_i_scratch_size(nl, joint->rows));
   }
   return BAUM_OK;
 }
@@ -186,14 +192,14 @@ static baum_status number_forces(baum_mechanism *mechanism, int *parameters)
       return status;
     }
     int nl = force->span.nl;
-    if (!fits(mechanism->force_square_size, (int64_t)nl * nl)) {
+    if (!fits(mechanism->force_square_size, (int64_t)nl * nl) ||
+        !widen_scratch(mechanism, nl, nl)) {
       return fail_too_large(&force->element, "force");
     }
     force->square = mechanism->force_square_size;
     force->element.parameter = *parameters;
     *parameters += force->type->parameter_count;
     mechanism->force_square_size += nl * nl;
-    widen(&mechanism->scratch_size, baum_i_scratch_size(nl, nl));
   }
   return BAUM_OK;
 }

@@ -3,24 +3,21 @@
 #include "mechanism/user_function.h"
 
 #include <assert.h>
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-#include "base/alloc.h"
 #include "base/message.h"
 
 /* ---- memory and coordinates ---- */
 
-int baum_i_scratch_size(int nl, int rows)
+int64_t baum_i_scratch_size(int nl, int rows)
 {
-  /* Differences may be nested twice, each level with a dozen vectors; matrices are never differenced as a whole, but
-   * up to three of them (given, evaluated, one more) are kept. */
+  /* Differences may be nested twice, each level with a dozen vectors; matrices are never
+   * differenced as a whole, but up to three of them (given, evaluated, one more) are kept. */
   int64_t vectors = 48 * ((int64_t)nl + rows);
   int64_t matrices = 3 * ((int64_t)nl * rows);
-  int64_t size = vectors + matrices;
-  return size < INT_MAX ? (int)size : INT_MAX;
+  return vectors + matrices;
 }
 
 double *baum_i_take(baum_i_local *local, int count)
@@ -193,11 +190,4 @@ void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bod
   for (int32_t k = 0; span->bodies && k < body_count; k++) {
     span->bodies[k] = baum_i_body_index(mechanism, bodies[k]);
   }
-}
-
-void baum_i_free_const(const void *copy)
-{
-  void *memory; /* const only for those who read it */
-  memcpy(&memory, &copy, sizeof memory);
-  baum_i_free(memory);
 }

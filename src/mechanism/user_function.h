@@ -11,7 +11,7 @@
 #include "mechanism/mechanism.h"
 
 /* Doubles of point->scratch that an element with nl local columns and that many rows may use. */
-int baum_i_scratch_size(int nl, int rows);
+int64_t baum_i_scratch_size(int nl, int rows);
 
 /* Where user functions are evaluated. Copies of it are cheap: a function that needs memory copies the struct and takes
  * from its own copy, so that everything it took is given back when it returns. */
@@ -75,8 +75,5 @@ baum_status baum_i_check_user_bodies(const baum_mechanism *mechanism, const baum
 /* Their indices, for the `bodies` function of types. */
 void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
                         int32_t body_count, baum_i_span *span);
-
-/* Release an array that own() has copied into a definition. */
-void baum_i_free_const(const void *copy);
 
 #endif

@@ -2,6 +2,7 @@
 /* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one solution of (5), which is made
  * once per row and only when a channel asks for it.
  */
+#include <limits.h>
 #include <math.h>
 #include <string.h>
 
@@ -88,6 +89,9 @@ int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *cha
     int width = channel_width(mechanism, &channels[k], k);
     if (width < 0) {
       return -1;
+    }
+    if (width > INT_MAX - sum) {
+      return fail_channel(k, "the channels up to here have more columns than an int can count");
     }
     sum += width;
   }

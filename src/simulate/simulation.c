@@ -51,10 +51,7 @@ static baum_status choose_gains(baum_simulation *run, double rate)
   }
   run->problem.alpha = run->gains.alpha;
   run->problem.beta = run->gains.beta;
-  baum_stability stability = run->gains.amplification.stability;
-  /* BDF damps any alpha h only if alpha / beta is above the golden ratio's inverse (Hairer, Wanner: A(alpha)-stability). */
-  bool oscillates = stability == BAUM_VARIABLE_STEP && run->gains.alpha < 0.618 * run->gains.beta;
-  if (stability == BAUM_MARGINAL || stability == BAUM_UNSTABLE || oscillates) {
+  if (run->gains.doubtful) {
     baum_i_run_warn(run, "%s", run->gains.why);
   }
   return BAUM_OK;

@@ -277,26 +277,31 @@ static void print_fixed_step(const draft *gains, const baum_amplification *ampli
                  gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
 }
 
-static void print_variable_step(const draft *gains, char text[CLAUSE_SIZE])
+/* True when the clause warns. */
+static bool print_variable_step(const draft *gains, char text[CLAUSE_SIZE])
 {
   if (gains->beta == 0.0 && gains->alpha > 0.0) {
     (void)snprintf(text, CLAUSE_SIZE,
                    "variable step; warning: beta = 0 leaves violations of position");
-  } else if (gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
+    return true;
+  }
+  if (gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
     (void)snprintf(text, CLAUSE_SIZE,
                    "variable step; warning: alpha / beta = %.3g < %g, BDF and IDA may not damp",
                    gains->alpha / gains->beta, BDF_DAMPING_RATIO);
-  } else {
-    (void)snprintf(text, CLAUSE_SIZE, "variable step");
+    return true;
   }
+  (void)snprintf(text, CLAUSE_SIZE, "variable step");
+  return false;
 }
 
 static void explain(const rule_type *rule, const draft *gains, baum_i_gain_choice *choice)
 {
   char clause[CLAUSE_SIZE];
   if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
-    print_variable_step(gains, clause);
+    choice->doubtful = print_variable_step(gains, clause);
   } else {
+    choice->doubtful = choice->amplification.stability != BAUM_STABLE;
     print_fixed_step(gains, &choice->amplification, clause);
   }
   (void)snprintf(choice->why, sizeof choice->why,

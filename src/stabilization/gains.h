@@ -24,6 +24,7 @@ typedef struct baum_i_gain_choice {
   baum_gain_rule rule;              /* the rule that was applied */
   baum_amplification amplification; /* at (alpha h, beta^2 h^2) */
   char why[256];                    /* one sentence: rule, numbers, stability */
+  bool doubtful;                    /* `why` is worth a warning: violations may stay or grow */
 } baum_i_gain_choice;
 
 /* Apply a rule and check its stability. BAUM_OK, BAUM_ERR_ARGUMENT (rule's numbers, or a rule that needs a fixed

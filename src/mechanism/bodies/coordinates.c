@@ -56,9 +56,9 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
 static void release(void *copy)
 {
   baum_coordinates_def *def = copy;
-  baum_i_free_const(def->q);
-  baum_i_free_const(def->v);
-  baum_i_free_const(def->scale);
+  baum_i_free(def->q);
+  baum_i_free(def->v);
+  baum_i_free(def->scale);
   def->q = NULL;
   def->v = NULL;
   def->scale = NULL;

@@ -34,7 +34,7 @@ static baum_status own(void *copy)
 static void release(void *copy)
 {
   baum_user_force_def *def = copy;
-  baum_i_free_const(def->bodies);
+  baum_i_free(def->bodies);
   def->bodies = NULL;
 }
 

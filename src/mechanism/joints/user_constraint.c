@@ -52,7 +52,7 @@ static baum_status own(void *copy)
 static void release(void *copy)
 {
   baum_user_constraint_def *def = copy;
-  baum_i_free_const(def->bodies);
+  baum_i_free(def->bodies);
   def->bodies = NULL;
 }
 
@@ -60,6 +60,16 @@ static int rows(const void *given)
 {
   const baum_user_constraint_def *def = given;
   return def->row_count;
+}
+
+/* What difference.c leaves in second and in first derivatives. */
+static double noise(const void *given)
+{
+  const baum_user_constraint_def *def = given;
+  if (!def->gamma && !def->jacobian) {
+    return 1e-11;
+  }
+  return def->gamma && def->jacobian ? 0.0 : 1e-13;
 }
 
 static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
@@ -558,6 +568,7 @@ static const baum_i_joint_type type = {
   .gamma = gamma_rows,
   .linearize = linearize,
   .check = check_derivatives,
+  .noise = noise,
 };
 
 BAUM_I_DEFINE(joint, user_constraint, type)
