@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Evaluation of a frozen mechanism at a point, without a run. Simulations do this by themselves; a workspace
- *  is for those who need Phi, J, nu, gamma, M, g or an acceleration of their own accord.
+ *  Evaluation of a frozen mechanism at a point, without a run. Simulations do this by themselves; a
+ *  workspace is for those who need Phi, J, nu, gamma, M, g or an acceleration of their own accord.
  *
- *  Dense matrices are row-major. Rows and columns are in the order of adding. Units follow the coordinates.
+ *  Arguments: t [s], positions q (nq), velocities v (nv), all finite. No output may overlap an
+ *  input; outputs are untouched on failure.
+ *  Dense matrices are row-major. Rows and columns are in the order of adding. Units follow the
+ *  coordinates.
  *  Threads: one workspace is used by one thread at a time; any number may share a mechanism.
  *  NULL: q, v and every array are required unless an argument says otherwise.
  *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
@@ -24,7 +27,7 @@ typedef struct baum_workspace baum_workspace;
 /** Make a workspace; it keeps the mechanism alive.
  *  @param[in]  mechanism  frozen
  *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out);
 
@@ -82,9 +85,9 @@ BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, c
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
                                            const double *v, double *kinetic, double *potential);
 
-/** Acceleration and multipliers of M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7);
- *  with alpha = beta = 0 those of (5). Redundant rows are left out of the solution; where multipliers are not
- *  unique they are those of least norm in rows scaled by M.
+/** Acceleration and multipliers of M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi
+ *  (7); with alpha = beta = 0 those of (5). Redundant rows are left out of the solution; where
+ *  multipliers are not unique they are those of least norm in rows scaled by M.
  *  @param      alpha,beta  [1/s] finite
  *  @param[out] a           (nv); may be NULL
  *  @param[out] lambda      (nc); may be NULL
@@ -94,7 +97,8 @@ BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, doub
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
 
-/** Force and moment of a joint on its body_b: see planar.h. For a user constraint: -J^T lambda over its bodies.
+/** Force and moment of a joint on its body_b: see planar.h. For a user constraint: -J^T lambda over
+ *  its bodies.
  *  @param[in]  lambda    (nc)
  *  @param[out] reaction  (width) as the channel BAUM_JOINT_REACTION, 3 for planar joints
  */
@@ -102,11 +106,10 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates. */
+/** Which equations baum_workspace_residual() evaluates: q' - v, M v' + J^T lambda - g, and */
 typedef enum baum_residual {
-  BAUM_RESIDUAL_INDEX1 =
-    1, /**< q' - v, M v' + J^T lambda - g, J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
-  BAUM_RESIDUAL_INDEX3 = 3 /**< q' - v, M v' + J^T lambda - g, Phi. */
+  BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
+  BAUM_RESIDUAL_INDEX3 = 3  /**< Phi. */
 } baum_residual;
 
 /** Which equations, and their gains. */
@@ -133,10 +136,10 @@ BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const ba
                                              double t, const double *y, const double *dy,
                                              double *residual);
 
-/** Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only. Allocates: for use outside of
- *  inner loops. To learn the sizes call first with all arrays of `out` NULL.
+/** Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only. Allocates:
+ *  for use outside of inner loops. To learn the size call first with all arrays of `out` NULL.
  *  @param      c    [1/s] finite
- *  @param[out] out  receives what its arrays have room for
+ *  @param[out] out  nonzeros, and what is asked for by an array that is not NULL
  *  @return          also BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
@@ -146,11 +149,12 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
 
 /** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v.
  *  @param[in,out] q     (nq) a guess on entry; unchanged on failure
- *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints and are least
- *                       where undetermined; unchanged on failure
- *  @param[in]     held  (held_count) bodies whose positions stay; may be NULL when held_count is 0. Bodies whose
- *                       definition says `held` stay too.
- *  @return              also BAUM_ERR_INCONSISTENT (names the joints that conflict), BAUM_ERR_MEMORY
+ *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints
+ *                       and are least where undetermined; unchanged on failure
+ *  @param[in]     held  (held_count) bodies whose positions stay; may be NULL when held_count is 0.
+ *                       Bodies whose definition says `held` stay too.
+ *  @return              also BAUM_ERR_INCONSISTENT (names the joints that conflict),
+ *                       BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q,
                                              double *v, const baum_body_id *held,

@@ -2,19 +2,21 @@
 /** @file
  *  What is simulated: bodies, joints and forces.
  *
- *  A mechanism is made by `add` calls, then frozen, then constant; a frozen one may be shared between
- *  threads. *Bodies* are anything with coordinates (planar.h, or user coordinates below), *joints* anything
- *  with constraint rows (planar.h, drivers, or user constraints), *forces* the rest. A mechanism that is given
- *  wholly by functions of the user is one body of user coordinates and one user constraint.
+ *  A mechanism is made by `add` calls, then frozen, then constant; a frozen one may be shared
+ *  between threads. *Bodies* are anything with coordinates (planar.h, or user coordinates below),
+ *  *joints* anything with constraint rows (planar.h, drivers, or user constraints), *forces* the
+ *  rest. A mechanism that is given wholly by functions of the user is one body of user coordinates
+ *  and one user constraint.
  *
  *  Equations (Flores et al. 2008, numbers in brackets): constraints Phi(q, t) = 0 (1), their rate
  *  Phi' = J v - nu (3), their second derivative J a - gamma (4), and M a + J^T lambda = g (2).
  *
- *  Units: SI is assumed nowhere but in the default gravity; any consistent set will do. Angles in radians.
+ *  Units: SI is assumed nowhere but in the default gravity; any consistent set will do. Angles in
+ *  radians.
  *  Order: q, v, constraint rows and lambda are in the order in which bodies and joints were added.
- *  Callbacks: q and v hold the coordinates of the named bodies one after the other; matrices are dense and
- *  row-major, zeroed before the call; return 0 when fine, > 0 to ask for a smaller step, < 0 to stop the run.
- *  They must be reentrant when the mechanism is shared between threads.
+ *  Callbacks: q and v hold the coordinates of the named bodies one after the other; matrices are
+ *  dense and row-major, zeroed before the call; return 0 when fine, > 0 to ask for a smaller
+ *  step, < 0 to stop the run. They must be reentrant when the mechanism is shared between threads.
  *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused.
  */
 #ifndef BAUM_MECHANISM_H
@@ -34,19 +36,19 @@ extern "C" {
 /** Bodies, joints and forces under construction, or frozen. */
 typedef struct baum_mechanism baum_mechanism;
 
-/** Names one body of one mechanism and its copies. All-zero means "none" and is refused. By value. */
+/** Names one body of one mechanism and its copies, by value. All-zero: "none", refused. */
 typedef struct baum_body_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_body_id;
 
-/** Names one joint: anything with constraint rows. All-zero means "none". By value. */
+/** Names one joint, anything with constraint rows, by value. All-zero: "none", refused. */
 typedef struct baum_joint_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_joint_id;
 
-/** Names one force. All-zero means "none". By value. */
+/** Names one force, by value. All-zero: "none", refused. */
 typedef struct baum_force_id {
   int32_t index1; /**< Private: 1 + position in the mechanism. */
   uint32_t tag;   /**< Private: which mechanism. */
@@ -73,11 +75,12 @@ typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, 
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
 
-/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. It is also called at times
- *  outside of the run: by the check of derivatives, and where the constraints around the start are explored. */
+/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. It is
+ *  also called at times outside of the run: by the check of derivatives, and where the constraints
+ *  around the start are explored. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
-/* ---- a body given by functions ------------------------------------------------------------------ */
+/* ---- a body given by functions --------------------------------------------------------------- */
 
 /** Generalized coordinates with mass and force given by functions. q' = v. */
 typedef struct baum_coordinates_def {
@@ -86,11 +89,9 @@ typedef struct baum_coordinates_def {
   int32_t size;       /**< [-] > 0, number of coordinates. Default: 0, must be set. */
   const double *q;    /**< (size) drawn positions. Copied. Default: NULL, zeros. */
   const double *v; /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
-  const double
-    *scale; /**< (size) > 0, a relevant change of each coordinate. Copied. Default: NULL, ones. */
-  baum_q_fn *mass; /**< out (size x size), symmetric. Default: NULL, must be set. */
-  baum_force_fn
-    *force; /**< out (size), applied and velocity terms g. Default: NULL, must be set. */
+  const double *scale;    /**< (size) > 0, relevant changes. Copied. Default: NULL, ones. */
+  baum_q_fn *mass;        /**< out (size x size), symmetric. Default: NULL, must be set. */
+  baum_force_fn *force;   /**< out (size), g with velocity terms. Default: NULL, must be set. */
   baum_force_fn *force_q; /**< out (size x size), dg/dq. Default: NULL, by differences. */
   baum_force_fn *force_v; /**< out (size x size), dg/dv. Default: NULL, by differences. */
   baum_q_fn *potential;   /**< out (1) [J]. Default: NULL, none. */
@@ -117,14 +118,14 @@ static inline baum_coordinates_def baum_coordinates_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the body; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_coordinates(baum_mechanism *mechanism,
                                                     const baum_coordinates_def *def,
                                                     baum_body_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechanism,
@@ -137,24 +138,24 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
 BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, baum_body_id id,
                                                     const baum_coordinates_def *def);
 
-/* ---- constraints given by functions -------------------------------------------------------------- */
+/* ---- constraints given by functions ---------------------------------------------------------- */
 
-/** Constraints Phi(q, t) = 0 over the coordinates of the named bodies. Only phi is required. nv below is the
- *  number of velocities of the named bodies together. Functions must hold everywhere, not only where Phi = 0.
- *  Differences evaluate phi to both sides of q and t: missing nu within 0.006 and missing gamma within 0.05 units
- *  of time of t, so that a law that begins at t = 0 must be defined a little before, or nu and gamma be given. */
+/** Constraints Phi(q, t) = 0 over the coordinates of the named bodies. Only phi is required. nv
+ *  below is the number of velocities of the named bodies together. Functions must hold everywhere,
+ *  not only where Phi = 0. Differences evaluate phi to both sides of q and t: missing nu within
+ *  0.006 and missing gamma within 0.05 units of time of t, so that a law that begins at t = 0 must
+ *  be defined a little before, or nu and gamma be given. */
 typedef struct baum_user_constraint_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
-  const char *name;   /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  const baum_body_id
-    *bodies;           /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
-  int32_t body_count;  /**< [-] > 0. Default: 0, must be set. */
-  int32_t row_count;   /**< [-] > 0. Default: 0, must be set. */
-  baum_q_fn *phi;      /**< out (row_count). Default: NULL, must be set. */
-  baum_q_fn *jacobian; /**< out (row_count x nv), J. Default: NULL, differences of phi. */
-  baum_q_fn *nu;       /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
-  baum_qv_fn *gamma;   /**< out (row_count), right side of (4). Default: NULL, differences. */
-  void *user;          /**< Passed to the functions, not owned. Default: NULL. */
+  size_t struct_size;         /**< Set by the default. Do not write. */
+  const char *name;           /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  const baum_body_id *bodies; /**< (body_count) acted on. Copied. Default: NULL, must be set. */
+  int32_t body_count;         /**< [-] > 0. Default: 0, must be set. */
+  int32_t row_count;          /**< [-] > 0. Default: 0, must be set. */
+  baum_q_fn *phi;             /**< out (row_count). Default: NULL, must be set. */
+  baum_q_fn *jacobian;        /**< out (row_count x nv), J. Default: NULL, differences of phi. */
+  baum_q_fn *nu;     /**< out (row_count), -dPhi/dt. Default: NULL, differences of phi in t. */
+  baum_qv_fn *gamma; /**< out (row_count), right side of (4). Default: NULL, differences. */
+  void *user;        /**< Passed to the functions, not owned. Default: NULL. */
 } baum_user_constraint_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -175,14 +176,14 @@ static inline baum_user_constraint_def baum_user_constraint_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_user_constraint(baum_mechanism *mechanism,
                                                         const baum_user_constraint_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_user_constraint(const baum_mechanism *mechanism,
@@ -196,11 +197,12 @@ BAUM_API baum_status baum_mechanism_get_user_constraint(const baum_mechanism *me
 BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanism, baum_joint_id id,
                                                         const baum_user_constraint_def *def);
 
-/* ---- drivers ------------------------------------------------------------------------------------- */
+/* ---- drivers --------------------------------------------------------------------------------- */
 
-/** One row that prescribes a joint's coordinate: coordinate(q) - s(t) = 0. The coordinate of a revolute joint
- *  is angle_b - angle_a, continuous over turns; that of a translational joint the displacement of body_b's
- *  point from body_a's along the axis. s(t) = value + rate t + acceleration t^2 / 2, or a user law. */
+/** One row that prescribes a joint's coordinate: coordinate(q) - s(t) = 0. The coordinate of a
+ *  revolute joint is angle_b - angle_a, continuous over turns; that of a translational joint the
+ *  displacement of body_b's point from body_a's along the axis.
+ *  s(t) = value + rate t + acceleration t^2 / 2, or a user law. */
 typedef struct baum_driver_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -229,14 +231,15 @@ static inline baum_driver_def baum_driver_def_default(void)
 /** Add a driver on the coordinate of a joint.
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
- *  @param[out] id         receives the driver, a joint of one row; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @param[out] id         receives the driver, a joint of one row; left as it is on failure.
+ *                         May be NULL.
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_driver(baum_mechanism *mechanism,
                                                const baum_driver_def *def, baum_joint_id *id);
 
-/** Read a definition back.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_driver(const baum_mechanism *mechanism, baum_joint_id id,
@@ -248,20 +251,19 @@ BAUM_API baum_status baum_mechanism_get_driver(const baum_mechanism *mechanism, 
 BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_joint_id id,
                                                const baum_driver_def *def);
 
-/* ---- forces given by functions ------------------------------------------------------------------- */
+/* ---- forces given by functions --------------------------------------------------------------- */
 
 /** Generalized force on the named bodies. nv below is the number of their velocities together. */
 typedef struct baum_user_force_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
-  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  const baum_body_id
-    *bodies;              /**< (body_count) whose coordinates are passed. Copied. Default: NULL. */
-  int32_t body_count;     /**< [-] > 0. Default: 0, must be set. */
-  baum_force_fn *force;   /**< out (nv). Default: NULL, must be set. */
-  baum_force_fn *force_q; /**< out (nv x nv). Default: NULL, by differences. */
-  baum_force_fn *force_v; /**< out (nv x nv). Default: NULL, by differences. */
-  baum_q_fn *potential;   /**< out (1) [J]. Default: NULL, none. */
-  void *user;             /**< Passed to the functions, not owned. Default: NULL. */
+  size_t struct_size;         /**< Set by the default. Do not write. */
+  const char *name;           /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  const baum_body_id *bodies; /**< (body_count) acted on. Copied. Default: NULL, must be set. */
+  int32_t body_count;         /**< [-] > 0. Default: 0, must be set. */
+  baum_force_fn *force;       /**< out (nv). Default: NULL, must be set. */
+  baum_force_fn *force_q;     /**< out (nv x nv). Default: NULL, by differences. */
+  baum_force_fn *force_v;     /**< out (nv x nv). Default: NULL, by differences. */
+  baum_q_fn *potential;       /**< out (1) [J]. Default: NULL, none. */
+  void *user;                 /**< Passed to the functions, not owned. Default: NULL. */
 } baum_user_force_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -282,14 +284,14 @@ static inline baum_user_force_def baum_user_force_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the force; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_user_force(baum_mechanism *mechanism,
                                                    const baum_user_force_def *def,
                                                    baum_force_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_user_force(const baum_mechanism *mechanism,
@@ -302,7 +304,7 @@ BAUM_API baum_status baum_mechanism_get_user_force(const baum_mechanism *mechani
 BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, baum_force_id id,
                                                    const baum_user_force_def *def);
 
-/* ---- the mechanism ------------------------------------------------------------------------------- */
+/* ---- the mechanism --------------------------------------------------------------------------- */
 
 /** Make an empty mechanism with gravity (0, -9.81, 0) m/s^2.
  *  @param[out] out  receives it, NULL on failure; release with baum_mechanism_destroy()
@@ -310,22 +312,23 @@ BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, ba
  */
 BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 
-/** Copy a mechanism; the copy is not frozen, and the ids of one are valid in the other as long as nothing is
- *  added. Functions and their `user` pointers are shared.
+/** Copy a mechanism; the copy is not frozen, and the ids of one are valid in the other as long as
+ *  nothing is added. Functions and their `user` pointers are shared.
  *  @param[in]  mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism **out);
 
-/** Give up a mechanism. Simulations and workspaces made from it keep it alive until they are gone too.
+/** Give up a mechanism. Simulations and workspaces made from it keep it alive as long as they live.
  *  @param mechanism  may be NULL
  */
 BAUM_API void baum_mechanism_destroy(baum_mechanism *mechanism);
 
 /** Set gravity, which acts on particles and rigid bodies, not on user coordinates.
  *  @param mechanism  not yet frozen
- *  @param x,y,z      [m/s^2] finite; planar bodies use x and y. Default of a mechanism: (0, -9.81, 0).
+ *  @param x,y,z      [m/s^2] finite; planar bodies use x and y. Default of a mechanism:
+ *                    (0, -9.81, 0).
  *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE
  */
 BAUM_API baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y,
@@ -352,8 +355,8 @@ BAUM_API baum_status baum_mechanism_get_scale(const baum_mechanism *mechanism, d
 
 /** Check everything and make the mechanism constant. A second call does nothing.
  *  @param mechanism  with at least one body
- *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (nothing to move), BAUM_ERR_MEMORY; on
- *                    failure still not frozen
+ *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (nothing to move), BAUM_ERR_MEMORY;
+ *                    on failure still not frozen
  */
 BAUM_API baum_status baum_mechanism_freeze(baum_mechanism *mechanism);
 
@@ -391,7 +394,7 @@ BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
 /** What a mechanism can do at its assembled start pose. */
 typedef struct baum_mobility {
   size_t struct_size;        /**< Set by baum_mechanism_mobility(). */
-  int32_t freedoms;          /**< [-] nv - rank of J at nearby poses. */
+  int32_t freedoms;          /**< [-] nv - rank of J at nearby poses; -1: cannot be assembled. */
   int32_t redundant_rows;    /**< [-] rows that depend on others at every nearby pose. */
   int32_t conflicting_rows;  /**< [-] rows that cannot be met together with the others. */
   int32_t free_bodies;       /**< [-] bodies without a joint. */
@@ -401,24 +404,26 @@ typedef struct baum_mobility {
   char text[1024];           /**< The same in sentences, by name. */
 } baum_mobility;
 
-/** Count freedoms, redundant and conflicting rows and free bodies at the assembled start pose, at t = 0.
+/** Count freedoms, redundant and conflicting rows and free bodies at the assembled start pose, at
+ *  t = 0.
  *  @param[in]  mechanism    frozen
  *  @param[out] out          filled also when rows conflict
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
- *              BAUM_ERR_NOT_FINITE
+ *              BAUM_ERR_NOT_FINITE, BAUM_ERR_SINGULAR
  */
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v) with differences,
- *  in the drawn pose and at three poses and other times beside it. An entry is wrong when it is off by more than
- *  1e-6 of itself and 1e-9 of its row. mass() must be symmetric, and constant where constant_mass says so. Kinks,
- *  and poses that functions refuse, raise no alarm; an element that refuses all poses gives that failure.
+/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v) with
+ *  differences, in the drawn pose and at three poses and other times beside it. An entry is wrong
+ *  when it is off by more than 1e-6 of itself and 1e-9 of its row. mass() must be symmetric, and
+ *  constant where constant_mass says so. Kinks, and poses that functions refuse, raise no alarm; an
+ *  element that refuses all poses gives that failure.
  *  Runs by itself when a simulation is created.
  *  @param[in] mechanism  frozen
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both values),
- *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both
+ *             values), BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE
  */
 BAUM_API baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism);
 

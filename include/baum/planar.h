@@ -2,16 +2,18 @@
 /** @file
  *  Planar bodies, joints and forces.
  *
- *  A planar body has three coordinates (x, y, angle), a particle two (x, y); velocities likewise. Positions
- *  are of the centre of mass, in ground axes; angles are counter-clockwise and continuous over turns.
+ *  A planar body has three coordinates (x, y, angle), a particle two (x, y); velocities likewise.
+ *  Positions are of the centre of mass, in ground axes; angles are counter-clockwise and continuous
+ *  over turns.
  *
- *  Placing: joints and springs are placed either by `point` (ground axes, in the drawn pose, the same for both
- *  bodies) or by `point_a` and `point_b` (each in the axes of its body, for ground the ground axes); NaN means
- *  not given; both ways or neither is refused. The drawn pose is a guess that is assembled at start. A point
- *  of a particle is the particle itself. A spring and a distance joint with `point` would have no length:
- *  they take point_a and point_b.
+ *  Placing: joints and springs are placed either by `point` (ground axes, in the drawn pose, the
+ *  same for both bodies) or by `point_a` and `point_b` (each in the axes of its body, for ground
+ *  the ground axes); NaN means not given; both ways or neither is refused. The drawn pose is a
+ *  guess that is assembled at start. A point of a particle is the particle itself. A spring and a
+ *  distance joint with `point` would have no length: they take point_a and point_b.
  *
- *  Reaction of a joint: force [N] and moment [N m] on body_b, ground axes, about the joint's point on body_b.
+ *  Reaction of a joint: force [N] and moment [N m] on body_b, ground axes, about the joint's point
+ *  on body_b.
  */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H
@@ -22,7 +24,7 @@
 extern "C" {
 #endif
 
-/* ---- rigid body in the plane -------------------------------------------------------------------- */
+/* ---- rigid body in the plane ----------------------------------------------------------------- */
 
 /** A rigid body. The body axes have their origin at the centre of mass. */
 typedef struct baum_planar_body_def {
@@ -55,14 +57,14 @@ static inline baum_planar_body_def baum_planar_body_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the body; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_body(baum_mechanism *mechanism,
                                                     const baum_planar_body_def *def,
                                                     baum_body_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_body(const baum_mechanism *mechanism,
@@ -75,7 +77,7 @@ BAUM_API baum_status baum_mechanism_get_planar_body(const baum_mechanism *mechan
 BAUM_API baum_status baum_mechanism_set_planar_body(baum_mechanism *mechanism, baum_body_id id,
                                                     const baum_planar_body_def *def);
 
-/* ---- particle in the plane ---------------------------------------------------------------------- */
+/* ---- particle in the plane ------------------------------------------------------------------- */
 
 /** A point mass; it has no angle, and joints that need one refuse it. */
 typedef struct baum_planar_particle_def {
@@ -105,14 +107,14 @@ static inline baum_planar_particle_def baum_planar_particle_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the body; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_particle(baum_mechanism *mechanism,
                                                         const baum_planar_particle_def *def,
                                                         baum_body_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_particle(const baum_mechanism *mechanism,
@@ -126,9 +128,10 @@ BAUM_API baum_status baum_mechanism_get_planar_particle(const baum_mechanism *me
 BAUM_API baum_status baum_mechanism_set_planar_particle(baum_mechanism *mechanism, baum_body_id id,
                                                         const baum_planar_particle_def *def);
 
-/* ---- revolute joint (pin) ----------------------------------------------------------------------- */
+/* ---- revolute joint (pin) -------------------------------------------------------------------- */
 
-/** A pin: the points of both bodies coincide. Two rows [m]: x, y of body_a's point minus body_b's. */
+/** A pin: the points of both bodies coincide. Two rows [m]: x, y of body_a's point minus
+ *  body_b's. */
 typedef struct baum_planar_revolute_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -157,14 +160,14 @@ static inline baum_planar_revolute_def baum_planar_revolute_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_revolute(baum_mechanism *mechanism,
                                                         const baum_planar_revolute_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_revolute(const baum_mechanism *mechanism,
@@ -178,10 +181,10 @@ BAUM_API baum_status baum_mechanism_get_planar_revolute(const baum_mechanism *me
 BAUM_API baum_status baum_mechanism_set_planar_revolute(baum_mechanism *mechanism, baum_joint_id id,
                                                         const baum_planar_revolute_def *def);
 
-/* ---- translational joint (slider) --------------------------------------------------------------- */
+/* ---- translational joint (slider) ------------------------------------------------------------ */
 
-/** body_b slides along an axis fixed in body_a without turning. Two rows: distance of body_b's point from the
- *  axis through body_a's point [m], and angle_b - angle_a - angle [rad]. */
+/** body_b slides along an axis fixed in body_a without turning. Two rows: distance of body_b's
+ *  point from the axis through body_a's point [m], and angle_b - angle_a - angle [rad]. */
 typedef struct baum_planar_translational_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -213,13 +216,13 @@ static inline baum_planar_translational_def baum_planar_translational_def_defaul
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_translational(
   baum_mechanism *mechanism, const baum_planar_translational_def *def, baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_translational(const baum_mechanism *mechanism,
@@ -233,10 +236,11 @@ BAUM_API baum_status baum_mechanism_get_planar_translational(const baum_mechanis
 BAUM_API baum_status baum_mechanism_set_planar_translational(
   baum_mechanism *mechanism, baum_joint_id id, const baum_planar_translational_def *def);
 
-/* ---- distance joint (massless rod) -------------------------------------------------------------- */
+/* ---- distance joint (massless rod) ----------------------------------------------------------- */
 
-/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length) with d from body_a's point
- *  to body_b's, which is the change of length to first order and smooth everywhere. */
+/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length) with d from
+ *  body_a's point to body_b's, which is the change of length to first order and smooth
+ *  everywhere. */
 typedef struct baum_planar_distance_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
@@ -266,14 +270,14 @@ static inline baum_planar_distance_def baum_planar_distance_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_distance(baum_mechanism *mechanism,
                                                         const baum_planar_distance_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_distance(const baum_mechanism *mechanism,
@@ -287,7 +291,7 @@ BAUM_API baum_status baum_mechanism_get_planar_distance(const baum_mechanism *me
 BAUM_API baum_status baum_mechanism_set_planar_distance(baum_mechanism *mechanism, baum_joint_id id,
                                                         const baum_planar_distance_def *def);
 
-/* ---- fixed joint (weld) ------------------------------------------------------------------------- */
+/* ---- fixed joint (weld) ---------------------------------------------------------------------- */
 
 /** A weld: points coincide and the relative angle is kept. Three rows [m], [m], [rad]. */
 typedef struct baum_planar_fixed_def {
@@ -319,14 +323,14 @@ static inline baum_planar_fixed_def baum_planar_fixed_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_fixed(baum_mechanism *mechanism,
                                                      const baum_planar_fixed_def *def,
                                                      baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_fixed(const baum_mechanism *mechanism,
@@ -339,10 +343,10 @@ BAUM_API baum_status baum_mechanism_get_planar_fixed(const baum_mechanism *mecha
 BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, baum_joint_id id,
                                                      const baum_planar_fixed_def *def);
 
-/* ---- spring-damper between two points ----------------------------------------------------------- */
+/* ---- spring-damper between two points -------------------------------------------------------- */
 
-/** A linear spring and damper in parallel along the line between two points. Its force is zero when the points
- *  coincide. */
+/** A linear spring and damper in parallel along the line between two points. Its force is zero when
+ *  the points coincide. */
 typedef struct baum_planar_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -374,14 +378,14 @@ static inline baum_planar_spring_def baum_planar_spring_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the force; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_spring(baum_mechanism *mechanism,
                                                       const baum_planar_spring_def *def,
                                                       baum_force_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_spring(const baum_mechanism *mechanism,
@@ -394,10 +398,10 @@ BAUM_API baum_status baum_mechanism_get_planar_spring(const baum_mechanism *mech
 BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism, baum_force_id id,
                                                       const baum_planar_spring_def *def);
 
-/* ---- constant load ------------------------------------------------------------------------------ */
+/* ---- constant load --------------------------------------------------------------------------- */
 
-/** A force at a point of a body and a torque. A load without torque and in ground axes has a potential, and its
- *  energy is counted as such. */
+/** A force at a point of a body and a torque. A load without torque and in ground axes has a
+ *  potential, and its energy is counted as such. */
 typedef struct baum_planar_load_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -426,14 +430,14 @@ static inline baum_planar_load_def baum_planar_load_def_default(void)
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the force; left as it is on failure. May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *              unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_planar_load(baum_mechanism *mechanism,
                                                     const baum_planar_load_def *def,
                                                     baum_force_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism.
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_load(const baum_mechanism *mechanism,

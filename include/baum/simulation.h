@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  One run of a frozen mechanism: how constraints are kept, which method integrates, what comes out.
+ *  One run of a frozen mechanism: how constraints are kept, which method integrates, what comes
+ *  out.
  *
- *  Threads: one simulation is used by one thread at a time, but for baum_simulation_cancel(), which may be called
- *  from any thread or signal handler. Simulations may share a mechanism.
+ *  Threads: one simulation is used by one thread at a time, but for baum_simulation_cancel(), which
+ *  may be called from any thread or signal handler. Simulations may share a mechanism.
  *  Failure: a run that fails keeps its last good step; time, q and v stay readable.
  */
 #ifndef BAUM_SIMULATION_H
@@ -23,11 +24,12 @@ extern "C" {
 /** One run. */
 typedef struct baum_simulation baum_simulation;
 
-/* ---- integrators ---------------------------------------------------------------------------------- */
+/* ---- integrators ----------------------------------------------------------------------------- */
 
 /** Explicit Euler, order 1, fixed step. BAUMGARTE (dead-beat), UNSTABILIZED, PROJECTION. */
 BAUM_API const baum_integrator *baum_euler(void);
-/** Semi-implicit (symplectic) Euler, order 1, fixed step: velocities first. Formulations as baum_euler(). */
+/** Semi-implicit (symplectic) Euler, order 1, fixed step: velocities first. Formulations as
+ *  baum_euler(). */
 BAUM_API const baum_integrator *baum_semi_implicit_euler(void);
 /** Explicit midpoint rule, order 2, fixed step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_rk2(void);
@@ -35,12 +37,13 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** The classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2(). */
 BAUM_API const baum_integrator *baum_rk4(void);
-/** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. */
+/** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
+ *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** SUNDIALS CVODE, BDF with Newton iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. BAUMGARTE (auto), UNSTABILIZED, and INDEX3,
- *  which is there for comparison: its error is far above its tolerance. */
+/** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. BAUMGARTE (auto), UNSTABILIZED,
+ *  and INDEX3, which is there for comparison: its error is far above its tolerance. */
 BAUM_API const baum_integrator *baum_ida(void);
 
 /** All integrators by number, for bindings and tables; linking this links every backend.
@@ -76,10 +79,9 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 
 /** What to do with the drawn pose. */
 typedef enum baum_start {
-  BAUM_START_ASSEMBLE =
-    0,                  /**< Assemble; refuse displacements above a quarter of the length scale. */
-  BAUM_START_EXACT = 1, /**< Refuse a pose or velocities that do not fulfil the constraints. */
-  BAUM_START_AS_GIVEN = 2 /**< Take them as they are, free velocities zero. */
+  BAUM_START_ASSEMBLE = 0, /**< Assemble; refuse moves above a quarter of the scale, or 1 rad. */
+  BAUM_START_EXACT = 1,    /**< Refuse a pose or velocities that do not fulfil the constraints. */
+  BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero. */
 } baum_start;
 
 /** Which solver of the equations (7) is used. */
@@ -92,7 +94,7 @@ typedef enum baum_solver {
 /** Called now and then during a run. @return non-zero to cancel */
 typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *user);
 
-/* ---- options -------------------------------------------------------------------------------------- */
+/* ---- options --------------------------------------------------------------------------------- */
 
 /** How to run. Start from baum_simulation_options_default(). */
 typedef struct baum_simulation_options {
@@ -102,11 +104,11 @@ typedef struct baum_simulation_options {
   baum_gains gains;                  /**< Only for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Run with gains that are known to be unstable. Default: false. */
   double step;         /**< [s] > 0, fixed-step integrators. Default: NaN, not given. */
-  double rtol;         /**< [-] > 0, relative to the scales of q and v. Default: NaN, not given. */
-  double atol;         /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
-  double start_time;   /**< [s] Default: 0. */
-  baum_start start;    /**< Default: BAUM_START_ASSEMBLE. */
-  baum_solver solver;  /**< Default: BAUM_SOLVER_AUTO. */
+  double rtol; /**< [-] > 0, < 1, relative to the scales of q and v. Default: NaN, not given. */
+  double atol; /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
+  double start_time;          /**< [s] Default: 0. */
+  baum_start start;           /**< Default: BAUM_START_ASSEMBLE. */
+  baum_solver solver;         /**< Default: BAUM_SOLVER_AUTO. */
   bool check_derivatives;     /**< Compare user derivatives with differences. Default: true. */
   int64_t max_steps;          /**< [-] > 0, of one call before it fails. Default: 1000000000. */
   baum_progress_fn *progress; /**< Default: NULL, none. */
@@ -128,16 +130,16 @@ static inline baum_simulation_options baum_simulation_options_default(void)
   return options;
 }
 
-/* ---- a run ---------------------------------------------------------------------------------------- */
+/* ---- a run ----------------------------------------------------------------------------------- */
 
 /** Start a run: assemble, choose gains, check them, and set up the integrator.
  *  @param[in]  mechanism  frozen; kept alive by the simulation
  *  @param[in]  options    copied
  *  @param[out] out        receives the run, NULL on failure; release with baum_simulation_destroy()
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen), BAUM_ERR_UNSUPPORTED
- *              (the pair of integrator and formulation, or the build), BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR,
- *              BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE,
- *              BAUM_ERR_INTEGRATOR
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
+ *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, or the build),
+ *              BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
+ *              BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR
  */
 BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
                                             const baum_simulation_options *options,
@@ -148,13 +150,14 @@ BAUM_API baum_status baum_simulation_create(const baum_mechanism *mechanism,
  */
 BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
 
-/** Advance to time t, forward or backward; t equal to the present time does nothing. A fixed-step method takes
- *  whole steps from where it stands and, when t is off its grid, one shorter step at the end, which is counted
- *  and starts a new grid. A variable-step method passes t and interpolates, so that targets never alter its
- *  steps.
+/** Advance to time t, forward or backward; t equal to the present time does nothing. A fixed-step
+ *  method takes whole steps from where it stands and, when t is off its grid, one shorter step at
+ *  the end, which is counted and starts a new grid. A variable-step method passes t and
+ *  interpolates, so that targets never alter its steps.
  *  @param t  [s] finite
- *  @return   BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_STEP,
- *            BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY
+ *  @return   BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR,
+ *            BAUM_ERR_STEP, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
+ *            BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
@@ -164,18 +167,21 @@ BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, dou
  */
 BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t count);
 
-/** Ask a run to stop after its present step; the next call goes on. A run that no call is advancing stops at the start
- *  of the next call, and the one after goes on. From any thread or signal handler.
+/** Ask a run to stop after its present step; the next call goes on. A run that no call is advancing
+ *  stops at the start of the next call, and the one after goes on. From any thread or signal
+ *  handler.
  *  @param simulation  may be NULL
  */
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
-/** Replace time and state; multistep methods restart. The state is handled as the option `start` says.
+/** Replace time and state; multistep methods restart. The state is handled as the option `start`
+ *  says.
  *  @param      t    [s] finite
  *  @param[in]  q    (nq) finite
  *  @param[in]  v    (nv) finite, or NaN where free when `start` is BAUM_START_ASSEMBLE
- *  @return          BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- *                   BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
+ *  @return          BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR,
+ *                   BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
+ *                   unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
@@ -187,10 +193,10 @@ BAUM_API const double *baum_simulation_q(const baum_simulation *simulation);
 /** Present velocities (nv), owned by the run and changed by it; NULL for NULL. */
 BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
-/* ---- what comes out ------------------------------------------------------------------------------- */
+/* ---- what comes out -------------------------------------------------------------------------- */
 
-/** What a channel holds; in brackets its number of columns. Accelerations, multipliers and reactions come from
- *  one solution of (5) at the present state, without stabilization terms. */
+/** What a channel holds; in brackets its number of columns. Accelerations, multipliers and
+ *  reactions come from one solution of (5) at the present state, without stabilization terms. */
 typedef enum baum_quantity {
   BAUM_Q = 1,         /**< Positions (nq). */
   BAUM_V = 2,         /**< Velocities (nv). */
@@ -210,12 +216,12 @@ typedef struct baum_channel {
   baum_quantity quantity; /**< What. */
   baum_body_id body;      /**< For BAUM_BODY_*. */
   baum_joint_id joint; /**< For BAUM_JOINT_*; optional for BAUM_LAMBDA, BAUM_PHI, BAUM_PHI_RATE. */
-  double
-    point[2]; /**< [m] body axes, for BAUM_BODY_* of a planar body; zero is the centre of mass. */
+  double point[2];     /**< [m] body axes, for BAUM_BODY_* of a planar body; 0: centre of mass. */
 } baum_channel;
 
 /** Number of columns of some channels together.
  *  @param[in] mechanism  frozen
+ *  @param[in] channels   (count); may be NULL when count is 0
  *  @return    -1 when a channel is not valid; baum_message() says why
  */
 BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
@@ -224,15 +230,15 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 /** Read channels at the present state.
  *  @param[in]  channels  (count)
  *  @param[out] row       (baum_channels_width())
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
- *              BAUM_ERR_MEMORY
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
 
-/** Advance through times and record channels at each. Times off the grid of a fixed-step method are reached by a
- *  shorter step on a copy, so that sampling does not alter the motion; afterwards the run stands at the last
- *  time, as after baum_simulation_advance_to().
+/** Advance through times and record channels at each. Times off the grid of a fixed-step method are
+ *  reached by a shorter step on a copy, so that sampling does not alter the motion; afterwards the
+ *  run stands at the last time, as after baum_simulation_advance_to().
  *  @param[in]  times     (n) [s] monotone, the first may be the present time
  *  @param[in]  channels  (count)
  *  @param[out] rows      (n x width)
@@ -243,7 +249,8 @@ BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const d
                                             int64_t n, const baum_channel *channels, int32_t count,
                                             double *rows, int64_t *done);
 
-/** What a run has cost and how well constraints were kept, since it was created. */
+/** What a run has cost and how well constraints were kept, since it was created. Violations are
+ *  predicted for both Eulers with stable gains of at least 0.1/h. */
 typedef struct baum_counters {
   size_t struct_size;     /**< Set by baum_simulation_counters(). */
   int64_t steps;          /**< [-] accepted. */
@@ -251,8 +258,7 @@ typedef struct baum_counters {
   int64_t short_steps;    /**< [-] shorter steps of a fixed-step method to a target off its grid. */
   int64_t evaluations;    /**< [-] of (7) or of the residual. */
   int64_t factorizations; /**< [-] refactorizations of the matrix in (7) and of IDA's or CVODE's. */
-  int64_t
-    full_factorizations; /**< [-] those among them that chose new pivots, which may allocate. */
+  int64_t full_factorizations;  /**< [-] of these those that chose new pivots and may allocate. */
   int64_t nonlinear_iterations; /**< [-] of CVODE, IDA. */
   int64_t restarts;             /**< [-] of a multistep method. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
@@ -262,14 +268,12 @@ typedef struct baum_counters {
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
   baum_joint_id max_phi_joint;  /**< Joint of max_phi. */
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
-  double
-    predicted_phi; /**< Both Eulers, stable gains >= 0.1/h: largest (alpha/beta^2) h |gamma_i|; else NaN. */
-  double predicted_phi_rate; /**< Likewise largest (h/2) |gamma_i|; else NaN. */
-  double
-    energy_change; /**< [J] kinetic and potential energy now minus at start; work of drivers and dampers is in it. */
-  double start_change; /**< [-] largest displacement at assembly relative to the scale. */
-  double alpha;        /**< [1/s] in use. */
-  double beta;         /**< [1/s] in use. */
+  double predicted_phi; /**< [m or rad] (alpha/beta^2) h largest |gamma_i|; NaN: not predicted. */
+  double predicted_phi_rate; /**< [m/s or rad/s] (h/2) largest |gamma_i|; NaN likewise. */
+  double energy_change; /**< [J] kinetic and potential since start; drivers and dampers included. */
+  double start_change;  /**< [-] largest displacement of the last assembly, of the scale. */
+  double alpha;         /**< [1/s] in use. */
+  double beta;          /**< [1/s] in use. */
 } baum_counters;
 
 /** Read the counters.
@@ -288,11 +292,12 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
 BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k,
                                              char *text, size_t size);
 
-/** In words: formulation, integrator, gains and why, stability, solver, redundancy, tolerances. Owned by the run;
- *  NULL for NULL. */
+/** In words: formulation, integrator, gains and why, stability, solver, redundancy, tolerances.
+ *  Owned by the run; NULL for NULL. */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);
 
-/** The sentence of this run's last failure or stop, "" at first. Owned by the run; NULL for NULL. */
+/** The sentence of this run's last failure, stop or warning, "" at first. Owned by the run; NULL
+ *  for NULL. */
 BAUM_API const char *baum_simulation_message(const baum_simulation *simulation);
 
 #ifdef __cplusplus

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and what an integrator makes of
- *  them.
+ *  Baumgarte's gains (Baumgarte 1972; Flores et al. 2008, equations 6 to 19) and what an integrator
+ *  makes of them.
  *
- *  Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) is integrated by the same method as the motion, so whether the
- *  violation decays depends on the method and on (alpha h, beta^2 h^2). These functions compute it. They need no
- *  mechanism, allocate nothing and may be called from any thread.
+ *  Phi'' + 2 alpha Phi' + beta^2 Phi = 0 (6) is integrated by the same method as the motion, so
+ *  whether the violation decays depends on the method and on (alpha h, beta^2 h^2). These functions
+ *  compute it. They need no mechanism, allocate nothing and may be called from any thread.
  */
 #ifndef BAUM_STABILIZATION_H
 #define BAUM_STABILIZATION_H
@@ -31,11 +31,11 @@ typedef enum baum_gain_rule {
   BAUM_GAINS_TAYLOR = 3,    /**< alpha = 1/h, beta = sqrt(2)/h (10, 11); fixed step only. */
   BAUM_GAINS_FREQUENCY = 4, /**< beta = 2 pi f, alpha = damping ratio x beta. */
   BAUM_GAINS_DEADBEAT = 5,  /**< Both roots at zero; fixed step only. */
-  BAUM_GAINS_AUTO =
-    6 /**< alpha = beta = 2 x the fastest angular rate at start, capped to be stable. */
+  BAUM_GAINS_AUTO = 6       /**< alpha = beta = 2 x the fastest rate at start, capped. */
 } baum_gain_rule;
 
-/** A rule with its numbers. Make it with one of the functions below; all-zero is BAUM_GAINS_DEFAULT. */
+/** A rule with its numbers. Make it with one of the functions below; all-zero is
+ *  BAUM_GAINS_DEFAULT. */
 typedef struct baum_gains {
   int32_t rule;    /**< A baum_gain_rule. */
   double value[2]; /**< The numbers of the rule. */
@@ -50,8 +50,9 @@ BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
  */
 BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
 
-/** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With explicit Euler
- *  the roots lie on the unit circle (marginal), with semi-implicit Euler outside it (unstable). */
+/** Gains of the Taylor expansion, equations (10) and (11): alpha = 1/h, beta = sqrt(2)/h. With
+ *  explicit Euler the roots lie on the unit circle (marginal), with semi-implicit Euler outside it
+ *  (unstable). */
 BAUM_API baum_gains baum_gains_taylor(void);
 
 /** Gains of an oscillator.
@@ -60,21 +61,22 @@ BAUM_API baum_gains baum_gains_taylor(void);
  */
 BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
 
-/** Both roots at zero, the fastest decay there is: explicit Euler alpha = beta = 1/h, semi-implicit Euler
- *  alpha = 1/(2h), beta = 1/h; RK2 alpha = 1/h, beta = sqrt(2)/h; RK3 and RK4 a zero of their polynomial. Fixed
- *  step only. It costs methods of order above 1 their order, because the gains grow as the step shrinks. */
+/** Both roots at zero, the fastest decay there is: explicit Euler alpha = beta = 1/h, semi-implicit
+ *  Euler alpha = 1/(2h), beta = 1/h; RK2 alpha = 1/h, beta = sqrt(2)/h; RK3 and RK4 a zero of their
+ *  polynomial. Fixed step only. It costs methods of order above 1 their order, because the gains
+ *  grow as the step shrinks. */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
-/** alpha = beta = twice the fastest angular rate of the start state: |omega|, |v|/L, sqrt(|a|/L). With a fixed
- *  step capped at alpha h = 0.3. Keeps the order of the method. When nothing moves at start: 0.01/h, and 1 1/s
- *  where the step varies, which suits machines with times of seconds only. */
+/** alpha = beta = twice the fastest angular rate of the start state: |omega|, |v|/L, sqrt(|a|/L).
+ *  With a fixed step capped at alpha h = 0.3. Keeps the order of the method. When nothing moves at
+ *  start: 0.01/h, and 1 1/s where the step varies, which suits machines with times of seconds
+ *  only. */
 BAUM_API baum_gains baum_gains_auto(void);
 
 /** What becomes of a violation. */
 typedef enum baum_stability {
-  BAUM_STABLE = 0, /**< Every violation decays: spectral radius < 1. */
-  BAUM_MARGINAL =
-    1, /**< Some violation neither decays nor grows faster than linearly: radius = 1. */
+  BAUM_STABLE = 0,       /**< Every violation decays: spectral radius < 1. */
+  BAUM_MARGINAL = 1,     /**< Some violation neither decays nor grows exponentially: radius = 1. */
   BAUM_UNSTABLE = 2,     /**< Some violation grows exponentially: radius > 1. */
   BAUM_VARIABLE_STEP = 3 /**< The method chooses its step, so there is no fixed region. */
 } baum_stability;
@@ -101,7 +103,8 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
 
 /** Largest alpha h for which alpha = damping_ratio x beta is stable.
  *  @param      damping_ratio  [-] > 0
- *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when nothing is stable
+ *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when nothing
+ *                             is stable
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
  */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
@@ -114,10 +117,11 @@ BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, dou
 BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
                                              double *beta2_h2);
 
-/** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2 h^2). Its distance
- *  is within 1 % of the least; enough for advice, not for plotting the edge.
+/** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2
+ *  h^2). Its distance is within 1 % of the least; enough for advice, not for plotting the edge.
  *  @param      alpha_h,beta2_h2            [-] finite, the point asked for
- *  @param[out] good_alpha_h,good_beta2_h2  receive the nearest good point; the point itself when it is good
+ *  @param[out] good_alpha_h,good_beta2_h2  receive the nearest good point; the point itself when it
+ *                                          is good
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
  */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,

@@ -2,10 +2,10 @@
 /** @file
  *  What a call returns, and the sentence that explains it.
  *
- *  Every call that can fail returns a baum_status and nothing else; results come through `out` pointers.
- *  0 is done; 1 to 9 stopped as asked; 10 and up reached the end, but look at the warnings; below 0 failed.
- *  On failure outputs are null or untouched and the object is as before the call; a run keeps its last good
- *  step. The library never prints, exits or aborts.
+ *  Every call that can fail returns a baum_status and nothing else; results come through pointers.
+ *  0 is done; 1 to 9 stopped as asked; 10 and up reached the end with warnings; below 0 failed.
+ *  On failure outputs are null or untouched and the object is as before the call; a run keeps its
+ *  last good step. The library never prints, exits or aborts.
  *
  *  Threads: baum_message() is one buffer per thread; everything else in the library is in objects.
  */
@@ -18,7 +18,7 @@
 extern "C" {
 #endif
 
-/** The one list of statuses: name, value, text. Values are part of the ABI: never renumbered, never reused. */
+/** The one list of statuses: name, value, text. Values are part of the ABI, never to be reused. */
 #define BAUM_STATUS_LIST(X)                                                                 \
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
@@ -57,9 +57,10 @@ BAUM_API const char *baum_status_name(baum_status status);
  */
 BAUM_API const char *baum_status_text(baum_status status);
 
-/** The sentence of this thread's last call that returned a non-zero status: it names element, field, value
- *  and unit, and for a run the time.
- *  @return  this thread's buffer, never NULL, "" at first; valid until this thread's next failing call
+/** The sentence of this thread's last call that returned a non-zero status: it names element,
+ *  field, value and unit, and for a run the time.
+ *  @return  this thread's buffer, never NULL, "" at first; valid until this thread's next failing
+ *           call
  */
 BAUM_API const char *baum_message(void);
 
