@@ -1,0 +1,158 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How far off its constraints does a motion run with the Eulers and Baumgarte's gains? After the start has decayed, with gamma
+ * of the present state and row by row (docs/theory/stabilization.md):
+ *
+ *   |Phi'_i| = (h / 2) |gamma_i|,   |Phi_i| = (alpha / beta^2) h |gamma_i|
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "physics_run.h"
+
+enum { SAMPLES = 40, STRIDE = 200, PAIRS = 6 };
+
+static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
+                                       {0.5, 0.8}, {0.8, 0.4}, {0.8, 0.8}}; /* alpha h, beta h */
+
+/* Share of the formula by which a row may be off. */
+static const double TOLERANCE = 0.02;
+/* Share of the largest |gamma| at the moment that is added: Phi follows gamma with a lag of a few steps, 2 alpha / beta^2 and
+ * 1 / alpha, up to 10 h together, in which a gamma near zero changes by 10 h omega of its largest. */
+static const double LAG = 10.0;
+
+typedef struct motion {
+  physics_mechanism which;
+  double step;
+  double rate; /* [rad/s] at most, or nearly */
+} motion;
+
+/* The pendulum is thrown down from level with 3 m/s, 5.4 rad/s at its lowest, so that its only gamma is never near zero; the
+ * crank turns at 150 rad/s and slower. Both move by more than 1 rad. */
+static const model_pendulum THROWN = {.gravity = 9.81, .x = 1.0, .v = -3.0};
+static const motion MOTIONS[2] = {{PENDULUM, 1e-4, 5.4}, {FREE_CRANK, 1e-6, 150.0}};
+
+static model build_motion(const motion *with)
+{
+  model out = {0};
+  if (with->which != PENDULUM) {
+    return build_mechanism(with->which);
+  }
+  check(model_pendulum_rod(&THROWN, &out));
+  return out;
+}
+
+typedef struct deviation {
+  double phi; /* largest share by which rows of at least a tenth of the largest gamma are off */
+  double phi_rate;
+} deviation;
+
+static void compare_rows(const double *got, const double *gamma, double factor, double slack,
+                         int nc, double *worst)
+{
+  double largest = largest_of(gamma, nc);
+  for (int i = 0; i < nc; i++) {
+    double want = factor * fabs(gamma[i]);
+    ASSERT_NEAR(fabs(got[i]), want, TOLERANCE, slack * factor * largest);
+    if (fabs(gamma[i]) > 0.1 * largest) {
+      *worst = fmax(*worst, fabs(fabs(got[i]) / want - 1.0));
+    }
+  }
+}
+
+static void compare_state(const watched_run *watched, const motion *with, deviation *worst)
+{
+  static const baum_channel channels[2] = {{.quantity = BAUM_PHI}, {.quantity = BAUM_PHI_RATE}};
+  double rows[2 * PHYSICS_NC];
+  double gamma[PHYSICS_NC];
+  double h = with->step;
+  baum_counters c = read_counters(watched);
+  check(baum_simulation_get(watched->run, channels, 2, rows));
+  check(baum_workspace_gamma(watched->workspace, baum_simulation_time(watched->run),
+                             baum_simulation_q(watched->run), baum_simulation_v(watched->run),
+                             gamma));
+  double slack = LAG * h * with->rate;
+  compare_rows(rows, gamma, c.alpha / (c.beta * c.beta) * h, slack, watched->nc, &worst->phi);
+  compare_rows(rows + watched->nc, gamma, h / 2, slack, watched->nc, &worst->phi_rate);
+}
+
+static watched_run start(const model *m, const motion *with, const baum_integrator *integrator,
+                         const double pair[2])
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.gains = baum_gains_scaled(pair[0], pair[1] * pair[1]);
+  options.step = with->step;
+  return watch(m->mechanism, &options);
+}
+
+/* The counters keep the largest of both sides over the run. They meet where gamma is largest later on, as the pendulum's is. That
+ * of the free crank is largest at the start, where Phi begins at zero and overshoots as a step response does: by its own
+ * size at most, and by 90 % with explicit Euler and (0.3, 0.7), whose roots have radius 0.94. */
+static void compare_counters(const watched_run *watched, physics_mechanism which)
+{
+  baum_counters c = read_counters(watched);
+  printf("   max|Phi| %.3e predicted %.3e   max|Phi'| %.3e predicted %.3e\n", c.max_phi,
+         c.predicted_phi, c.max_phi_rate, c.predicted_phi_rate);
+  double most = which == PENDULUM ? 1.0 + TOLERANCE : 2.0;
+  assert_true(c.max_phi >= (1.0 - TOLERANCE) * c.predicted_phi);
+  assert_true(c.max_phi <= most * c.predicted_phi);
+  assert_true(c.max_phi_rate >= (1.0 - TOLERANCE) * c.predicted_phi_rate);
+  assert_true(c.max_phi_rate <= most * c.predicted_phi_rate);
+}
+
+static void follow(const baum_integrator *integrator, const motion *with, const double pair[2])
+{
+  model m = build_motion(with);
+  watched_run watched = start(&m, with, integrator, pair);
+  deviation worst = {0.0, 0.0};
+  check(baum_simulation_step(watched.run, (int64_t)ceil(50.0 / pair[0])));
+  for (int k = 0; k < SAMPLES; k++) {
+    check(baum_simulation_step(watched.run, STRIDE));
+    compare_state(&watched, with, &worst);
+  }
+  printf("%-20s %-18s %4.1f %4.1f   off by %5.2f %% %5.2f %%", baum_integrator_name(integrator),
+         mechanism_name(with->which), pair[0], pair[1], 100.0 * worst.phi, 100.0 * worst.phi_rate);
+  compare_counters(&watched, with->which);
+  unwatch(&watched);
+  model_destroy(&m);
+}
+
+static void follow_all(const baum_integrator *integrator)
+{
+  printf("largest share by which |Phi|, |Phi'| are off, for (alpha h, beta h)\n");
+  for (int k = 0; k < 2 * PAIRS; k++) {
+    const double *pair = GAINS[k % PAIRS];
+    baum_amplification z;
+    check(baum_stability_at(integrator, pair[0], pair[1] * pair[1], &z, sizeof z));
+    assert_int_equal(z.stability, BAUM_STABLE);
+    follow(integrator, &MOTIONS[k / PAIRS], pair);
+  }
+  (void)fflush(stdout);
+}
+
+static void explicit_euler_keeps_the_predicted_violation(void **state)
+{
+  (void)state;
+  follow_all(baum_euler());
+}
+
+static void semi_implicit_euler_keeps_the_predicted_violation(void **state)
+{
+  (void)state;
+  follow_all(baum_semi_implicit_euler());
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(explicit_euler_keeps_the_predicted_violation),
+    cmocka_unit_test(semi_implicit_euler_keeps_the_predicted_violation),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
