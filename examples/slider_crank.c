@@ -20,10 +20,11 @@ static struct {
   double e[STEPS + 1];
 } exact;
 
-/* One run at every step: Phi_3 and Phi_4; x, y and angle of the slider; Phi_3 predicted. */
-enum { PHI3, PHI4, X, Y, ANGLE, CHANNELS };
+/* What comes out of a run at every step: Phi_3 and Phi_4; x, y and angle of the slider. */
+enum { PHI3, X = 2, CHANNELS = 5 };
+
 static double rows[SETS][STEPS + 1][CHANNELS];
-static double predicted[SETS][STEPS + 1];
+static double predicted[SETS][STEPS + 1]; /* Phi_3 */
 
 /* A driven mechanism has no freedom left: its motion follows from the constraints alone. */
 static void solve_kinematics(const baum_mechanism *mechanism)
@@ -72,10 +73,21 @@ static void predict(double alpha, double beta, double *phi)
   }
 }
 
-/* One run and its row of the table. */
-static void simulate(const slider_crank *s, const char *name, baum_gains gains, int set)
+/* Largest difference of Phi_3 from its prediction, relative to the largest prediction. */
+static double surprise(int set)
 {
-  static const char *const classes[] = {"stable", "marginal", "unstable", "-"};
+  double difference = 0.0;
+  double expected = 0.0;
+  for (int k = 0; k <= STEPS; k++) {
+    difference = fmax(difference, fabs(rows[set][k][PHI3] - predicted[set][k]));
+    expected = fmax(expected, fabs(predicted[set][k]));
+  }
+  return difference / expected;
+}
+
+/* One run. @return its counters */
+static baum_counters simulate(const slider_crank *s, baum_gains gains, int set)
+{
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_euler();
   options.formulation = BAUM_FORMULATION_BAUMGARTE;
@@ -86,18 +98,22 @@ static void simulate(const slider_crank *s, const char *name, baum_gains gains, 
   const baum_channel channels[] = {{.quantity = BAUM_PHI, .joint = s->pin_b},
                                    {.quantity = BAUM_BODY_POSE, .body = s->slider}};
   baum_status status =
-      baum_simulation_sample(run, exact.t, STEPS + 1, channels, 2, rows[set][0], NULL);
+    baum_simulation_sample(run, exact.t, STEPS + 1, channels, 2, rows[set][0], NULL);
   if (status != BAUM_WARNED) { /* of marginal gains, as the table shows */
     CHECK(status);
   }
-
-  baum_counters c;
-  baum_amplification z;
-  CHECK(baum_simulation_counters(run, &c, sizeof c));
-  CHECK(baum_stability_at(options.integrator, c.alpha * H, c.beta * H * c.beta * H, &z, sizeof z));
+  baum_counters counters;
+  CHECK(baum_simulation_counters(run, &counters, sizeof counters));
   baum_simulation_destroy(run);
-  predict(c.alpha, c.beta, predicted[set]);
+  return counters;
+}
 
+/* A row of the table. */
+static void tell(const char *name, const baum_counters *c, int set)
+{
+  static const char *const classes[] = {"stable", "marginal", "unstable", "-"};
+  baum_amplification z;
+  CHECK(baum_stability_at(baum_euler(), c->alpha * H, c->beta * H * c->beta * H, &z, sizeof z));
   double observed = 0.0;
   double expected = 0.0;
   double slider = 0.0;
@@ -107,8 +123,8 @@ static void simulate(const slider_crank *s, const char *name, baum_gains gains, 
     slider = fmax(slider, fabs(rows[set][k][X] - exact.x[k]));
   }
   example_text(name);
-  example_number(c.alpha);
-  example_number(c.beta);
+  example_number(c->alpha);
+  example_number(c->beta);
   example_number(z.spectral_radius);
   example_text(classes[z.stability]);
   example_number(observed);
@@ -118,40 +134,78 @@ static void simulate(const slider_crank *s, const char *name, baum_gains gains, 
   example_number(slider);
 }
 
+static const struct {
+  const char *key;
+  const char *name;
+  int32_t rule;
+  double value[2];
+} sets[SETS] = {
+  {"none", "none", BAUM_GAINS_FIXED, {0.0, 0.0}},
+  {"equal_5", "alpha = beta = 5/s", BAUM_GAINS_FIXED, {5.0, 5.0}},
+  {"equal_50", "alpha = beta = 50/s", BAUM_GAINS_FIXED, {50.0, 50.0}},
+  {"equal_500", "alpha = beta = 500/s", BAUM_GAINS_FIXED, {500.0, 500.0}},
+  {"underdamped", "100 Hz, damping ratio 0.2", BAUM_GAINS_FREQUENCY, {100.0, 0.2}},
+  {"overdamped", "10 Hz, damping ratio 3", BAUM_GAINS_FREQUENCY, {10.0, 3.0}},
+  {"taylor", "Taylor (10, 11)", BAUM_GAINS_TAYLOR, {0.0, 0.0}},
+  {"stiff", "stiff, alpha = beta = 1/h", BAUM_GAINS_SCALED, {1.0, 1.0}},
+};
+enum { NONE, EQUAL_50 = 2, STIFF = SETS - 1 };
+
+/* Phi_3 over time, for the figure. */
+static void write_series(void)
+{
+  example_column columns[SETS + 1] = {{"t", "t [s]", 'f', 4}};
+  for (int set = 0; set < SETS; set++) {
+    columns[set + 1] = (example_column){sets[set].key, sets[set].name, 'e', 6};
+  }
+  example_table("phi3", columns, SETS + 1, false);
+  for (int k = 0; k <= STEPS; k += EVERY) {
+    example_number(exact.t[k]);
+    for (int set = 0; set < SETS; set++) {
+      example_number(rows[set][k][PHI3]);
+    }
+  }
+  example_close_table();
+}
+
 int main(int argc, char **argv)
 {
-  static const struct {
-    const char *name;
-    baum_gain_rule rule;
-    double value[2];
-  } sets[SETS] = {
-      {"none", BAUM_GAINS_FIXED, {0.0, 0.0}},
-      {"alpha = beta = 5", BAUM_GAINS_FIXED, {5.0, 5.0}},
-      {"alpha = beta = 50", BAUM_GAINS_FIXED, {50.0, 50.0}},
-      {"alpha = beta = 500", BAUM_GAINS_FIXED, {500.0, 500.0}},
-      {"100 Hz, damping ratio 0.2", BAUM_GAINS_FREQUENCY, {100.0, 0.2}},
-      {"10 Hz, damping ratio 3", BAUM_GAINS_FREQUENCY, {10.0, 3.0}},
-      {"Taylor (10, 11)", BAUM_GAINS_TAYLOR, {0.0, 0.0}},
-      {"stiff, alpha = beta = 1/h", BAUM_GAINS_SCALED, {1.0, 1.0}},
-  };
-  static const example_column columns[] = {{"gains", "gains", 's', 26},
+  static const example_column columns[] = {{"gains", "gains", 's', 25},
                                            {"alpha", "alpha [1/s]", 'f', 1},
                                            {"beta", "beta [1/s]", 'f', 1},
-                                           {"spectral_radius", "largest |z|", 'f', 5},
+                                           {"spectral_radius", "max|z|", 'f', 4},
                                            {"stability", "class", 's', 8},
                                            {"max_phi3", "max|Phi_3| [m]", 'e', 2},
-                                           {"max_phi3_predicted", "predicted [m]", 'e', 2},
-                                           {"final_phi3", "at the end [m]", 'e', 2},
-                                           {"final_phi3_predicted", "predicted [m]", 'e', 2},
-                                           {"slider_error", "slider off by [m]", 'e', 1}};
+                                           {"max_phi3_predicted", "predicted", 'e', 2},
+                                           {"final_phi3", "at 1 s", 'e', 2},
+                                           {"final_phi3_predicted", "predicted", 'e', 2},
+                                           {"slider_error", "slider off [m]", 'e', 2}};
   example_begin(argc, argv, "slider_crank");
   slider_crank s = slider_crank_build(true);
   solve_kinematics(s.mechanism);
+  printf("slider_crank: 3 bodies, 5 joints, no freedom; crank driven at %g rad/s\n"
+         "integrator    euler, h = %g s, %d steps; formulation baumgarte\n\n",
+         SLIDER_CRANK_SPEED, H, STEPS);
   example_table("gain_sets", columns, 10, true);
-  for (int k = 0; k < SETS; k++) {
-    baum_gains gains = {.rule = (int32_t)sets[k].rule, .value = {sets[k].value[0], sets[k].value[1]}};
-    simulate(&s, sets[k].name, gains, k);
+  double steady = 0.0; /* what the library itself predicts for the last set */
+  for (int set = 0; set < SETS; set++) {
+    baum_gains gains = {.rule = sets[set].rule, .value = {sets[set].value[0], sets[set].value[1]}};
+    baum_counters counters = simulate(&s, gains, set);
+    predict(counters.alpha, counters.beta, predicted[set]);
+    tell(sets[set].name, &counters, set);
+    steady = counters.max_phi / counters.predicted_phi;
   }
   baum_mechanism_destroy(s.mechanism);
+  write_series();
+
+  printf("\n");
+  double worst = 0.0;
+  for (int set = EQUAL_50; set < SETS; set++) {
+    worst = fmax(worst, surprise(set));
+  }
+  example_expect("none: |Phi_3| at 0.5 s / at 1 s",
+                 fabs(rows[NONE][STEPS / 2][PHI3] / rows[NONE][STEPS][PHI3]), 0.7);
+  example_expect("prediction, last six sets, off by", worst, 0.05);
+  example_expect("steady violation of 1/h, max|Phi| off by", fabs(steady - 1.0), 0.02);
   return example_end();
 }
