@@ -14,8 +14,7 @@
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* The joint whose multiplier is largest where the equations are singular is the most likely culprit; without multipliers
- * the one with the largest residual. Only a hint for the sentence. */
+/* Without a solution the largest right side is all there is to name a joint by: a hint, no proof. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
@@ -53,10 +52,8 @@ static baum_status solve(baum_workspace *w)
   const baum_i_kkt_values values = {.mass = w->mass,
                                     .jacobian = w->jacobian,
                                     .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
-  baum_status status = baum_i_kkt_factor(w->kkt, &values);
-  if (status == BAUM_OK) {
-    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
-  }
+  baum_status status =
+    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   w->evaluations++;
   w->near_singular += baum_i_kkt_get_quality(w->kkt) != BAUM_I_KKT_GOOD ? 1 : 0;
   return translate(w, status);

@@ -90,10 +90,8 @@ static baum_status least_change(const assembly *s)
   w->mass_ready = false; /* held coordinates may have changed M */
   decouple_held_masses(w, s->held);
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  baum_status status = baum_i_kkt_factor(w->kkt, &values);
-  if (status == BAUM_OK) {
-    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
-  }
+  baum_status status =
+    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_NOT_FINITE) {
     return baum_i_fail(status, "t = %.9g s: assembly: the equations are %s", s->t,
                        status == BAUM_ERR_SINGULAR ? "singular" : "not finite");
@@ -243,7 +241,7 @@ static baum_status assemble_velocities(assembly *s, double *v)
   for (int k = 0; k < CORRECTIONS; k++) {
     baum_status status = baum_i_violation(w, s->t, s->q, v);
     if (status == BAUM_OK) {
-      status = baum_i_mechanism_mass(&w->point, w->mass);
+      status = baum_i_evaluate_mass(w);
     }
     if (status != BAUM_OK) {
       return status;
@@ -296,25 +294,8 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
 
 /* ---- the whole ---- */
 
-static baum_status assemble(assembly *s, double *v, bool *given, baum_i_assembly *out,
-                            const double *start)
-{
-  const baum_mechanism *m = s->w->mechanism;
-  baum_status status = assemble_positions(s);
-  if (status == BAUM_OK && v) {
-    status = complete_velocities(s, v, given);
-  }
-  for (int i = 0; i < m->nv && out; i++) {
-    double change = fabs(s->q[i] - start[i]) / m->scale[i];
-    if (i == 0 || change > out->change) {
-      *out = (baum_i_assembly){.change = change, .worst_coordinate = i};
-    }
-  }
-  return status;
-}
-
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
-                            const bool *held, baum_i_assembly *out)
+                            const bool *held)
 {
   size_t nv = (size_t)workspace->mechanism->nv;
   size_t nc = (size_t)workspace->mechanism->nc;
@@ -330,10 +311,11 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
   s.distance = memory + 3 * nv;
   double *velocity = memory + 2 * nv;
   memcpy(s.q, q, nv * sizeof *q);
-  if (v) {
+  baum_status status = assemble_positions(&s);
+  if (status == BAUM_OK && v) {
     memcpy(velocity, v, nv * sizeof *v);
+    status = complete_velocities(&s, velocity, given);
   }
-  baum_status status = assemble(&s, v ? velocity : NULL, given, out, q);
   if (status == BAUM_OK) {
     memcpy(q, s.q, nv * sizeof *q);
     if (v) {

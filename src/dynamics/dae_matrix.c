@@ -11,6 +11,7 @@
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later ones only add
  * values to the slots found then. A dropped row reads 1 on its diagonal.
  */
+#include <limits.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -20,8 +21,7 @@
 struct baum_i_residual_matrix {
   baum_residual index;
   int size;
-  int entries;  /* emitted by one walk */
-  int nonzeros; /* different places among them */
+  int nonzeros; /* different places among the entries of a walk */
   int *slot;    /* (entries) */
   int32_t *columns;
   int32_t *rows;
@@ -30,7 +30,7 @@ struct baum_i_residual_matrix {
 /* Where a walk sends its entries. */
 typedef struct sink {
   int count;
-  int *row; /* learning: NULL while only counting */
+  int *row; /* learning */
   int *col;
   const int *slot; /* filling: NULL while learning */
   double *values;
@@ -40,7 +40,7 @@ static void emit(sink *s, int row, int col, double value)
 {
   if (s->slot) {
     s->values[s->slot[s->count]] += value;
-  } else if (s->row) {
+  } else {
     s->row[s->count] = row;
     s->col[s->count] = col;
   }
@@ -209,22 +209,31 @@ static void compress(baum_i_residual_matrix *matrix, const sink *s, int *start, 
   matrix->nonzeros = slots;
 }
 
+/* Entries that one walk emits. */
+static size_t count_entries(const baum_mechanism *m, baum_residual index)
+{
+  size_t jacobians = index == BAUM_RESIDUAL_INDEX1 ? 3 : 2; /* J^T, and what each row has of J */
+  return 2 * ((size_t)m->nv + (size_t)m->mass_size + (size_t)m->force_square_size) +
+         (size_t)m->joint_square_size + jacobians * (size_t)m->jacobian_size + (size_t)m->nc;
+}
+
 static baum_status learn(baum_i_residual_matrix *matrix, const factors *f)
 {
+  size_t entries = count_entries(f->w->mechanism, matrix->index);
+  if (entries > INT_MAX) {
+    return baum_i_fail_memory();
+  }
   sink s = {0};
-  walk(f, &s);
-  matrix->entries = s.count;
-  matrix->slot = baum_i_alloc((size_t)s.count, sizeof(int));
-  matrix->rows = baum_i_alloc((size_t)s.count, sizeof(int32_t));
+  matrix->slot = baum_i_alloc(entries, sizeof(int));
+  matrix->rows = baum_i_alloc(entries, sizeof(int32_t));
   matrix->columns = baum_i_alloc((size_t)matrix->size + 1, sizeof(int32_t));
-  s.row = baum_i_alloc((size_t)s.count, sizeof(int));
-  s.col = baum_i_alloc((size_t)s.count, sizeof(int));
+  s.row = baum_i_alloc(entries, sizeof(int));
+  s.col = baum_i_alloc(entries, sizeof(int));
   int *start = baum_i_alloc((size_t)matrix->size + 1, sizeof(int));
-  int *order = baum_i_alloc((size_t)s.count, sizeof(int));
+  int *order = baum_i_alloc(entries, sizeof(int));
   bool complete =
     matrix->slot && matrix->rows && matrix->columns && s.row && s.col && start && order;
   if (complete) {
-    s.count = 0;
     walk(f, &s);
     compress(matrix, &s, start, order);
   }

@@ -75,11 +75,13 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
 baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);
 baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const double *q,
                                   const double *v);
+/* M at the present point, but once only when it is constant. */
+baum_status baum_i_evaluate_mass(baum_workspace *workspace);
 /* Phi and Phi' only: cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be negative (backward in
- * time). Also BAUM_ERR_SINGULAR (the sentence names the joints), BAUM_ERR_MEMORY. */
+ * time). Also BAUM_ERR_SINGULAR (the sentence names a joint), BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
 /* As reported: (5), multipliers of least norm where they are not unique. */
@@ -118,14 +120,9 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
  * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
 
-/* As baum_workspace_assemble(); held (nv) flags or NULL. change receives the largest |dq_i| / scale_i and its
- * coordinate; may be NULL. */
-typedef struct baum_i_assembly {
-  double change;
-  int worst_coordinate;
-} baum_i_assembly;
+/* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
-                            const bool *held, baum_i_assembly *out);
+                            const bool *held);
 
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);

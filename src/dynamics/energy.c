@@ -9,7 +9,7 @@ baum_status baum_i_energy(baum_workspace *w, double t, const double *q, const do
 {
   int nv = w->mechanism->nv;
   baum_i_point_set(&w->point, t, q, v);
-  baum_status status = w->mass_ready ? BAUM_OK : baum_i_mechanism_mass(&w->point, w->mass);
+  baum_status status = baum_i_evaluate_mass(w);
   if (status != BAUM_OK) {
     return status;
   }

@@ -57,13 +57,8 @@ baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspac
     return fail_null("baum_workspace_create", "out");
   }
   *out = NULL;
-  if (!mechanism) {
-    return fail_null("baum_workspace_create", "the mechanism");
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "baum_workspace_create: the mechanism is not frozen");
-  }
-  return baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out);
+  baum_status status = baum_i_check_frozen(mechanism, "baum_workspace_create");
+  return status == BAUM_OK ? baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out) : status;
 }
 
 baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v)
@@ -144,7 +139,7 @@ baum_status baum_workspace_mass(baum_workspace *workspace, double t, const doubl
     return status;
   }
   baum_i_point_set(&workspace->point, t, q, NULL);
-  status = baum_i_mechanism_mass(&workspace->point, workspace->mass);
+  status = baum_i_evaluate_mass(workspace);
   if (status != BAUM_OK) {
     return status;
   }
@@ -395,7 +390,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   baum_i_message_keep(&kept);
   status = mark_held(workspace->mechanism, held, held_count, flags);
   if (status == BAUM_OK) {
-    status = baum_i_assemble(workspace, t, q, v, flags, NULL);
+    status = baum_i_assemble(workspace, t, q, v, flags);
   }
   baum_i_free(flags);
   return baum_i_message_settle(status, &kept);

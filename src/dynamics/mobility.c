@@ -88,7 +88,8 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
     double *rest = w->work_v + m->nv;
     status = baum_i_reported_acceleration(w, 0.0, q, rest);
     baum_i_redundancy_text(w, names, sizeof names);
-    say(report, " %d redundant %s among %s.", r->count, r->count == 1 ? "row" : "rows", names);
+    say(report, " %d redundant %s%s%s.", r->count, r->count == 1 ? "row" : "rows",
+        names[0] ? " among " : "", names);
     status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* of M, not of the rows */
   }
   if (report->near_singular) {
@@ -102,7 +103,7 @@ static baum_status survey(baum_workspace *w, double *q, baum_mobility *report)
 {
   const baum_mechanism *m = w->mechanism;
   memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
-  baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held, NULL);
+  baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held);
   if (status == BAUM_ERR_INCONSISTENT) {
     status = report_conflict(w, report);
   } else if (status == BAUM_OK) {
@@ -120,15 +121,14 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
   if (!out || caller_size < sizeof(size_t)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_mobility: out is NULL or its size is 0");
   }
-  if (!baum_mechanism_is_frozen(mechanism)) {
-    return baum_i_fail(mechanism ? BAUM_ERR_STATE : BAUM_ERR_ARGUMENT,
-                       "baum_mechanism_mobility: the mechanism is %s",
-                       mechanism ? "not frozen" : "NULL");
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_mobility");
+  if (status != BAUM_OK) {
+    return status;
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
-  baum_status status = baum_workspace_create(mechanism, &w);
+  status = baum_workspace_create(mechanism, &w);
   if (status != BAUM_OK) {
     return status;
   }

@@ -23,10 +23,8 @@ static baum_status least_change(baum_workspace *w)
                                     .jacobian = w->jacobian,
                                     .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  baum_status status = baum_i_kkt_factor(w->kkt, &values);
-  if (status == BAUM_OK) {
-    status = baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda);
-  }
+  baum_status status =
+    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   if (status == BAUM_ERR_SINGULAR) {
     return baum_i_fail(status, "t = %.9g s: projection: the constraints are singular here",
                        w->point.t);

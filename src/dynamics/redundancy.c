@@ -84,8 +84,7 @@ static baum_status solve_direction(const search *s, const double *p, const doubl
   const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
   baum_i_mass_times(&w->structure, w->mass, p, w->force);
-  baum_status status = baum_i_kkt_factor(w->kkt, &values);
-  return status == BAUM_OK ? baum_i_kkt_solve(w->kkt, w->force, r, s->x, w->lambda) : status;
+  return baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, r, s->x, w->lambda);
 }
 
 static void small_shift(baum_workspace *w)
@@ -127,7 +126,7 @@ static baum_status look_at_neighbour(const search *s, double t, const double *q,
   for (int i = 0; i < w->mechanism->nv; i++) {
     s->q[i] = q[i] + step * s->x[i];
   }
-  baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL, NULL);
+  baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL);
   int rank = 0;
   if (status == BAUM_OK) {
     status = rank_at(s, t + step, s->q, &rank);

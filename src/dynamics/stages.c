@@ -2,8 +2,7 @@
 /* The stages of an evaluation: what depends on (t, q), then what depends on v as well. */
 #include "dynamics/dynamics.h"
 
-/* M, unless it is constant and known. */
-static baum_status evaluate_mass(baum_workspace *w)
+baum_status baum_i_evaluate_mass(baum_workspace *w)
 {
   if (w->mass_ready) {
     return BAUM_OK;
@@ -38,7 +37,7 @@ baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
 {
   baum_i_point_set(&w->point, t, q, NULL);
   baum_status status = evaluate_position(w);
-  return status == BAUM_OK ? evaluate_mass(w) : status;
+  return status == BAUM_OK ? baum_i_evaluate_mass(w) : status;
 }
 
 baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const double *v)
@@ -55,7 +54,7 @@ baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, 
 {
   baum_status status = baum_i_violation(w, t, q, v);
   if (status == BAUM_OK) {
-    status = evaluate_mass(w);
+    status = baum_i_evaluate_mass(w);
   }
   if (status == BAUM_OK) {
     status = baum_i_mechanism_gamma(&w->point, w->gamma);

@@ -331,6 +331,13 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
   return report(status);
 }
 
+baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
+                                        const double *f, const double *r, double *a, double *lambda)
+{
+  baum_status status = baum_i_kkt_factor(kkt, values);
+  return status == BAUM_OK ? baum_i_kkt_solve(kkt, f, r, a, lambda) : status;
+}
+
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt)
 {
   return kkt->quality;

@@ -84,6 +84,11 @@ baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
+/* Both, where values are used for one right side only. */
+baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
+                                        const double *f, const double *r, double *a,
+                                        double *lambda);
+
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
 /* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization: free of units,
  * continuous while pivots are kept, with a jump where they are chosen anew. 0 for no factorization or no full rank. */

@@ -339,18 +339,14 @@ static baum_status check_elements(const baum_mechanism *mechanism, place *p)
 
 baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
 {
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "baum_mechanism_check_derivatives: the mechanism is NULL");
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE,
-                       "baum_mechanism_check_derivatives: the mechanism is not frozen");
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_check_derivatives");
+  if (status != BAUM_OK) {
+    return status;
   }
   place p;
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = make_place(mechanism, &p);
+  status = make_place(mechanism, &p);
   if (status == BAUM_OK) {
     status = check_elements(mechanism, &p);
   }

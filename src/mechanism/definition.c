@@ -85,21 +85,19 @@ static void release(baum_i_element *element)
 }
 
 /* Fill an element from a definition whose fields are already checked; on failure it owns nothing. */
-static baum_status fill(baum_i_element *element, const void *def, const char *default_name)
+static baum_status fill(baum_i_element *element, const char *family, const void *def)
 {
   const baum_i_definition *definition = element->definition;
   const char *given = ((const baum_i_def_head *)def)->name;
+  char default_name[BAUM_I_LABEL_SIZE];
+  (void)snprintf(default_name, sizeof default_name, "%s%d", family, element->index);
   element->name = baum_i_copy_text(given ? given : default_name);
   element->def = baum_i_copy(def, 1, definition->size);
-  if (!element->name || !element->def) {
-    baum_i_free(element->def);
+  if (element->def && definition->own && definition->own(element->def) != BAUM_OK) {
+    baum_i_free(element->def); /* what it points to is still the caller's */
     element->def = NULL;
-    release(element);
-    return baum_i_fail_memory();
   }
-  if (definition->own && definition->own(element->def) != BAUM_OK) {
-    baum_i_free(element->def);
-    element->def = NULL;
+  if (!element->name || !element->def) {
     release(element);
     return baum_i_fail_memory();
   }
@@ -210,9 +208,7 @@ static void *item_new(const baum_mechanism *mechanism, const kind *k, const void
   }
   element->definition = k->definition;
   element->index = number;
-  char name[BAUM_I_LABEL_SIZE];
-  (void)snprintf(name, sizeof name, "%s%d", k->family, number);
-  if (fill(element, def, name) != BAUM_OK ||
+  if (fill(element, k->family, def) != BAUM_OK ||
       make_span(mechanism, k, element->def, span_of(k, element)) != BAUM_OK) {
     item_free(element, k->span);
     return NULL;
@@ -274,9 +270,7 @@ static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element 
     return status;
   }
   baum_i_element next = *element;
-  char name[BAUM_I_LABEL_SIZE];
-  (void)snprintf(name, sizeof name, "%s%d", k->family, element->index);
-  status = fill(&next, def, name);
+  status = fill(&next, k->family, def);
   if (status == BAUM_OK) {
     release(element);
     *element = next;

@@ -7,23 +7,23 @@
 
 /* ---- frames ---- */
 
-static void set_body_frame(baum_i_frame *frame, const double *q, const double *v)
+baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v)
 {
-  frame->x = q[0];
-  frame->y = q[1];
-  frame->angle = q[2];
-  frame->c = cos(q[2]);
-  frame->s = sin(q[2]);
-  frame->vx = v ? v[0] : 0.0;
-  frame->vy = v ? v[1] : 0.0;
-  frame->w = v ? v[2] : 0.0;
-}
-
-static void set_particle_frame(baum_i_frame *frame, const double *q, const double *v)
-{
-  *frame = (baum_i_frame){.x = q[0], .y = q[1], .c = 1.0};
-  frame->vx = v ? v[0] : 0.0;
-  frame->vy = v ? v[1] : 0.0;
+  baum_i_frame frame = {.c = 1.0};
+  if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
+    return frame;
+  }
+  frame.x = q[0];
+  frame.y = q[1];
+  frame.vx = v ? v[0] : 0.0;
+  frame.vy = v ? v[1] : 0.0;
+  if (kind == BAUM_I_FRAME_BODY) {
+    frame.angle = q[2];
+    frame.c = cos(q[2]);
+    frame.s = sin(q[2]);
+    frame.w = v ? v[2] : 0.0;
+  }
+  return frame;
 }
 
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
@@ -33,15 +33,10 @@ void baum_i_point_set(baum_i_point *point, double t, const double *q, const doub
   point->q = q;
   point->v = v;
   point->retry = false;
-  point->frames[0] = (baum_i_frame){.c = 1.0};
+  point->frames[0] = baum_i_frame_at(BAUM_I_FRAME_GROUND, NULL, NULL);
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
-    const double *body_v = v ? v + body->v : NULL;
-    if (body->type->frame == BAUM_I_FRAME_BODY) {
-      set_body_frame(&point->frames[i], q + body->q, body_v);
-    } else if (body->type->frame == BAUM_I_FRAME_PARTICLE) {
-      set_particle_frame(&point->frames[i], q + body->q, body_v);
-    }
+    point->frames[i] = baum_i_frame_at(body->type->frame, q + body->q, v ? v + body->v : NULL);
   }
 }
 

@@ -344,7 +344,7 @@ bool baum_mechanism_is_frozen(const baum_mechanism *mechanism)
   return mechanism && mechanism->frozen;
 }
 
-static baum_status check_frozen(const baum_mechanism *mechanism, const char *call)
+baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call)
 {
   if (!mechanism) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
@@ -365,7 +365,7 @@ static void put(int32_t *out, int value)
 baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, int32_t *nv,
                                  int32_t *nc)
 {
-  baum_status status = check_frozen(mechanism, "baum_mechanism_sizes");
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_sizes");
   if (status == BAUM_OK) {
     put(nq, mechanism->nq);
     put(nv, mechanism->nv);
@@ -377,7 +377,7 @@ baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, i
 baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
                                 int32_t *first, int32_t *count)
 {
-  baum_status status = check_frozen(mechanism, "baum_mechanism_rows");
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_rows");
   if (status == BAUM_OK) {
     status = baum_i_check_joint(mechanism, joint, "baum_mechanism_rows", "joint");
   }
@@ -392,7 +392,7 @@ baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id j
 baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
                                    int32_t *first_q, int32_t *first_v)
 {
-  baum_status status = check_frozen(mechanism, "baum_mechanism_columns");
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_columns");
   if (status == BAUM_OK) {
     status = baum_i_check_body(mechanism, body, "baum_mechanism_columns", "body");
   }

@@ -127,6 +127,9 @@ typedef struct baum_i_frame {
   double vx, vy, w; /* velocities; zero at position level */
 } baum_i_frame;
 
+/* Frame of a body at its q, and its v or NULL for rest; those without a place are at the origin. */
+baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v);
+
 /* Where functions are evaluated. Belongs to a workspace; one thread at a time. */
 typedef struct baum_i_point {
   const baum_mechanism *mechanism;
@@ -325,6 +328,9 @@ baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id
                                const char *field);
 baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
                                const char *field);
+
+/* Check that a call got a frozen mechanism: BAUM_OK, BAUM_ERR_ARGUMENT (NULL), BAUM_ERR_STATE. */
+baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
 /* Joint that owns a row; frozen only. */
 int baum_i_row_joint(const baum_mechanism *mechanism, int row);

@@ -195,23 +195,15 @@ baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def
 
 baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body)
 {
-  baum_i_frame frame = {.c = 1.0};
   const baum_i_body *drawn = mechanism->bodies[body];
-  if (frame_of(drawn) == BAUM_I_FRAME_NONE || frame_of(drawn) == BAUM_I_FRAME_GROUND) {
-    return frame;
-  }
+  baum_i_frame_kind kind = frame_of(drawn);
   double q[3] = {0.0};
-  double v[3];
-  bool held;
-  drawn->type->drawn(drawn->element.def, q, v, &held);
-  frame.x = q[0];
-  frame.y = q[1];
-  if (frame_of(drawn) == BAUM_I_FRAME_BODY) {
-    frame.angle = q[2];
-    frame.c = cos(q[2]);
-    frame.s = sin(q[2]);
+  if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY) {
+    double v[3];
+    bool held;
+    drawn->type->drawn(drawn->element.def, q, v, &held);
   }
-  return frame;
+  return baum_i_frame_at(kind, q, NULL);
 }
 
 /* A point in ground axes, drawn pose, to a body's axes. */

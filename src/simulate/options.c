@@ -19,6 +19,7 @@ void baum_simulation_options_init(baum_simulation_options *options, size_t calle
     .step = NAN,
     .rtol = NAN,
     .atol = NAN,
+    .max_step = NAN,
     .check_derivatives = true,
     .max_steps = 1000000000,
     .progress_interval = 0.05,
@@ -44,10 +45,14 @@ static baum_status check_step(const baum_simulation_options *o)
   if (!isfinite(o->step) || o->step <= 0.0) {
     return refuse("step", "s", o->step, "must be finite and > 0");
   }
-  if (!isnan(o->rtol) || !isnan(o->atol)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "simulation options: %s is %g, but %s has a fixed step; give step alone",
-                       isnan(o->rtol) ? "atol" : "rtol", isnan(o->rtol) ? o->atol : o->rtol, name);
+  const char *const fields[3] = {"rtol", "atol", "max_step"};
+  const double values[3] = {o->rtol, o->atol, o->max_step};
+  for (int k = 0; k < 3; k++) {
+    if (!isnan(values[k])) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "simulation options: %s is %g, but %s has a fixed step; give step alone",
+                         fields[k], values[k], name);
+    }
   }
   return BAUM_OK;
 }
@@ -70,6 +75,9 @@ static baum_status check_tolerance(const baum_simulation_options *o)
   }
   if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
     return refuse("atol", "", o->atol, "must be finite and >= 0");
+  }
+  if (!isnan(o->max_step) && !(o->max_step > 0.0)) {
+    return refuse("max_step", "s", o->max_step, "must be > 0");
   }
   return BAUM_OK;
 }

@@ -101,9 +101,7 @@ int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *cha
 int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
                             int32_t count)
 {
-  if (!mechanism || !mechanism->frozen) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "baum_channels_width: the mechanism is %s",
-                      mechanism ? "not frozen" : "NULL");
+  if (baum_i_check_frozen(mechanism, "baum_channels_width") != BAUM_OK) {
     return -1;
   }
   return baum_i_output_width(mechanism, channels, count);

@@ -31,6 +31,9 @@ static baum_status make_states(baum_simulation *run)
 
 /* ---- gains ---- */
 
+/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: below it nothing is known to move. */
+static const double ROUNDING_RATE = 1e-7;
+
 static baum_status choose_gains(baum_simulation *run, double rate)
 {
   const baum_simulation_options *o = &run->options;
@@ -57,6 +60,19 @@ static baum_status choose_gains(baum_simulation *run, double rate)
   return BAUM_OK;
 }
 
+/* Fastest angular rate at the start. At rest in an equilibrium the accelerations are rounding only: then gravity tells how fast
+ * the mechanism would swing, and without it nothing does. */
+static double start_rate(const baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double rate = baum_i_state_rate(m, run->trial.v, run->workspace->a);
+  double swing = sqrt(hypot(m->gravity[0], m->gravity[1]) / m->length);
+  if (rate < 1e-3 * swing) {
+    return swing;
+  }
+  return rate > ROUNDING_RATE ? rate : 0.0;
+}
+
 /* The equations at the start: fastest rate, then gains. A start that cannot be solved is refused here. */
 static baum_status choose_problem(baum_simulation *run)
 {
@@ -69,13 +85,13 @@ static baum_status choose_problem(baum_simulation *run)
     .direction = 1.0,
     .rtol = o->rtol,
     .atol = isnan(o->atol) ? 0.0 : o->atol,
-    .max_steps = o->max_steps,
+    .max_step = isnan(o->max_step) ? INFINITY : o->max_step,
   };
   baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
   if (status != BAUM_OK) {
     return status;
   }
-  double rate = baum_i_state_rate(run->workspace->mechanism, start->v, run->workspace->a);
+  double rate = start_rate(run);
   p->rate = rate > 0.0 ? rate : 1.0;
   return choose_gains(run, rate);
 }

@@ -84,7 +84,7 @@ static baum_status start_assembled(baum_simulation *run, const double *q, const 
   memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
   double largest = 0.0;
   baum_status status =
-    baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held, NULL);
+    baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held);
   if (status == BAUM_OK) {
     status = check_displacement(run, q, &largest);
   }
