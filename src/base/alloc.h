@@ -5,7 +5,8 @@
 
 #include <stddef.h>
 
-/* Zeroed memory for count elements; one byte at least, so that NULL always means "out of memory". */
+/* Zeroed memory for count elements; one byte at least, so that NULL always means "out of
+ * memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
 /* Grow an array to hold count elements; on failure returns NULL and leaves the old one. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sentence behind a status. One fixed buffer per thread: the one mutable thing outside objects. */
+/* The sentence behind a status. One fixed buffer per thread: the one mutable thing outside
+ * objects. */
 #ifndef BAUM_I_BASE_MESSAGE_H
 #define BAUM_I_BASE_MESSAGE_H
 

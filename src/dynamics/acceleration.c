@@ -2,11 +2,14 @@
 /* Accelerations and multipliers
  *
  *   [ M  J^T ] [ a      ]   [ g                                   ]
- *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]      Flores et al. 2008 (7); (5) with alpha = beta = 0
+ *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]
  *
- * Rows that permanently depend on others are left out. Their multipliers are then zero, which is one of many
- * solutions; what is reported to users is the one of least norm: lambda minus its part in the null space of J^T,
- * whose orthonormal basis, in rows scaled by s_i = |row i of J M^-1/2|, is in redundancy.combination.
+ * Flores et al. 2008 (7); (5) with alpha = beta = 0.
+ *
+ * Rows that permanently depend on others are left out. Their multipliers are then zero, which is
+ * one of many solutions; what is reported to users is the one of least norm: lambda minus its part
+ * in the null space of J^T, whose orthonormal basis, in rows scaled by s_i = |row i of J M^-1/2|,
+ * is in redundancy.combination.
  */
 #include <math.h>
 #include <string.h>
@@ -14,7 +17,8 @@
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
-/* Without a solution the largest right side is all there is to name a joint by: a hint, no proof. */
+/* Without a solution the largest right side is all there is to name a joint by: a hint, no
+ * proof. */
 static baum_status fail_singular(const baum_workspace *w)
 {
   int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);

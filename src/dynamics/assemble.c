@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: a pose and velocities that fulfil the constraints, changed the least in the metric of M.
+/* Assembly: a pose and velocities that fulfil the constraints,
+ * changed the least in the metric of M.
  *
  *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
  *   [ J  -S  ] [ lambda ] = [ -Phi ]
  *
- * Held coordinates have their columns of J and their coupling in M cleared, so that they do not move. The small S (Levenberg,
- * Marquardt) lets redundant rows pass and turns contradicting ones into a least-squares problem, whose remaining violation lies
- * in the conflicting rows only and so names them. Steps are limited, and halved until the violation falls.
- * Violations are compared as displacements: |Phi_i| / d_i, d_i the norm of row i of J times the scales.
+ * Held coordinates have their columns of J and their coupling in M cleared, so that they do not
+ * move. The small S (Levenberg, Marquardt) lets redundant rows pass and turns contradicting ones
+ * into a least-squares problem, whose remaining violation lies in the conflicting rows only and so
+ * names them. Steps are limited, and halved until the violation falls. Violations are compared as
+ * displacements: |Phi_i| / d_i, d_i the norm of row i of J times the scales.
  */
 #include <math.h>
 #include <stdio.h>
@@ -18,13 +20,11 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
-static const double MU = 1e-10; /* S relative: slows Newton down by this factor only */
-static const double STEP_LIMIT =
-  0.25; /* largest change of a coordinate in one step, of its scale */
+static const double MU = 1e-10;        /* S relative: slows Newton down by this factor only */
+static const double STEP_LIMIT = 0.25; /* change of a coordinate in one step, of its scale */
 static const double CONVERGED = 1e-11; /* a Newton step below this leaves its square */
 static const double ROUNDING = 1e-13;  /* violation, as a displacement, that counts as none */
-static const double CONSISTENT =
-  1e-9; /* violation, likewise, above which rows contradict each other */
+static const double CONSISTENT = 1e-9; /* likewise, above which rows contradict each other */
 
 /* Memory of one assembly. */
 typedef struct assembly {
@@ -72,7 +72,8 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* S, and the displacement sizes of rows, from the present J and M. A row without effect moves nothing. */
+/* S, and the displacement sizes of rows, from the present J and M.
+ * A row without effect moves nothing. */
 static void measure_rows(const baum_workspace *w, double *shift, double *distance)
 {
   baum_i_row_displacements(w, distance);

@@ -8,8 +8,8 @@
  *                   + beta^2 J,  w = v' + 2 alpha v      - gamma_v
  *          index 3: J                                    0                       0
  *
- * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later ones only add
- * values to the slots found then. A dropped row reads 1 on its diagonal.
+ * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
+ * ones only add values to the slots found then. A dropped row reads 1 on its diagonal.
  */
 #include <limits.h>
 #include <string.h>

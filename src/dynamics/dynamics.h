@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dynamics from the inside: a workspace joins a mechanism's functions with a solver of the saddle-point system.
+/* Dynamics from the inside: a workspace joins a mechanism's functions with a solver of the
+ * saddle-point system.
  *
  * Stages, each named by what it depends on:
  *   position   (t, q):     frames, Phi, J, nu, M
@@ -8,8 +9,8 @@
  * A later stage includes the earlier ones. Results stay in the workspace until the next evaluation.
  * Nothing here allocates but create functions, assembly and the search for redundancy.
  *
- * All functions return BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, and what is said beside them. After these two,
- * workspace->point.retry tells whether a smaller step may help.
+ * All functions return BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, and what is said beside
+ * them. After these two, workspace->point.retry tells whether a smaller step may help.
  */
 #ifndef BAUM_I_DYNAMICS_DYNAMICS_H
 #define BAUM_I_DYNAMICS_DYNAMICS_H
@@ -25,8 +26,7 @@ typedef struct baum_i_redundancy {
   int rank_at_start;      /* at the start pose itself; less: it is singular */
   int count;              /* dropped rows, nc - rank */
   unsigned char *dropped; /* (nc) 1 where a row is left out */
-  double *
-    combination; /* (count x nc) orthonormal null vectors of J^T in scaled rows; rows of the array */
+  double *combination;    /* (count x nc) orthonormal null vectors of J^T in scaled rows */
   double *row_scale; /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
 } baum_i_redundancy;
 
@@ -80,8 +80,9 @@ baum_status baum_i_evaluate_mass(baum_workspace *workspace);
 /* Phi and Phi' only: cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
-/* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be negative (backward in
- * time). Also BAUM_ERR_SINGULAR (the sentence names a joint), BAUM_ERR_MEMORY. */
+/* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be
+ * negative (backward in time). Also BAUM_ERR_SINGULAR (the sentence names a joint),
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
 /* As reported: (5), multipliers of least norm where they are not unique. */
@@ -101,7 +102,8 @@ void baum_i_reaction(const baum_workspace *workspace, int joint, const double *l
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
-/* Fixed sparsity of the Jacobian: compressed columns, sorted rows; made once, filled without allocation. */
+/* Fixed sparsity of the Jacobian: compressed columns, sorted rows;
+ * made once, filled without allocation. */
 typedef struct baum_i_residual_matrix baum_i_residual_matrix;
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
                                           baum_i_residual_matrix **out);
@@ -116,8 +118,8 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
 
 /* ---- project.c, assemble.c, redundancy.c ---- */
 
-/* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of M. Also
- * BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
+/* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
+ * M. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
 
 /* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
@@ -127,7 +129,8 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
 
-/* Null vectors of J^T at the point of the last solution, into redundancy.combination. Also BAUM_ERR_SINGULAR. */
+/* Null vectors of J^T at the point of the last solution, into redundancy.combination.
+ * Also BAUM_ERR_SINGULAR. */
 baum_status baum_i_find_combinations(baum_workspace *workspace);
 
 /* Names of the joints whose rows the dropped ones depend on, into text. */
@@ -135,13 +138,15 @@ void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t 
 
 /* ---- sizes of rows and states ---- */
 
-/* (nc) norm of each row of J times the scales: |Phi_i| / size_i is a violation as a displacement; 1 for empty rows. */
+/* (nc) norm of each row of J times the scales: |Phi_i| / size_i is a violation as a displacement;
+ * 1 for empty rows. */
 void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 
 /* (nc) diagonal of J M^-1 J^T with the diagonal of M: rows in their own units; 0 for empty rows. */
 void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
 
-/* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| / scale_i). */
+/* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /
+ * scale_i). */
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a);
 
 /* Largest |x_i| / scale_i of a vector over v. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of dynamics.h: arguments checked, then the stages, then block values spread out dense. */
+/* The public functions of dynamics.h: arguments checked, then the stages,
+ * then block values spread out dense. */
 #include <math.h>
 #include <string.h>
 

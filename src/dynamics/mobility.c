@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a mechanism can do at its assembled start pose: freedoms, redundant and conflicting rows, by name. */
+/* What a mechanism can do at its assembled start pose:
+ * freedoms, redundant and conflicting rows, by name. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -55,7 +56,8 @@ static void find_worst(const baum_workspace *w, baum_mobility *report)
   }
 }
 
-/* Rows that keep a violation after the least-squares assembly failed: those above a tenth of the worst. */
+/* Rows that keep a violation after the least-squares assembly failed:
+ * those above a tenth of the worst. */
 static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
 {
   char reason[BAUM_I_MESSAGE_SIZE];

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Projection onto the constraints by the least change in the metric of M (Eich 1993; Lubich 1991).
  *
- *   positions:   [ M  J^T ] [ dq     ]   [  0   ]        velocities:   [ M  J^T ] [ dv     ]   [ 0        ]
- *                [ J   0  ] [ lambda ] = [ -Phi ]                      [ J   0  ] [ lambda ] = [ nu - J v ]
+ *   positions:                            velocities:
+ *   [ M  J^T ] [ dq     ]   [  0   ]      [ M  J^T ] [ dv     ]   [ 0        ]
+ *   [ J   0  ] [ lambda ] = [ -Phi ]      [ J   0  ] [ lambda ] = [ nu - J v ]
  *
- * Newton on the positions until a step is so small that the next, being of its square, is below rounding.
+ * Newton on the positions until a step is so small that the next, being of its square,
+ * is below rounding.
  */
 #include <math.h>
 #include <string.h>
@@ -13,7 +15,8 @@
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 12 };
-/* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of curvature. */
+/* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
+ * curvature. */
 static const double CONVERGED = 1e-10;
 
 /* Solve with right side (0, w->rhs); the change is in w->a. */

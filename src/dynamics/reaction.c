@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reaction of a joint: the generalized force -J^T lambda of its rows on its bodies.
  *
- * For a planar joint on body_b: force F = the entries at (x, y), and moment about the joint's point P on body_b, which
- * follows from the entry at the angle, the moment about the centre of mass C: m_P = m_C - (P - C) x F.
- * A joint whose body_b is ground (no columns) reacts on body_a with the opposite: F_b = -F_a, the moment about P likewise.
+ * For a planar joint on body_b: force F = the entries at (x, y), and moment about the joint's point
+ * P on body_b, which follows from the entry at the angle, the moment about the centre of mass C:
+ * m_P = m_C - (P - C) x F.
+ * A joint whose body_b is ground (no columns) reacts on body_a with the opposite:
+ * F_b = -F_a, the moment about P likewise.
  */
 #include <string.h>
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Permanent redundancy: rows that depend on others not just at the start pose but around it.
  *
- * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours on the constraint
- * manifold. The largest of them is the rank that the mechanism has; the rows outside one largest independent
- * set are redundant, and every solver leaves them out. A start pose of lower rank is a singular one.
+ * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours
+ * on the constraint manifold. The largest of them is the rank that the mechanism has; the rows
+ * outside one largest independent set are redundant, and every solver leaves them out. A start pose
+ * of lower rank is a singular one.
  *
- * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it, and assembled there.
+ * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it,
+ * and assembled there.
  */
 #include <math.h>
 #include <stdio.h>
@@ -16,8 +18,8 @@
 #include "dynamics/dynamics.h"
 
 enum { NEIGHBOURS = 4 };
-/* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that only come near
- * dependence at a generic pose are told apart down to this. */
+/* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that
+ * only come near dependence at a generic pose are told apart down to this. */
 static const double RANK_TOLERANCE = 1e-9;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
 
@@ -77,7 +79,8 @@ static double scatter(int k)
   return 2.0 * (x - floor(x)) - 1.0;
 }
 
-/* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S, so that dependent rows do not matter. */
+/* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S,
+ * so that dependent rows do not matter. */
 static baum_status solve_direction(const search *s, const double *p, const double *r)
 {
   baum_workspace *w = s->w;
@@ -95,7 +98,8 @@ static void small_shift(baum_workspace *w)
   }
 }
 
-/* A direction of motion at the pose in the workspace, in s->x; its scaled size in *size, 0 when nothing moves. */
+/* A direction of motion at the pose in the workspace, in s->x;
+ * its scaled size in *size, 0 when nothing moves. */
 static baum_status find_direction(const search *s, double *size)
 {
   baum_workspace *w = s->w;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a solver of the saddle-point system must offer. Adding one: a file with a const struct of these functions,
- * its declaration below, and its place in kkt.c. The front (kkt.c) forms residuals, refines, counts, judges and
- * falls back; a backend only factors and solves. None of these functions sets a message. */
+/* What a solver of the saddle-point system must offer. Adding one: a file with a const struct of
+ * these functions, its declaration below, and its place in kkt.c. The front (kkt.c) forms
+ * residuals, refines, counts, judges and falls back; a backend only factors and solves. None of
+ * these functions sets a message. */
 #ifndef BAUM_I_LINEAR_BACKEND_H
 #define BAUM_I_LINEAR_BACKEND_H
 
@@ -21,12 +22,14 @@ typedef struct baum_i_kkt_ops {
   /* BAUM_OK or BAUM_ERR_MEMORY, then *out is NULL. The structure outlives the backend. */
   baum_status (*create)(const baum_i_kkt_structure *structure, void **out);
 
-  /* Factor at finite values; `values` and `scale` (see scale.h) stay in place until the last solve. KEEP only after a
-   * factorization that succeeded. BAUM_OK, BAUM_ERR_SINGULAR (then nothing can be solved) or BAUM_ERR_MEMORY. */
+  /* Factor at finite values; `values` and `scale` (see scale.h) stay in place until the last solve.
+   * KEEP only after a factorization that succeeded. BAUM_OK, BAUM_ERR_SINGULAR (then nothing can be
+   * solved) or BAUM_ERR_MEMORY. */
   baum_status (*factor)(void *self, const baum_i_kkt_values *values, const double *scale,
                         baum_i_kkt_effort effort);
 
-  /* x (nv + nc): the right side (f, r), then the solution (a, lambda). BAUM_OK or BAUM_ERR_MEMORY. */
+  /* x (nv + nc): the right side (f, r), then the solution (a, lambda). BAUM_OK or
+   * BAUM_ERR_MEMORY. */
   baum_status (*solve)(void *self, double *x);
 
   /* Cheap estimate of the reciprocal condition of the scaled matrix; 0 if its rank is not full. */

@@ -8,8 +8,8 @@
  *   CAREFUL  pivots chosen for accuracy only
  *   LAST     rank-revealing QR, least squares
  *
- * factor climbs until the reciprocal condition can be trusted; solve climbs on where refinement does not bring the
- * residual down to rounding level.
+ * factor climbs until the reciprocal condition can be trusted; solve climbs on where refinement
+ * does not bring the residual down to rounding level.
  */
 #include "linear/kkt.h"
 
@@ -274,14 +274,16 @@ static bool is_at_rounding(const baum_i_kkt *kkt)
   return baum_i_residual_is_rounding(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* Some rows are still out, but are they all next to nothing? Asked only where more effort does not help. */
+/* Some rows are still out, but are they all next to nothing? Asked only where more effort does not
+ * help. */
 static bool is_at_noise(const baum_i_kkt *kkt)
 {
   bool is_careful = kkt->present_rung >= RUNG_CAREFUL || kkt->present_rung == kkt->top_rung;
   return is_careful && baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* A matrix without full rank was solved by least squares: are the rows it could not meet nearly met? */
+/* A matrix without full rank was solved by least squares:
+ * are the rows it could not meet nearly met? */
 static bool is_least_squares(const baum_i_kkt *kkt)
 {
   return present_rcond(kkt) == 0.0 &&

@@ -2,10 +2,11 @@
 /* The saddle-point system of constrained dynamics
  *
  *   [ M   J^T ] [ a      ]   [ f ]
- *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal (nc x nc), mostly zero
+ *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
- * M is block diagonal, J a list of dense blocks; both are given by their blocks, row-major, with a structure
- * that never changes. A dropped row i is replaced by lambda_i = 0. Backends stand behind one ops table.
+ * M is block diagonal, J a list of dense blocks; both are given by their blocks, row-major, with a
+ * structure that never changes. A dropped row i is replaced by lambda_i = 0. Backends stand behind
+ * one ops table.
  */
 #ifndef BAUM_I_LINEAR_KKT_H
 #define BAUM_I_LINEAR_KKT_H
@@ -51,8 +52,8 @@ typedef struct baum_i_kkt_values {
 /* How far the present factorization can be trusted. */
 typedef enum baum_i_kkt_quality {
   BAUM_I_KKT_GOOD,
-  BAUM_I_KKT_NEAR_SINGULAR, /* solved, but the matrix is close to singular or was solved in the least-squares sense */
-  BAUM_I_KKT_SINGULAR /* no factorization */
+  BAUM_I_KKT_NEAR_SINGULAR, /* solved, but close to singular, or by least squares */
+  BAUM_I_KKT_SINGULAR       /* no factorization */
 } baum_i_kkt_quality;
 
 typedef struct baum_i_kkt_counters {
@@ -72,15 +73,16 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
                               baum_i_kkt **out);
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
 
-/* Factor at new values, which must stay in place until the last solve with them (the residual is formed from
- * them). Refactors on the fixed pattern, allocation-free, and chooses pivots anew only when rcond or residual
- * demands it. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE; sets no message
- * but for memory: the caller knows time and names. */
+/* Factor at new values, which must stay in place until the last solve with them (the residual is
+ * formed from them). Refactors on the fixed pattern, allocation-free, and chooses pivots anew only
+ * when rcond or residual demands it. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE; sets no message but for memory: the caller knows time and names. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
 
-/* Solve, with the residual of both equations checked and refined (a and lambda are unknowns of their own) until it
- * is at rounding level. x = (a, lambda) may not alias f or r. BAUM_OK, BAUM_ERR_SINGULAR (residual stays
- * large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May itself fall back to a full factorization or to QR. */
+/* Solve, with the residual of both equations checked and refined (a and lambda are unknowns of
+ * their own) until it is at rounding level. x = (a, lambda) may not alias f or r. BAUM_OK,
+ * BAUM_ERR_SINGULAR (residual stays large), BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. May itself fall
+ * back to a full factorization or to QR. */
 baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, double *a,
                              double *lambda);
 
@@ -90,8 +92,9 @@ baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values
                                         double *lambda);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
-/* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization: free of units,
- * continuous while pivots are kept, with a jump where they are chosen anew. 0 for no factorization or no full rank. */
+/* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization:
+ * free of units, continuous while pivots are kept, with a jump where they are chosen anew. 0 for no
+ * factorization or no full rank. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
 const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
@@ -110,9 +113,10 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 
 /* ---- rank ---- */
 
-/* Rank of J with column j scaled by column_scale[j] and every row then scaled to unit length (rows of zeros stay
- * zero), by rank-revealing sparse QR of its transpose with tolerance `tolerance` on the remaining column norms.
- * independent[i] (nc) receives 1 for the rows of one largest independent set, else 0.
+/* Rank of J with column j scaled by column_scale[j] and every row then scaled to unit length (rows
+ * of zeros stay zero), by rank-revealing sparse QR of its transpose with tolerance `tolerance` on
+ * the remaining column norms. independent[i] (nc) receives 1 for the rows of one largest
+ * independent set, else 0.
  * BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,

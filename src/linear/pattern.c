@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pattern of the saddle-point matrix in compressed columns.
  *
- * All entries are first listed as (row, column) pairs. They are then thrown into buckets by column, and the buckets,
- * read in order, into lists by row, which thereby ascend. As the pattern is symmetric, the list of a row is the list
- * of the column, and repeated pairs stand side by side.
+ * All entries are first listed as (row, column) pairs. They are then thrown into buckets by column,
+ * and the buckets, read in order, into lists by row, which thereby ascend. As the pattern is
+ * symmetric, the list of a row is the list of the column, and repeated pairs stand side by side.
  */
 #include "linear/pattern.h"
 
@@ -94,7 +94,8 @@ static void count_by_key(const int32_t *key, size_t count, int32_t n, int32_t *s
   }
 }
 
-/* Rows of the pairs, gathered by column and ascending within it. `next` (n) and `bucket` (count) are scratch. */
+/* Rows of the pairs, gathered by column and ascending within it.
+ * `next` (n) and `bucket` (count) are scratch. */
 static void gather(const pair_list *pairs, int32_t n, const int32_t *start, int32_t *next,
                    int32_t *bucket, int32_t *gathered)
 {

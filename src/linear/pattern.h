@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The saddle-point matrix in compressed columns: the pattern is found once, filling allocates nothing.
+/* The saddle-point matrix in compressed columns:
+ * the pattern is found once, filling allocates nothing.
  *
- * Everything that can be non-zero is in the pattern, also where it is zero just now, and so is the whole diagonal;
- * rows ascend within a column. The pattern is symmetric.
+ * Everything that can be non-zero is in the pattern, also where it is zero just now, and so is the
+ * whole diagonal; rows ascend within a column. The pattern is symmetric.
  */
 #ifndef BAUM_I_LINEAR_PATTERN_H
 #define BAUM_I_LINEAR_PATTERN_H

@@ -6,11 +6,12 @@
  *   K_w = [ w M   J^T ]
  *         [ J    -S/w ]
  *
- * with a small w, because the smallest singular value of K_w is about sigma if that of the scaled J is sigma > w,
- * where that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 are taken as dependent. The solution
- * is the one of least norm among those that minimize the scaled residual: K_w is symmetric, its range therefore also
- * its row space, and it is enough to project the basic solution onto it. Accelerations are unique where M is positive
- * definite on ker J; multipliers are of least norm in scaled rows.
+ * with a small w, because the smallest singular value of K_w is about sigma if that of the scaled J
+ * is sigma > w, where that of K_1 is sigma^2. Columns whose remaining norm is at most 1e-13 are
+ * taken as dependent. The solution is the one of least norm among those that minimize the scaled
+ * residual: K_w is symmetric, its range therefore also its row space, and it is enough to project
+ * the basic solution onto it. Accelerations are unique where M is positive definite on ker J;
+ * multipliers are of least norm in scaled rows.
  *
  * SPQR allocates in factor and solve. It calls the BLAS, whose threads are the program's business.
  */
@@ -219,8 +220,9 @@ static baum_status project_part(qr_backend *qr, int from, int to, double *x)
   return status;
 }
 
-/* As M and S are positive semidefinite, the null space is spanned by vectors of velocities alone and of multipliers
- * alone. Projecting each for itself keeps the rounding of the one, which w makes large, out of the other. */
+/* As M and S are positive semidefinite, the null space is spanned by vectors of velocities alone
+ * and of multipliers alone. Projecting each for itself keeps the rounding of the one, which w makes
+ * large, out of the other. */
 static baum_status project(qr_backend *qr, double *x)
 {
   int nv = qr->pattern.structure->nv;
@@ -241,7 +243,8 @@ static baum_status solve_scaled(qr_backend *qr, double *x)
   return status;
 }
 
-/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank. Two steps, because a singular vector may hide from one. */
+/* 1 / (|K_w| |K_w^-1|) by inverse iteration, for full rank.
+ * Two steps, because a singular vector may hide from one. */
 static baum_status estimate_rcond(qr_backend *qr)
 {
   size_t n = (size_t)qr->pattern.n;

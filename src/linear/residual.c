@@ -6,10 +6,11 @@
  *
  *   omega = max_i |b - K x|_i / (|K| |x| + |b|)_i .
  *
- * Each row is held against itself, and so neither units nor masses of very different size matter. A row whose
- * denominator is only the rounding noise of other rows might never pass; such rows are held against the largest row
- * instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once if they are noise of noise, what one refinement
- * makes of them, and when refinement has ended also if they are plain noise.
+ * Each row is held against itself, and so neither units nor masses of very different size matter. A
+ * row whose denominator is only the rounding noise of other rows might never pass; such rows are
+ * held against the largest row instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once
+ * if they are noise of noise, what one refinement makes of them, and when refinement has ended also
+ * if they are plain noise.
  */
 #include "linear/residual.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Residual b - K x of the saddle-point system, and whether it is at rounding level whatever the units. */
+/* Residual b - K x of the saddle-point system, and whether it is at rounding level whatever the
+ * units. */
 #ifndef BAUM_I_LINEAR_RESIDUAL_H
 #define BAUM_I_LINEAR_RESIDUAL_H
 
@@ -13,7 +14,8 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
 bool baum_i_residual_is_rounding(int n, const double *scale, const double *residual,
                                  const double *size);
 
-/* The same, but rows whose scaled size is itself rounding noise of the largest one are held against that one. */
+/* The same, but rows whose scaled size is itself rounding noise of the largest one are held against
+ * that one. */
 bool baum_i_residual_is_noise(int n, const double *scale, const double *residual,
                               const double *size);
 

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Are the derivatives that a user gives those of his functions?
  *
- * A given value g is compared with differences d at a row of shrinking steps. It is right as soon as
+ * A given value g is compared with differences d at a row of shrinking steps.
+ * It is right as soon as
  *
  *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
  *
- * at one of them; the second part is what rounding may do to an entry that is small beside the others of its row. It
- * is wrong when it never is, and the best d, and one more, differ from it by more than d's own error as well: 20 times
- * the disagreement of the two orders (difference.c), plus that of neighbouring steps, plus rounding. And only where
- * the function has a derivative at all: at a kink, such as dry friction at rest, the two sides differ by as much at
- * any step.
+ * at one of them; the second part is what rounding may do to an entry that is small beside the
+ * others of its row. It is wrong when it never is, and the best d, and one more, differ from it by
+ * more than d's own error as well: 20 times the disagreement of the two orders (difference.c), plus
+ * that of neighbouring steps, plus rounding. And only where the function has a derivative at all:
+ * at a kink, such as dry friction at rest, the two sides differ by as much at any step.
  *
- * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is not zero there:
- * derivatives must be those of the function, not only where the constraint is met. A pose that a function of an element
- * refuses says nothing; only when it refuses them all is that the result. (The drawn one alone may be refused without
- * fault: velocities that will follow from the constraints are taken as zero there.)
+ * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is
+ * not zero there: derivatives must be those of the function, not only where the constraint is met.
+ * A pose that a function of an element refuses says nothing; only when it refuses them all is that
+ * the result. (The drawn one alone may be refused without fault: velocities that will follow from
+ * the constraints are taken as zero there.)
  */
 #include "mechanism/check.h"
 
@@ -244,7 +246,8 @@ static baum_status make_place(const baum_mechanism *mechanism, place *p)
   return p->point.frames && p->point.scratch && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A number in (-1, 1) away from 0, the same in every run: steps of the golden ratio fill the interval evenly. */
+/* A number in (-1, 1) away from 0, the same in every run:
+ * steps of the golden ratio fill the interval evenly. */
 static double spread(int k)
 {
   double turns = 0.6180339887498949 * k;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The life of a definition: defaults, check, copy into an element, read back, replace.
  *
- * Every add and set works on the side and changes the mechanism only when nothing can fail any more.
+ * Every add and set works on the side and changes the mechanism only when nothing can fail any
+ * more.
  */
 #include "mechanism/definition.h"
 
@@ -84,7 +85,8 @@ static void release(baum_i_element *element)
   element->name = NULL;
 }
 
-/* Fill an element from a definition whose fields are already checked; on failure it owns nothing. */
+/* Fill an element from a definition whose fields are already checked; on failure it owns
+ * nothing. */
 static baum_status fill(baum_i_element *element, const char *family, const void *def)
 {
   const baum_i_definition *definition = element->definition;
@@ -226,7 +228,8 @@ static void *grow(void *list, int count)
   return grown;
 }
 
-/* Whether a new definition keeps what the element is tied to: kind, number of velocities or rows, bodies. */
+/* Whether a new definition keeps what the element is tied to:
+ * kind, number of velocities or rows, bodies. */
 static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, const void *def,
                               baum_i_element *element)
 {

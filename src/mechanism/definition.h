@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions: the same life for every kind of element. A type's file calls one of the macros at its end, which
- * spells out its four public functions.
+/* Definitions: the same life for every kind of element. A type's file calls one of the macros at
+ * its end, which spells out its four public functions.
  */
 #ifndef BAUM_I_MECHANISM_DEFINITION_H
 #define BAUM_I_MECHANISM_DEFINITION_H
@@ -57,7 +57,7 @@ baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type 
     return baum_i_set_##FAMILY(mechanism, &(TYPE), id, def);                                     \
   }
 
-/* ---- checks that definitions share; each returns BAUM_OK or BAUM_ERR_ARGUMENT with its sentence ---- */
+/* ---- checks that definitions share: BAUM_OK, or BAUM_ERR_ARGUMENT with its sentence ---- */
 
 baum_status baum_i_check_finite(const char *label, const char *field, const char *unit,
                                 double value);

@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives by central differences of sixth order.
  *
- *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h               c = 3/4, -3/20, 1/60     error h^6 f(7) / 140
- *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2    c = 3/2, -3/20, 1/90     error h^6 f(8) / 560
+ *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h              c = 3/4, -3/20, 1/60,   error h^6 f(7)/140
+ *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
  *
- * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant changes the best
- * steps are near 2^-8 and 2^-6; they are taken somewhat small, so that functions that move three times as fast as
- * announced lose nothing: about 1e-13 and 1e-11 remain.
+ * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant
+ * changes the best steps are near 2^-8 and 2^-6; they are taken somewhat small, so that functions
+ * that move three times as fast as announced lose nothing: about 1e-13 and 1e-11 remain.
  *
- * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two orders agree to 1e-7,
- * the sixth is good to about 1e-11; first derivatives can afford to ask for 1e-9. Where they do not agree, the
- * announced scale was too large for F, and the step is shrunk until they do: a scale that is wrong by 1e6 costs time,
- * not truth. The search ends when disagreement is rounding.
+ * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two
+ * orders agree to 1e-7, the sixth is good to about 1e-11; first derivatives can afford to ask for
+ * 1e-9. Where they do not agree, the announced scale was too large for F, and the step is shrunk
+ * until they do: a scale that is wrong by 1e6 costs time, not truth. The search ends when
+ * disagreement is rounding.
  *
- * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at q, so that q + k h
- * is exact also after ten thousand turns of a crank.
+ * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
+ * q, so that q + k h is exact also after ten thousand turns of a crank.
  *
- * Central differences look to both sides: in t, F is evaluated up to 3 h before and after the present.
+ * Central differences look to both sides: in t, F is evaluated up to 3 h before and after the
+ * present.
  */
 #include "mechanism/difference.h"
 
@@ -223,8 +225,9 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
 
 /* ---- the search for a step ---- */
 
-/* Take over the entries that got better. best (size) is how far the orders were apart at best, in units of how much F
- * varied; < 0 when good enough. True when a smaller step is not worth trying. */
+/* Take over the entries that got better. best (size) is how far the orders were apart at best, in
+ * units of how much F varied; < 0 when good enough. True when a smaller step is not worth
+ * trying. */
 static bool settle(const baum_i_estimate *now, double agreement, double *out, double *best,
                    int size)
 {
@@ -238,7 +241,8 @@ static bool settle(const baum_i_estimate *now, double agreement, double *out, do
       best[i] = -1.0;
       continue;
     }
-    /* Worth it while it helps, and while the orders disagree by far more than rounding can explain. */
+    /* Worth it while it helps, and while the orders disagree by far more than rounding can
+     * explain. */
     double apart = now->error[i] / now->variation[i];
     bool helps = apart < 0.5 * best[i];
     bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];

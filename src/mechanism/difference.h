@@ -67,9 +67,8 @@ extern const baum_i_stencil baum_i_stencil_second;
 
 /* What one step size tells; arrays (size). */
 typedef struct baum_i_estimate {
-  double *value; /* of sixth order */
-  double *
-    error; /* distance to the fourth order value: far above the error of value when the step is good */
+  double *value;     /* of sixth order */
+  double *error;     /* distance of the orders: far above value's when the step is good */
   double *noise;     /* what rounding of F alone may do to value */
   double *variation; /* largest pair of the stencil, in units of value */
 } baum_i_estimate;

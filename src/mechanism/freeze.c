@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Freezing: from definitions to the constant structure.
  *
- * Columns and rows are numbered in the order of adding; elements of one type are gathered into groups; every number goes
- * into the parameter array. On failure everything is undone and the mechanism stays open.
+ * Columns and rows are numbered in the order of adding; elements of one type are gathered into
+ * groups; every number goes into the parameter array. On failure everything is undone and the
+ * mechanism stays open.
  */
 #include <limits.h>
 #include <math.h>
@@ -80,7 +81,8 @@ static baum_status fail_too_large(const baum_i_element *element, const char *fam
                      baum_i_label(element, family, label), INT_MAX);
 }
 
-/* Scratch memory for the largest element: nl columns, that many rows. False when it is too large. */
+/* Scratch memory for the largest element: nl columns, that many rows. False when it is too
+ * large. */
 static bool widen_scratch(baum_mechanism *mechanism, int nl, int rows)
 {
   int64_t size = baum_i_scratch_size(nl, rows);
@@ -308,8 +310,8 @@ static void include_marker(box *b, const baum_i_frame *f, const double s[2])
   }
 }
 
-/* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1 when it has none, as
- * with user coordinates only. */
+/* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1
+ * when it has none, as with user coordinates only. */
 static double drawing_size(const baum_mechanism *mechanism)
 {
   box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};

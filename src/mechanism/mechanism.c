@@ -13,8 +13,8 @@
 
 /* ---- life ---- */
 
-/* A tag that two mechanisms share by chance once in 2^32: address and time, well mixed (Stafford's mix 13). A counter
- * would be global state. */
+/* A tag that two mechanisms share by chance once in 2^32: address and time, well mixed (Stafford's
+ * mix 13). A counter would be global state. */
 static uint32_t make_tag(const void *address)
 {
   struct timespec now = {0};

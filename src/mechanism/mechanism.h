@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism from the inside: elements (bodies, joints, forces), their types, and the frozen structure.
+/* A mechanism from the inside: elements (bodies, joints, forces), their types,
+ * and the frozen structure.
  *
- * An element type is one const struct of functions; adding a joint is one file in joints/ with such a struct and
- * its four public functions (definition.h). Functions work on groups: all elements of one type in one call.
- * Structure and numbers are apart: after freeze the structure is constant, and every mass, length and
- * stiffness lives in one parameter array.
+ * An element type is one const struct of functions; adding a joint is one file in joints/ with such
+ * a struct and its four public functions (definition.h). Functions work on groups: all elements of
+ * one type in one call. Structure and numbers are apart: after freeze the structure is constant,
+ * and every mass, length and stiffness lives in one parameter array.
  *
  * Body 0 is ground. A body id's index1 is the index here; BAUM_GROUND's is -1.
  */
@@ -25,14 +26,15 @@ typedef struct baum_i_definition {
   const char *kind;     /* "planar body", for messages */
   size_t size;          /* of the struct */
   const void *defaults; /* one with the defaults; its struct_size is `size` */
-  /* Check every field; the sentence starts with label, such as: joint 2 "B". NULL members and ids too. */
+  /* Check every field; the sentence starts with label, such as: joint 2 "B".
+   * NULL members and ids too. */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
-  /* Replace what the copy points to (not its name) by own copies: BAUM_OK or BAUM_ERR_MEMORY, then nothing is
-   * owned. NULL when there is nothing. */
+  /* Replace what the copy points to (not its name) by own copies: BAUM_OK or BAUM_ERR_MEMORY, then
+   * nothing is owned. NULL when there is nothing. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free what own() made. NULL likewise. */
-  /* The name of a field that a new definition may not change, but does, beside bodies and size; or NULL. NULL when
-   * there is none. */
+  /* The name of a field that a new definition may not change, but does, beside bodies and size; or
+   * NULL. NULL when there is none. */
   const char *(*tied)(const void *present, const void *next);
 } baum_i_definition;
 
@@ -51,8 +53,8 @@ typedef struct baum_i_element {
   int parameter; /* start of its numbers in the parameter array; set at freeze */
 } baum_i_element;
 
-/* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its bodies one after
- * the other, ground left out. Set at freeze but for bodies and body_count. */
+/* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its
+ * bodies one after the other, ground left out. Set at freeze but for bodies and body_count. */
 typedef struct baum_i_span {
   int body_count;
   int *bodies;  /* (body_count) indices, 0 = ground */
@@ -147,8 +149,9 @@ void baum_i_point_set(baum_i_point *point, double t, const double *q, const doub
 
 /* ---- types ---- */
 
-/* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the joint's `jacobian`
- * (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted. Set, not added. */
+/* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the
+ * joint's `jacobian` (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted.
+ * Set, not added. */
 typedef struct baum_i_joint_blocks {
   double *jw_q;    /* (J w)_q, rows x nl */
   double *jtl_q;   /* (J^T lambda)_q, nl x nl */
@@ -177,17 +180,18 @@ struct baum_i_body_type {
   bool scleronomic;             /* mass and force of the type never depend on t */
   int (*size)(const void *def); /* nv */
   bool (*constant_mass)(const void *def);
-  void (*lower)(const baum_i_body *body, double *parameters); /* numbers of this body; NULL: none */
-  void (*drawn)(const void *def, double *q, double *v,
-                bool *held); /* start pose, given velocities or NaN */
-  void (*scale)(const void *def, double length,
-                double *scale); /* (nv) relevant change of each coordinate */
-  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point,
-                      double *mass); /* sets blocks */
-  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point,
-                       double *force); /* adds to (nv) */
-  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point,
-                           double *sum); /* adds; NULL: 0 */
+  /* Numbers of this body; NULL: none. */
+  void (*lower)(const baum_i_body *body, double *parameters);
+  /* Start pose, and given velocities or NaN. */
+  void (*drawn)(const void *def, double *q, double *v, bool *held);
+  /* (nv) relevant change of each coordinate. */
+  void (*scale)(const void *def, double length, double *scale);
+  /* Sets its blocks. */
+  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
+  /* Adds to (nv). */
+  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
+  /* Adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum);
   /* NULL: all blocks are zero. a (nv). */
   baum_status (*linearize)(const baum_i_body_group *group, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
@@ -195,7 +199,8 @@ struct baum_i_body_type {
   baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
 
-/* A joint's coordinate for drivers and channels: over its six columns x_a y_a angle_a x_b y_b angle_b. */
+/* A joint's coordinate for drivers and channels:
+ * over its six columns x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
@@ -217,20 +222,17 @@ struct baum_i_joint_type {
   bool planar;      /* two planar bodies: reaction is force and moment */
   bool scleronomic; /* Phi never depends on t */
   int (*rows)(const void *def);
-  void (*bodies)(const baum_mechanism *mechanism, const void *def,
-                 baum_i_span *span); /* fills count; and bodies if
-                                                                                          not NULL */
-  /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the sentence. */
+  /* Fills body_count; and bodies if not NULL. */
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+  /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the
+   * sentence. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point,
-                     double *phi); /* sets (nc) */
-  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point,
-                          double *jacobian); /* sets blocks */
-  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point,
-                    double *nu); /* sets; NULL: zeros */
-  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point,
-                       double *gamma); /* sets (nc) */
+  /* Each sets its rows or blocks; nu may be NULL for zeros. */
+  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point, double *phi);
+  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point, double *jacobian);
+  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point, double *nu);
+  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point, double *gamma);
   /* w (nv), lambda (nc); blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_joint_group *group, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -242,8 +244,8 @@ struct baum_i_joint_type {
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
                                const double w[6], double lambda, baum_i_coordinate_blocks *out);
   baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
-  double (*noise)(
-    const void *def); /* relative error of derivatives by differences; NULL: none are taken */
+  /* Relative error of derivatives by differences; NULL: none are taken. */
+  double (*noise)(const void *def);
 };
 
 struct baum_i_force_type {
@@ -252,12 +254,13 @@ struct baum_i_force_type {
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
-  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point,
-                       double *force); /* adds to (nv) */
-  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point,
-                           double *sum); /* adds; NULL: 0 */
+  /* Adds to (nv). */
+  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
+  /* Adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
+  /* Blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_force_group *group, baum_i_point *point,
-                           const baum_i_force_blocks *blocks); /* blocks arrive zeroed */
+                           const baum_i_force_blocks *blocks);
   baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
 
@@ -305,7 +308,8 @@ const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
 /* Free everything that freeze made; keeps the elements. */
 void baum_i_mechanism_thaw(baum_mechanism *mechanism);
 
-/* Elements from checked definitions, for add and copy; NULL when out of memory, with the sentence. Free takes NULL. */
+/* Elements from checked definitions, for add and copy;
+ * NULL when out of memory, with the sentence. Free takes NULL. */
 void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *type,
                       const void *def, int number);
 void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type *type,
@@ -321,7 +325,8 @@ int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* from 0 */
 
-/* Check an id used in a definition. The sentence says whether it is none, or of another mechanism. */
+/* Check an id used in a definition. The sentence says whether it is none, or of another
+ * mechanism. */
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
                               const char *field);
 baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,

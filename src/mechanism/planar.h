@@ -4,8 +4,8 @@
  * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
  * p' = k x p = (-p_y, p_x):
  *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
- * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b; packing leaves out what a particle (angle)
- * or ground (all) does not have.
+ * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b; packing leaves out what a
+ * particle (angle) or ground (all) does not have.
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_H
 #define BAUM_I_MECHANISM_PLANAR_H
@@ -66,8 +66,9 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 /* Bodies of a planar definition; for the `bodies` function of types. */
 void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
 
-/* Points on both bodies from the definition and the drawn pose, s[0..1] on a, s[2..3] on b. A particle with `point`
- * away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by baum_i_planar_check()). */
+/* Points on both bodies from the definition and the drawn pose, s[0..1] on a, s[2..3] on b. A
+ * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by
+ * baum_i_planar_check()). */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
                                  const char *label, double s[4]);
 
@@ -76,7 +77,8 @@ baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
 
 /* What is said below of six columns holds for the three of a span of one body as well. */
 
-/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where absent. */
+/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
+ * absent. */
 void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
                           double *six);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The line between two markers, and half of its squared length with first and second derivatives; shared by the
- * distance joint and the spring.
+/* The line between two markers, and half of its squared length with first and second derivatives;
+ * shared by the distance joint and the spring.
  *
  * With d = P_b - P_a, p the arms, over the six columns x_a y_a angle_a x_b y_b angle_b:
  *
@@ -43,7 +43,8 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
 /* F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Length in the drawn pose between the points s_a, s_b on both bodies of a span; points holds (s_a, s_b). */
+/* Length in the drawn pose between the points s_a, s_b on both bodies of a span;
+ * points holds (s_a, s_b). */
 double baum_i_separation_drawn(const baum_mechanism *mechanism, const baum_i_span *span,
                                const double points[4]);
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* User functions: the coordinates they receive, the call, and what becomes of the answer.
  *
- * A user function sees the coordinates of its bodies one after the other, in the order named, and fills a zeroed array.
- * Returning > 0, or values that are not finite, fails with point->retry set: a smaller step may help. Returning < 0
- * fails for good.
+ * A user function sees the coordinates of its bodies one after the other, in the order named, and
+ * fills a zeroed array. Returning > 0, or values that are not finite, fails with point->retry set:
+ * a smaller step may help. Returning < 0 fails for good.
  */
 #ifndef BAUM_I_MECHANISM_USER_FUNCTION_H
 #define BAUM_I_MECHANISM_USER_FUNCTION_H
@@ -13,8 +13,9 @@
 /* Doubles of point->scratch that an element with nl local columns and that many rows may use. */
 int64_t baum_i_scratch_size(int nl, int rows);
 
-/* Where user functions are evaluated. Copies of it are cheap: a function that needs memory copies the struct and takes
- * from its own copy, so that everything it took is given back when it returns. */
+/* Where user functions are evaluated. Copies of it are cheap: a function that needs memory copies
+ * the struct and takes from its own copy, so that everything it took is given back when it
+ * returns. */
 typedef struct baum_i_local {
   baum_i_point *point;
   int nl;
@@ -44,7 +45,8 @@ typedef struct baum_i_user_function {
   void *user;
 } baum_i_user_function;
 
-/* Clear out (rows x cols), call, and judge the answer: BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
+/* Clear out (rows x cols), call, and judge the answer:
+ * BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
                           const baum_i_local *at, double *out);
 baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *call,
@@ -52,14 +54,16 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
-/* `joint 2 "circle": jacobian()[0][1]` into text; returns text. The entry counts over the output as stored. */
+/* `joint 2 "circle": jacobian()[0][1]` into text; returns text.
+ * The entry counts over the output as stored. */
 enum { BAUM_I_ENTRY_SIZE = BAUM_I_LABEL_SIZE + 80 };
 const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
                               char text[BAUM_I_ENTRY_SIZE]);
 
 /* ---- for definitions ---- */
 
-/* More rows or coordinates than this in one element are taken for a mistake; products of two still fit an int. */
+/* More rows or coordinates than this in one element are taken for a mistake;
+ * products of two still fit an int. */
 enum { BAUM_I_USER_SIZE_MAX = 10000 };
 
 /* 1 to BAUM_I_USER_SIZE_MAX. */

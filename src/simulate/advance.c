@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The loop of a run.
  *
- * Fixed step: times are origin + k h. A step is made on the trial state, projected there if the formulation says so, checked, and
- * only then becomes the present state. A sample off the grid is such a trial that is not kept.
- * Variable step: the method runs ahead by whole steps of its own; what is reported is interpolated inside the last.
+ * Fixed step: times are origin + k h. A step is made on the trial state, projected there if the
+ * formulation says so, checked, and only then becomes the present state. A sample off the grid is
+ * such a trial that is not kept.
+ * Variable step: the method runs ahead by whole steps of its own;
+ * what is reported is interpolated inside the last.
  */
 #include <math.h>
 #include <string.h>
@@ -148,7 +150,8 @@ static baum_status short_step(baum_simulation *run, double t)
   return status;
 }
 
-/* Whole steps as long as they do not pass t; then the present time is t (on the grid) or less than a step before. */
+/* Whole steps as long as they do not pass t; then the present time is t (on the grid) or less than
+ * a step before. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
@@ -242,8 +245,8 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- what every call begins and ends with ---- */
 
-/* Point the run towards t. A multistep method that turns round begins anew from the present state; when it cannot, it
- * has not turned. */
+/* Point the run towards t. A multistep method that turns round begins anew from the present state;
+ * when it cannot, it has not turned. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -394,7 +397,8 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   return check_times(run, times, n);
 }
 
-/* To a sample time: by whole steps, and from there to the side on the trial state, which is where the sample is. */
+/* To a sample time: by whole steps, and from there to the side on the trial state,
+ * which is where the sample is. */
 static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken,
                                   const baum_i_state **at)
 {

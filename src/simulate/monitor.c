@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run watches: violation and its joint, predicted violation, near-singular poses, warnings, counters. */
+/* What a run watches: violation and its joint, predicted violation, near-singular poses,
+ * warnings, counters. */
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -132,7 +133,8 @@ static void count_work(baum_simulation *run, baum_counters *c)
   c->nonlinear_iterations = statistics.nonlinear_iterations;
 }
 
-/* Gains below this share of 1/h let the violation lag behind gamma, and the steady formulas are off by more than a tenth. */
+/* Gains below this share of 1/h let the violation lag behind gamma,
+ * and the steady formulas are off by more than a tenth. */
 static const double STEADY_GAIN = 0.1;
 
 /* Steady violation of both Eulers: |Phi'| = h |gamma| / 2, |Phi| = alpha h |gamma| / beta^2. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one solution of (5), which is made
- * once per row and only when a channel asks for it.
+/* Channels: what a run gives out at a state. Accelerations, multipliers and reactions cost one
+ * solution of (5), which is made once per row and only when a channel asks for it.
  */
 #include <limits.h>
 #include <math.h>

@@ -55,7 +55,8 @@ struct baum_simulation {
 
 /* ---- start.c ---- */
 
-/* Bring a state onto the constraints as the option `start` says, into trial; the present state is untouched. */
+/* Bring a state onto the constraints as the option `start` says, into trial;
+ * the present state is untouched. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
 /* Energy of the trial state; leaves Phi and Phi' there in the workspace. */
@@ -71,7 +72,8 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
 
 void baum_i_run_warn(baum_simulation *run, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
-/* Violation, gamma and near-singular poses from the workspace's last velocity stage, which was at time t. */
+/* Violation, gamma and near-singular poses from the workspace's last velocity stage,
+ * which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
 /* Remember the sentence of a failure in the run and return its status. */

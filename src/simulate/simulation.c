@@ -60,8 +60,8 @@ static baum_status choose_gains(baum_simulation *run, double rate)
   return BAUM_OK;
 }
 
-/* Fastest angular rate at the start. At rest in an equilibrium the accelerations are rounding only: then gravity tells how fast
- * the mechanism would swing, and without it nothing does. */
+/* Fastest angular rate at the start. At rest in an equilibrium the accelerations are rounding only:
+ * then gravity tells how fast the mechanism would swing, and without it nothing does. */
 static double start_rate(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
@@ -73,7 +73,8 @@ static double start_rate(const baum_simulation *run)
   return rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-/* The equations at the start: fastest rate, then gains. A start that cannot be solved is refused here. */
+/* The equations at the start: fastest rate, then gains.
+ * A start that cannot be solved is refused here. */
 static baum_status choose_problem(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -85,7 +86,7 @@ static baum_status choose_problem(baum_simulation *run)
     .direction = 1.0,
     .rtol = o->rtol,
     .atol = isnan(o->atol) ? 0.0 : o->atol,
-    .max_step = isnan(o->max_step) ? INFINITY : o->max_step,
+    .max_step = isnan(o->max_step) ? (double)INFINITY : o->max_step,
   };
   baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
   if (status != BAUM_OK) {

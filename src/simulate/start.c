@@ -6,8 +6,9 @@
 #include "base/alloc.h"
 #include "simulate/run.h"
 
-/* Largest displacement that assembly may make: of lengths relative to their scale, of angles in radians. A drawing further off
- * is more likely to be mounted on a branch that its author did not mean. */
+/* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
+ * radians. A drawing further off is more likely to be mounted on a branch that its author did not
+ * mean. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
 static const double EXACT = 1e-9; /* of the scales */

@@ -13,10 +13,10 @@
  *                       with w = z - 1:  w^2 + 2 (A + B/2) w + B = 0,
  *                       which is explicit Euler at (A + B/2, B): the same triangle, sheared.
  *
- * Numbers: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1) keeps its digits
- * where gains are small and |z| is close to 1. Where A^2 - B is zero up to the rounding of alpha h and beta h it is
- * taken as zero, else a double root on the circle, as explicit Euler has at (2, 4), would be torn apart by 1e-8 and
- * called unstable.
+ * Numbers: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
+ * keeps its digits where gains are small and |z| is close to 1. Where A^2 - B is zero up to the
+ * rounding of alpha h and beta h it is taken as zero, else a double root on the circle, as explicit
+ * Euler has at (2, 4), would be torn apart by 1e-8 and called unstable.
  */
 #include "stabilization/amplification.h"
 
@@ -24,7 +24,8 @@
 #include <math.h>
 #include <stdbool.h>
 
-/* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times over. */
+/* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times
+ * over. */
 static const double MARGIN = 1e-12;
 
 /* Of A^2 - B, relative to A^2: some roundings of alpha h and beta h, squared. */

@@ -23,22 +23,24 @@ typedef struct baum_i_method {
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
 } baum_i_method;
 
-/* Fill every field of out but struct_size. A and B may be any finite numbers; a radius beyond double is infinite. */
+/* Fill every field of out but struct_size. A and B may be any finite numbers;
+ * a radius beyond double is infinite. */
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,
                           baum_amplification *out);
 
-/* Spectral radius - 1, with its digits also where gains are small; fixed-step methods only, as all below. */
+/* Spectral radius - 1, with its digits also where gains are small;
+ * fixed-step methods only, as all below. */
 double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, double beta2_h2);
 
-/* alpha h of the first instability at alpha = damping_ratio beta: 0 when nothing is stable, infinite when
- * everything is. damping_ratio > 0, finite. */
+/* alpha h of the first instability at alpha = damping_ratio beta: 0 when nothing is stable,
+ * infinite when everything is. damping_ratio > 0, finite. */
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
 /* The dead-beat point: both z are 0. */
 void baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Nearest point with spectral radius <= 0.9, the point itself when it is good. Its distance is within 1 % of the
- * least. */
+/* Nearest point with spectral radius <= 0.9, the point itself when it is good.
+ * Its distance is within 1 % of the least. */
 void baum_i_stability_nearest(const baum_i_method *method, double alpha_h, double beta2_h2,
                               double *good_alpha_h, double *good_beta2_h2);
 

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* From a gain rule to numbers. One row of the table `rules` per rule.
  *
- *   fixed      alpha, beta                                            as given
- *   scaled     alpha = A / h,  beta = sqrt(B) / h                     as given, of the step
- *   taylor     alpha = 1 / h,  beta = sqrt(2) / h                     (10, 11): A = 1, B = 2
- *   frequency  beta = 2 pi f,  alpha = zeta beta                      s^2 + 2 zeta omega s + omega^2
+ *   fixed      alpha, beta                                      as given
+ *   scaled     alpha = A / h,  beta = sqrt(B) / h               as given, of the step
+ *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               (10, 11): A = 1, B = 2
+ *   frequency  beta = 2 pi f,  alpha = zeta beta                s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
- *   auto       alpha = beta = 2 x rate, h alpha <= 0.3                cost is flat and the order kept up to there
+ *   auto       alpha = beta = 2 x rate, h alpha <= 0.3          cost and order are kept up to there
  *
- * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was meant.
+ * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was
+ * meant.
  *
- * Variable steps: an error control keeps explicit methods inside their region. BDF of order 5 is A(51.84 degrees)
- * stable: it damps any alpha h when alpha / beta, the cosine of the angle of s, is at least cos 51.84 = 0.618.
+ * Variable steps: an error control keeps explicit methods inside their region. BDF of order 5 is
+ * A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the cosine of the angle of s, is
+ * at least cos 51.84 = 0.618.
  */
 #include "stabilization/gains.h"
 

@@ -27,9 +27,10 @@ typedef struct baum_i_gain_choice {
   bool doubtful;                    /* `why` is worth a warning: violations may stay or grow */
 } baum_i_gain_choice;
 
-/* Apply a rule and check its stability. BAUM_OK, BAUM_ERR_ARGUMENT (rule's numbers, or a rule that needs a fixed
- * step), BAUM_ERR_UNSTABLE (sentence with (alpha h, beta^2 h^2), the spectral radius, what is stable and the nearest good pair, both as
- * alpha, beta [1/s] and scaled). Marginal pairs are BAUM_OK; the caller warns. */
+/* Apply a rule and check its stability. BAUM_OK, BAUM_ERR_ARGUMENT (rule's numbers, or a rule that
+ * needs a fixed step), BAUM_ERR_UNSTABLE (sentence with (alpha h, beta^2 h^2), the spectral radius,
+ * what is stable and the nearest good pair, both as alpha, beta [1/s] and scaled). Marginal pairs
+ * are BAUM_OK; the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

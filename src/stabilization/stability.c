@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stable, dead-beat and good points of the plane (A, B) = (|alpha h|, (beta h)^2).
  *
- * Along a ray alpha = zeta beta, A = zeta b, B = b^2. The roots mu grow in proportion to b, so the first
- * instability is looked for on a geometric scale and then bisected. The smallest limits are those of weakly
- * damped rays with methods that are unstable on the imaginary axis: b = 2 zeta for explicit Euler, and nothing
- * explicit is stable beyond |mu| of about twice the degree.
+ * Along a ray alpha = zeta beta, A = zeta b, B = b^2. The roots mu grow in proportion to b, so the
+ * first instability is looked for on a geometric scale and then bisected. The smallest limits are
+ * those of weakly damped rays with methods that are unstable on the imaginary axis: b = 2 zeta for
+ * explicit Euler, and nothing explicit is stable beyond |mu| of about twice the degree.
  *
- * Dead-beat: both z = 0. With mu and its conjugate zeros of R, mu^2 + 2 A mu + B = 0 for A = -Re mu, B = |mu|^2.
+ * Dead-beat: both z = 0. With mu and its conjugate zeros of R,
+ * mu^2 + 2 A mu + B = 0 for A = -Re mu, B = |mu|^2.
  *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
  *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
  *   RK3, RK4         Newton's method       (0.702, 3.76) and (1.729, 3.78)
  *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
- * With a pair of different zeros one step takes the whole violation away, with a double zero two steps do;
- * therefore RK3's pair and not its real zero (1.596, 2.547).
+ * With a pair of different zeros one step takes the whole violation away, with a double zero two
+ * steps do; therefore RK3's pair and not its real zero (1.596, 2.547).
  *
- * Nearest good point: the good region (radius <= 0.9) is looked at from three fifths of the way to the limit of
- * critical damping, from where all of it is in sight for each of our methods (not so from RK3's dead-beat point).
- * Its edge is a polygon over directions, refined where it comes closest to the point asked for. For both Eulers
- * the region is a triangle.
+ * Nearest good point: the good region (radius <= 0.9) is looked at from three fifths of the way to
+ * the limit of critical damping, from where all of it is in sight for each of our methods (not so
+ * from RK3's dead-beat point). Its edge is a polygon over directions, refined where it comes
+ * closest to the point asked for. For both Eulers the region is a triangle.
  */
 #include "stabilization/amplification.h"
 
@@ -167,7 +168,8 @@ static double segment_distance(const double wanted[2], const double p[2], const 
   return hypot(to[0] - part * along[0], to[1] - part * along[1]);
 }
 
-/* Draw the edge between two directions and narrow them to its nearest segment and the two beside it. */
+/* Draw the edge between two directions and narrow them to its nearest segment and the two beside
+ * it. */
 static void narrow(const view *v, int segments, double window[2])
 {
   double width = (window[1] - window[0]) / segments;

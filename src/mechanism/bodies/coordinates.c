@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized coordinates of the user: q of any size, v = q', mass M(q, t) and force g(q, v, t) by functions.
+/* Generalized coordinates of the user: q of any size, v = q', mass M(q, t) and force g(q, v, t) by
+ * functions.
  *
- * Where the derivatives of g are not given they come from differences, as always those of M a (difference.c).
+ * Where the derivatives of g are not given they come from differences,
+ * as always those of M a (difference.c).
  */
 #include <math.h>
 #include <string.h>
@@ -284,7 +286,8 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
     for (int j = 0; j < i; j++) {
       double a = block[i * n + j];
       double b = block[j * n + i];
-      /* Far above rounding, also where large terms cancel in an entry, and far below any mistake. */
+      /* Far above rounding, also where large terms cancel in an entry, and far below any
+       * mistake. */
       double size = sqrt(fabs(block[i * n + i] * block[j * n + j]));
       if (fabs(a - b) > 1e-6 * fmax(fabs(a), fabs(b)) + 1e-9 * size) {
         return baum_i_fail(BAUM_ERR_ARGUMENT,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gravity in the plane: force (m g_x, m g_y) at the centre of mass (x, y), potential -m (g_x x + g_y y). */
+/* Gravity in the plane: force (m g_x, m g_y) at the centre of mass (x, y),
+ * potential -m (g_x x + g_y y). */
 #include "mechanism/bodies/gravity.h"
 
 static double mass_of(const baum_i_body *body, const baum_i_point *point)

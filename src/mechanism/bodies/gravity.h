@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gravity on bodies whose first coordinates are those of the centre of mass and whose first parameter is the mass. */
+/* Gravity on bodies whose first coordinates are those of the centre of mass and whose first
+ * parameter is the mass. */
 #ifndef BAUM_I_MECHANISM_BODIES_GRAVITY_H
 #define BAUM_I_MECHANISM_BODIES_GRAVITY_H
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constant load on one body, planar: force f at the point s, and torque t. With p = A s, over x, y, angle:
+/* Constant load on one body, planar: force f at the point s, and torque t.
+ * With p = A s, over x, y, angle:
  *
  *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
  *                  V = -f . (r + p) when t = 0
  *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
  *
- * where x x y = x_1 y_2 - x_2 y_1. A load in ground axes with a torque counts as having no potential, because a
- * torque's work depends on the turns.
+ * where x x y = x_1 y_2 - x_2 y_1. A load in ground axes with a torque counts as having no
+ * potential, because a torque's work depends on the turns.
  */
 #include "base/message.h"
 #include "mechanism/definition.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Spring and damper in parallel between two points, planar. With d from body_a's point to body_b's, l = |d|, stiffness k,
- * damping c, free length l_0, and F = l^2 / 2, G of separation.h:
+/* Spring and damper in parallel between two points, planar. With d from body_a's point to body_b's,
+ * l = |d|, stiffness k, damping c, free length l_0, and F = l^2 / 2, G of separation.h:
  *
  *   T   = k (l - l_0) + c l'                       tension
  *   h   = l_q = G^T d / l                          (6)

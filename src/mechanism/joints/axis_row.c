@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u, p_b the arm of
- * body_b's marker, r the origins, and D = r_b + p_b - r_a (u . p_a is constant, both being of body_a):
+/* Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u,
+ * p_b the arm of body_b's marker, r the origins, and D = r_b + p_b - r_a (u . p_a is constant, both
+ * being of body_a):
  *
  *   f     = u . (D - p_a)
  *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                           (6)
  *   H     = f_qq: symmetric, with only
  *           angle_a, r_a: -n;  angle_a, r_b: n;  angle_a, angle_b: n . (k x p_b) = u . p_b;
  *           angle_a, angle_a: -u . D;  angle_b, angle_b: -u . p_b
- *   gamma = -v^T H v = w_a^2 u . D - 2 w_a n . (P_b' - r_a') + w_b^2 u . p_b              P_b = r_b + p_b
+ *   gamma = -v^T H v = w_a^2 u . D - 2 w_a n . (P_b' - r_a') + w_b^2 u . p_b,  P_b = r_b + p_b
  *
  * (J w)_q = H w, (J^T lambda)_q = lambda H, gamma_v = -2 H v, and gamma_q has
  *

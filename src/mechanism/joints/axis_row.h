@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of body_b's marker from body_a's along a direction fixed in body_a: the first row of the translational
- * joint, with the normal of its axis, and its coordinate, with the axis itself.
+/* Distance of body_b's marker from body_a's along a direction fixed in body_a: the first row of the
+ * translational joint, with the normal of its axis, and its coordinate, with the axis itself.
  */
 #ifndef BAUM_I_MECHANISM_JOINTS_AXIS_ROW_H
 #define BAUM_I_MECHANISM_JOINTS_AXIS_ROW_H

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance joint, planar: a rod without mass keeps two points at length L. With d from body_a's point to body_b's and
- * F, G of separation.h:
+/* Distance joint, planar: a rod without mass keeps two points at length L. With d from body_a's
+ * point to body_b's and F, G of separation.h:
  *
- *   Phi   = (d . d - L^2) / (2 L)                    (1), the change of length to first order, smooth also at d = 0
+ *   Phi   = (d . d - L^2) / (2 L)          (1), change of length to first order, smooth at d = 0
  *   J     = G^T d / L                                (6)
  *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
  *
  *   (J w)_q = F_qq w / L,   (J^T lambda)_q = lambda F_qq / L,   gamma_v = -2 F_qq v / L
- *   gamma_q = -(G^T (w_a^2 p_a - w_b^2 p_b)
- *               + [ 0 0  2 w_a d' . p_a + w_a^2 d . (k x p_a)  0 0  -2 w_b d' . p_b - w_b^2 d . (k x p_b) ]) / L
+ *   gamma_q = -(G^T (w_a^2 p_a - w_b^2 p_b) + [ 0 0 c_a  0 0 -c_b ]) / L
+ *             with c = 2 w d' . p + w^2 d . (k x p) of each body
  */
 #include <math.h>
 

@@ -4,7 +4,8 @@
  *   Phi = c(q) - s(t),   J = c_q,   nu = s',   gamma = s'' - (c_q v)_q v,   nu_q = 0
  *   s(t) = value + rate t + acceleration t^2 / 2, or the user's law
  *
- * c, c_q and their derivatives are those of the driven joint's type; the driver acts on the same bodies.
+ * c, c_q and their derivatives are those of the driven joint's type;
+ * the driver acts on the same bodies.
  */
 #include <math.h>
 

@@ -51,7 +51,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   return BAUM_OK;
 }
 
-/* ---- one joint; second derivatives are those of the pin, the row of the angle being linear ---- */
+/* ---- one joint; second derivatives are the pin's: the row of the angle is linear ---- */
 
 static void one_phi(const baum_i_planar_pair *pair, double *out)
 {

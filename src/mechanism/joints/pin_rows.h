@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two rows that hold both markers at one place: all of the revolute joint, and the first rows of the fixed one. */
+/* Two rows that hold both markers at one place: all of the revolute joint,
+ * and the first rows of the fixed one. */
 #ifndef BAUM_I_MECHANISM_JOINTS_PIN_ROWS_H
 #define BAUM_I_MECHANISM_JOINTS_PIN_ROWS_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A planar joint as kernels: what one joint does, over six columns, seen by its two markers.
  *
- * The loops over a group and the packing are here once. They are inline so that a joint's own file, which knows its
- * kernel, compiles to a loop without calls through pointers.
+ * The loops over a group and the packing are here once. They are inline so that a joint's own file,
+ * which knows its kernel, compiles to a loop without calls through pointers.
  */
 #ifndef BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
@@ -92,7 +92,8 @@ static inline baum_status baum_i_planar_jacobian(const baum_i_joint_group *group
   return BAUM_OK;
 }
 
-/* Put one joint's second derivatives where the caller wants them; nu_q is zero for every planar joint. */
+/* Put one joint's second derivatives where the caller wants them;
+ * nu_q is zero for every planar joint. */
 void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanism,
                        const baum_i_planar_blocks *six, const baum_i_joint_blocks *blocks);
 

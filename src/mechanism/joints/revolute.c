@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Revolute joint (pin), planar: two points, one on each body, coincide. Its rows are those of pin_rows.c.
+/* Revolute joint (pin), planar: two points, one on each body, coincide.
+ * Its rows are those of pin_rows.c.
  *
  *   coordinate = angle_b - angle_a, gradient [ 0 0 -1 0 0 1 ]
  */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Translational joint (slider), planar: body_b slides along an axis fixed in body_a and does not turn against it.
- * With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to body_b's:
+/* Translational joint (slider), planar: body_b slides along an axis fixed in body_a and does not
+ * turn against it. With e the unit axis in body_a, n = A_a (k x e), d from body_a's marker to
+ * body_b's:
  *
  *   Phi = [ n . d                           distance from the axis, a row of axis_row.c
  *           angle_b - angle_a - angle ]     J = [ 0 0 -1 0 0 1 ], gamma = 0
@@ -59,11 +60,13 @@ static int rows(const void *def)
   return 2;
 }
 
-/* The axis has those axes that the points have: with `point` it is drawn on the ground and turns into body_a's. */
+/* The axis has those axes that the points have: with `point` it is drawn on the ground and turns
+ * into body_a's. */
 static void lower_axis(const baum_planar_translational_def *def, const baum_i_frame *a,
                        double *numbers)
 {
-  /* Scaled first, so that the length of a very long or short axis neither overflows nor vanishes. */
+  /* Scaled first, so that the length of a very long or short axis neither overflows nor
+   * vanishes. */
   double largest = fmax(fabs(def->axis[0]), fabs(def->axis[1]));
   double x = def->axis[0] / largest;
   double y = def->axis[1] / largest;

@@ -3,17 +3,19 @@
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *
- * What is missing comes from differences (difference.c). A straight line q + s v, t + s has no acceleration, and
- * Phi'' = J a - gamma, so along it
+ * What is missing comes from differences (difference.c). A straight line q + s v, t + s has no
+ * acceleration, and Phi'' = J a - gamma, so along it
  *
  *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
  *
- * the second of which is the more accurate, and is used when J and nu are known. Second derivatives of Phi without J:
+ * the second of which is the more accurate, and is used when J and nu are known.
+ * Second derivatives of Phi without J:
  *
  *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
  *
- * The unit of time is unknown where nothing moves; differences in t then start from one relevant change per unit of
- * time. A constraint whose own time is very much longer does well to give nu and gamma.
+ * The unit of time is unknown where nothing moves; differences in t then start from one relevant
+ * change per unit of time. A constraint whose own time is very much longer does well to give nu and
+ * gamma.
  */
 #include <math.h>
 #include <string.h>
