@@ -3,7 +3,8 @@
 # usage: sh examples/run.sh [NAME...]
 #
 # Sets up what is missing, builds the release library, runs the examples named or all of them,
-# and leaves in out/ what each printed (.txt), its table (.json) and the figures drawn from them.
+# and leaves in out/ what each printed (.txt), its tables (.json, and .dat for gnuplot) and the
+# figures drawn from them (.png).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
@@ -37,7 +38,7 @@ run() {
 
 for name in $names; do
   if [ -e "examples/$name.c" ]; then
-    run "$name" "build/release/examples/$name" --json "$out/$name.json"
+    run "$name" "build/release/examples/$name" --json "$out/$name.json" --data "$out/$name.dat"
   fi
 done
 

@@ -8,7 +8,7 @@
  * the recursion with the characteristic equation (19). */
 #include "slider_crank_model.h"
 
-enum { STEPS = 10000, EVERY = 5, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
+enum { STEPS = 10000, TURN = 419, SETS = 8, N = 9, ROW3 = 2, SLIDER_X = 6 };
 
 static const double H = 1e-4; /* [s] */
 
@@ -152,14 +152,14 @@ static const struct {
 enum { NONE, EQUAL_50 = 2, STIFF = SETS - 1 };
 
 /* Phi_3 over time, for the figure. */
-static void write_series(void)
+static void write_series(const char *name, int steps, int every)
 {
   example_column columns[SETS + 1] = {{"t", "t [s]", 'f', 4}};
   for (int set = 0; set < SETS; set++) {
     columns[set + 1] = (example_column){sets[set].key, sets[set].name, 'e', 6};
   }
-  example_table("phi3", columns, SETS + 1, false);
-  for (int k = 0; k <= STEPS; k += EVERY) {
+  example_table(name, columns, SETS + 1, false);
+  for (int k = 0; k <= steps; k += every) {
     example_number(exact.t[k]);
     for (int set = 0; set < SETS; set++) {
       example_number(rows[set][k][PHI3]);
@@ -196,7 +196,8 @@ int main(int argc, char **argv)
     steady = counters.max_phi / counters.predicted_phi;
   }
   baum_mechanism_destroy(s.mechanism);
-  write_series();
+  write_series("phi3", STEPS, 5);
+  write_series("phi3_start", TURN, 1);
 
   printf("\n");
   double worst = 0.0;

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fig. 1 of Flores et al. 2008: for which gains does explicit Euler keep a constraint? Equation (19) says inside the
  * triangle (0, 0) (1, 0) (2, 4) of the plane of alpha h and beta^2 h^2. A pendulum says what it does: it starts
- * 1e-6 off its circle, and the gains are good when the violation is smaller in the end than in the beginning. */
+ * 1e-6 m off its circle, and the gains are good when the violation never gets out of hand and is smaller in the last
+ * quarter of the run than in the first. */
 #include "example_util.h"
 
-enum { CELLS = 44, STEPS = 3000, TAYLOR_STEPS = 8 };
+enum { CELLS = 44, STEPS = 3000 };
 
 static const double H = 1e-5;   /* [s] */
-static const double OFF = 1e-6; /* [m] */
+static const double OFF = 1e-6; /* [m] violation at start */
+static const double FAR = 1e-3; /* [m] out of hand */
 
 /* 1 kg on a massless rod of 1 m. */
 static baum_mechanism *pendulum(void)
@@ -49,19 +51,18 @@ static double violation(const baum_simulation *run)
   return (q[0] * q[0] + q[1] * q[1] - 1.0) / 2.0;
 }
 
-/* Whether the largest violation of the last quarter of a run is below that of the first. */
 static bool simulated_stable(const baum_mechanism *mechanism, double a, double b)
 {
-  double most[4] = {0.0};
+  double most[4] = {0.0}; /* of each quarter */
   baum_simulation *run = start(mechanism, baum_gains_scaled(a, b));
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < STEPS && status >= BAUM_OK; k++) {
+  bool held = true;
+  for (int k = 0; k < STEPS && held; k++) {
     double *quarter = &most[4 * k / STEPS];
     *quarter = fmax(*quarter, fabs(violation(run)));
-    status = baum_simulation_step(run, 1);
+    held = *quarter < FAR && baum_simulation_step(run, 1) >= BAUM_OK;
   }
   baum_simulation_destroy(run);
-  return status >= BAUM_OK && most[3] < most[0];
+  return held && most[3] < most[0];
 }
 
 static bool predicted_stable(double a, double b)
@@ -95,47 +96,51 @@ static bool at_boundary(int i, int j)
   return other;
 }
 
-/* With Taylor's gains z^2 = -1: a violation returns every fourth step and never decays. */
+/* With Taylor's gains z^2 = -1: a violation comes back every fourth step and stays.
+ * @return its relative change in 1000 steps */
 static double taylor(const baum_mechanism *mechanism)
 {
   static const example_column columns[] = {{"step", "step", 'd', 5}, {"phi", "Phi [m]", 'e', 3}};
+  enum { SHOWN = 8, LAST = 1000 };
   baum_simulation *run = start(mechanism, baum_gains_taylor());
-  double first = violation(run);
+  const double first = violation(run);
   printf("\nTaylor's gains (10, 11), on the boundary:\n");
   example_table("taylor", columns, 2, true);
-  for (int k = 0; k <= TAYLOR_STEPS; k++) {
-    example_number(k);
-    example_number(violation(run));
-    CHECK(baum_simulation_step(run, 1));
+  for (int k = 0; k <= LAST; k++) {
+    if (k > 0) {
+      baum_status status = baum_simulation_step(run, 1);
+      if (status != BAUM_WARNED) { /* of marginal gains */
+        CHECK(status);
+      }
+    }
+    if (k <= SHOWN) {
+      example_number(k);
+      example_number(violation(run));
+    }
   }
-  CHECK(baum_simulation_step(run, 1000 - TAYLOR_STEPS - 1));
   double change = fabs(violation(run) / first - 1.0);
   baum_simulation_destroy(run);
   return change;
 }
 
-int main(int argc, char **argv)
+/* The map, and the points in the files. @return number of points that are not as predicted */
+static int compare(const baum_mechanism *mechanism, int *astray)
 {
   static const example_column columns[] = {{"alpha_h", "alpha h [-]", 'f', 4},
                                            {"beta2_h2", "beta^2 h^2 [-]", 'f', 4},
                                            {"predicted", "predicted stable", 'd', 1},
                                            {"simulated", "simulated stable", 'd', 1}};
-  example_begin(argc, argv, "stability_region");
-  baum_mechanism *mechanism = pendulum();
-  printf("stability_region: pendulum, explicit Euler, h = %g s, %d steps, %d x %d pairs of gains\n",
-         H, STEPS, CELLS, CELLS);
-  printf("# both stable   . both unstable   p only predicted   s only simulated stable\n\n");
-  example_table("points", columns, 4, false);
   int differ = 0;
-  int astray = 0;
+  *astray = 0;
+  example_table("points", columns, 4, false);
   for (int j = CELLS - 1; j >= 0; j--) {
-    printf("%5.1f  ", beta2_h2(j));
+    printf("%9.1f  ", beta2_h2(j));
     for (int i = 0; i < CELLS; i++) {
       bool predicted = predicted_stable(alpha_h(i), beta2_h2(j));
       bool simulated = simulated_stable(mechanism, alpha_h(i), beta2_h2(j));
-      putchar(predicted ? (simulated ? '#' : 'p') : (simulated ? 's' : '.'));
+      printf("%c", predicted ? (simulated ? '#' : 'p') : (simulated ? 's' : '.'));
       differ += predicted != simulated;
-      astray += predicted != simulated && !at_boundary(i, j);
+      *astray += predicted != simulated && !at_boundary(i, j);
       example_number(alpha_h(i));
       example_number(beta2_h2(j));
       example_number(predicted);
@@ -143,12 +148,26 @@ int main(int argc, char **argv)
     }
     printf("\n");
   }
-  printf("beta^2 h^2 over alpha h from %g to %g\n", alpha_h(0), alpha_h(CELLS - 1));
+  printf("  alpha h  %-8.4f %*.4f\n", alpha_h(0), CELLS - 9, alpha_h(CELLS - 1));
+  return differ;
+}
+
+int main(int argc, char **argv)
+{
+  example_begin(argc, argv, "stability_region");
+  printf("stability_region: pendulum, 1 particle, 1 joint; %d x %d pairs of gains\n"
+         "integrator        euler, h = %g s, %d steps; formulation baumgarte\n"
+         "# both stable   . both unstable   p only predicted   s only simulated stable\n\n"
+         "beta^2 h^2\n",
+         CELLS, CELLS, H, STEPS);
+  baum_mechanism *mechanism = pendulum();
+  int astray;
+  int differ = compare(mechanism, &astray);
   double change = taylor(mechanism);
   baum_mechanism_destroy(mechanism);
-  printf("\npoints %d   in agreement %d\n", CELLS * CELLS, CELLS * CELLS - differ);
-  example_expect("share of points that differ", (double)differ / (CELLS * CELLS), 0.02);
-  example_expect("those away from the boundary", astray, 0.0);
-  example_expect("Taylor: change in 1000 steps", change, 0.1);
+  printf("\n%d of %d points as predicted\n", CELLS * CELLS - differ, CELLS * CELLS);
+  example_expect("share of points not as predicted", (double)differ / (CELLS * CELLS), 0.02);
+  example_expect("those not next to the boundary", astray, 0.0);
+  example_expect("Taylor: change in 1000 steps", change, 0.01);
   return example_end();
 }
