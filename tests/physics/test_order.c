@@ -1,0 +1,136 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Observed order of every integrator of fixed step with every formulation: error against tests/data over a ladder of halved steps,
+ * on a pendulum, a free slider-crank and a four-bar. Gains by the rule `auto`, which does not depend on the step here.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "a01_pendulum_reference.h"
+#include "assert_near.h"
+#include "four_bar_reference.h"
+#include "physics_run.h"
+#include "reference.h"
+#include "slider_crank_undriven_reference.h"
+
+enum { RUNGS = 4, METHODS = 5, ORDER_MAX = 4 };
+
+/* What is demanded. Between 4 rungs, 8 times in the step, a term of the next order that is 1/4 of the error at the largest step
+ * moves the mean slope by less than 0.11. */
+static const double TOLERANCE = 0.2;
+
+/* Up to the last sample used, the crank turns by 2 rad and the pendulum by 3. */
+static const reference REFERENCES[] = {
+  [PENDULUM] = {.samples = 3,
+                .width = A01_PENDULUM_WIDTH,
+                .t = A01_PENDULUM_T,
+                .q = A01_PENDULUM_Q[0],
+                .lengths = "mm"},
+  [FREE_CRANK] = {.samples = 3,
+                  .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
+                  .t = SLIDER_CRANK_UNDRIVEN_T,
+                  .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+                  .lengths = "mmrmmrmmr"},
+  [FOUR_BAR] = {.samples = 5,
+                .width = FOUR_BAR_WIDTH,
+                .t = FOUR_BAR_T,
+                .q = FOUR_BAR_Q[0],
+                .lengths = "mmrmmrmmr"},
+};
+
+/* Steps of the coarsest rung, by order. Order 4 begins late, because its term of order 5 is larger than that of order 4 with
+ * gains and fewer than 128 steps. Errors of the finest are from 1e-3 for order 1 to 1e-12; rounding stays below 1e-13. */
+static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
+
+static double error_at(const model *m, const reference *with, baum_simulation_options *options,
+                       int steps, double *alpha)
+{
+  options->step = with->t[with->samples - 1] / steps;
+  reference_run run = reference_compare(with, m->mechanism, options);
+  if (run.status < BAUM_OK) {
+    fail_msg("%s", run.message);
+  }
+  assert_int_equal(run.counters.short_steps, 0);
+  *alpha = run.counters.alpha;
+  return run.error;
+}
+
+/* Mean over the ladder, which it prints. */
+static double observe_order(const model *m, const reference *with, baum_simulation_options *options)
+{
+  int steps = COARSEST[baum_integrator_order(options->integrator)];
+  double error[RUNGS];
+  double alpha[RUNGS];
+  for (int k = 0; k < RUNGS; k++) {
+    error[k] = error_at(m, with, options, steps << k, &alpha[k]);
+    printf(" %9.2e", error[k]);
+    assert_true(alpha[k] == alpha[0]);
+  }
+  for (int k = 1; k < RUNGS; k++) {
+    printf(" %5.2f", log2(error[k - 1] / error[k]));
+  }
+  return log2(error[0] / error[RUNGS - 1]) / (RUNGS - 1);
+}
+
+static void compare_order(physics_mechanism which, const model *m,
+                          const baum_integrator *integrator, baum_formulation formulation)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.formulation = formulation;
+  if (formulation == BAUM_FORMULATION_BAUMGARTE) {
+    options.gains = baum_gains_auto();
+  }
+  printf("%-18s %-20s %-12s", mechanism_name(which), baum_integrator_name(integrator),
+         baum_formulation_name(formulation));
+  double order = observe_order(m, &REFERENCES[which], &options);
+  printf("   order %.2f\n", order);
+  (void)fflush(stdout);
+  ASSERT_NEAR(order, baum_integrator_order(integrator), 0.0, TOLERANCE);
+}
+
+static void compare_all(baum_formulation formulation)
+{
+  static const physics_mechanism mechanisms[] = {PENDULUM, FREE_CRANK, FOUR_BAR};
+  const baum_integrator *const methods[METHODS] = {baum_euler(), baum_semi_implicit_euler(),
+                                                   baum_rk2(), baum_rk3(), baum_rk4()};
+  printf("\nerrors at steps that are halved, slopes between them, their mean\n");
+  for (int i = 0; i < 3; i++) {
+    model m = build_mechanism(mechanisms[i]);
+    for (int k = 0; k < METHODS; k++) {
+      compare_order(mechanisms[i], &m, methods[k], formulation);
+    }
+    model_destroy(&m);
+  }
+}
+
+static void baumgarte_with_constant_gains_keeps_the_order(void **state)
+{
+  (void)state;
+  compare_all(BAUM_FORMULATION_BAUMGARTE);
+}
+
+static void no_stabilization_keeps_the_order(void **state)
+{
+  (void)state;
+  compare_all(BAUM_FORMULATION_UNSTABILIZED);
+}
+
+static void projection_keeps_the_order(void **state)
+{
+  (void)state;
+  compare_all(BAUM_FORMULATION_PROJECTION);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(baumgarte_with_constant_gains_keeps_the_order),
+    cmocka_unit_test(no_stabilization_keeps_the_order),
+    cmocka_unit_test(projection_keeps_the_order),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
