@@ -37,6 +37,8 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** The classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2(). */
 BAUM_API const baum_integrator *baum_rk4(void);
+/* Variable-step integrators may step over a force or a law that begins late or lasts shortly: give max_step then. */
+
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
@@ -104,8 +106,9 @@ typedef struct baum_simulation_options {
   baum_gains gains;                  /**< Only for BAUMGARTE. Default: BAUM_GAINS_DEFAULT. */
   bool allow_unstable; /**< Run with gains that are known to be unstable. Default: false. */
   double step;         /**< [s] > 0, fixed-step integrators. Default: NaN, not given. */
-  double rtol; /**< [-] > 0, < 1, relative to the scales of q and v. Default: NaN, not given. */
-  double atol; /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
+  double rtol;     /**< [-] > 0, < 1, relative to the scales of q and v. Default: NaN, not given. */
+  double atol;     /**< [unit of the coordinate] >= 0, added. Default: NaN, none. */
+  double max_step; /**< [s] > 0, longest step of a variable-step integrator. Default: NaN, none. */
   double start_time;          /**< [s] Default: 0. */
   baum_start start;           /**< Default: BAUM_START_ASSEMBLE. */
   baum_solver solver;         /**< Default: BAUM_SOLVER_AUTO. */

@@ -303,7 +303,7 @@ static int attach_dense(cvode_run *run)
   return attached ? CV_SUCCESS : CV_MEM_FAIL;
 }
 
-static int start_cvode(cvode_run *run, int method, double t)
+static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem, double t)
 {
   run->cvode = CVodeCreate(method, run->sundials.context);
   if (!run->cvode) {
@@ -322,6 +322,9 @@ static int start_cvode(cvode_run *run, int method, double t)
   if (flag == CV_SUCCESS) {
     flag = method == CV_ADAMS ? attach_fixed_point(run) : attach_dense(run);
   }
+  if (flag == CV_SUCCESS && isfinite(problem->max_step)) {
+    flag = CVodeSetMaxStep(run->cvode, problem->max_step);
+  }
   return flag;
 }
 
@@ -337,7 +340,7 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   run->inside = baum_i_sundials_vector(&run->sundials);
   baum_i_sundials_begin(&run->sundials, problem, start->t);
   load(run, problem, start);
-  int flag = start_cvode(run, method, start->t);
+  int flag = start_cvode(run, method, problem, start->t);
   run->sundials.unfinished = flag != CV_SUCCESS;
   return flag == CV_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }

@@ -472,6 +472,10 @@ static int start_ida(ida_run *run, double t)
   if (flag == IDA_SUCCESS) {
     flag = run->jacobian ? attach_klu(run) : attach_dense(run);
   }
+  double max_step = run->sundials.problem->max_step;
+  if (flag == IDA_SUCCESS && isfinite(max_step)) {
+    flag = IDASetMaxStep(run->ida, max_step);
+  }
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 

@@ -23,7 +23,7 @@ typedef struct baum_i_problem {
   double rtol;      /* NaN for fixed step */
   double atol;      /* >= 0 */
   double rate;      /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
-  int64_t max_steps;
+  double max_step;  /* [s] > 0, INFINITY for none; variable step */
 } baum_i_problem;
 
 /* Time, positions, velocities. */

@@ -430,6 +430,7 @@ const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, step, NUMBERS),
   FIELD(baum_simulation_options, rtol, NUMBERS),
   FIELD(baum_simulation_options, atol, NUMBERS),
+  FIELD(baum_simulation_options, max_step, NUMBERS),
   FIELD(baum_simulation_options, start_time, NUMBERS),
   FIELD(baum_simulation_options, start, INTEGER),
   FIELD(baum_simulation_options, solver, INTEGER),

@@ -329,6 +329,7 @@ class baum_simulation_options(Structure):
         ("step", c_double),
         ("rtol", c_double),
         ("atol", c_double),
+        ("max_step", c_double),
         ("start_time", c_double),
         ("start", c_int),
         ("solver", c_int),
