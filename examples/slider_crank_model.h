@@ -12,9 +12,9 @@
 
 #include "example_util.h"
 
-static const double SLIDER_CRANK_R = 0.153;    /* [m] crank */
-static const double SLIDER_CRANK_L = 0.306;    /* [m] rod */
-static const double SLIDER_CRANK_E = 0.05;     /* [m] height of the guide above the crank's pin */
+static const double SLIDER_CRANK_R = 0.153;     /* [m] crank */
+static const double SLIDER_CRANK_L = 0.306;     /* [m] rod */
+static const double SLIDER_CRANK_E = 0.05;      /* [m] height of the guide above the crank's pin */
 static const double SLIDER_CRANK_SPEED = 150.0; /* [rad/s] of the crank, at start or always */
 
 typedef struct slider_crank {
