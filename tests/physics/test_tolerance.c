@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Does a tighter tolerance buy a smaller error? Variable-step integrators on the index-1 equations
+ * against tests/data, rtol from 1e-4 to 1e-10.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "a01_pendulum_reference.h"
+#include "four_bar_reference.h"
+#include "physics_run.h"
+#include "reference.h"
+#include "slider_crank_driven_reference.h"
+#include "slider_crank_undriven_reference.h"
+
+enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
+
+/* Least fall of the error per decade, the geometric mean of all mechanisms. An error like rtol falls
+ * tenfold; at order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5, would have
+ * 6.8 if it were always there. */
+static const double LEAST_FALL = 7.0;
+/* Of a single mechanism, where a lucky run at one end weighs more. */
+static const double LEAST_SINGLE_FALL = 5.5;
+
+/* Up to the ninth sample: 1 to 2 turns of the crank, 2 swings. Later the errors at 1e-4 come near
+ * to 1 rad and can grow no further, which says nothing of the method. */
+static const reference REFERENCES[REFERENCE_COUNT] = {
+  [PENDULUM] = {.samples = 9,
+                .width = A01_PENDULUM_WIDTH,
+                .t = A01_PENDULUM_T,
+                .q = A01_PENDULUM_Q[0],
+                .lengths = "mm"},
+  [FREE_CRANK] = {.samples = 9,
+                  .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
+                  .t = SLIDER_CRANK_UNDRIVEN_T,
+                  .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+                  .lengths = "mmrmmrmmr"},
+  [DRIVEN_CRANK] = {.samples = 9,
+                    .width = SLIDER_CRANK_DRIVEN_WIDTH,
+                    .t = SLIDER_CRANK_DRIVEN_T,
+                    .q = SLIDER_CRANK_DRIVEN_Q[0],
+                    .lengths = "mmrmmrmmr"},
+  [FOUR_BAR] = {.samples = 9,
+                .width = FOUR_BAR_WIDTH,
+                .t = FOUR_BAR_T,
+                .q = FOUR_BAR_Q[0],
+                .lengths = "mmrmmrmmr"},
+};
+
+/* By which factor the error falls per decade: slope of a line through the logarithms, which single
+ * lucky runs turn less than the ends would. */
+static double fit_fall(const double error[TOLERANCES])
+{
+  double sum = 0.0;
+  double weight = 0.0;
+  for (int k = 0; k < TOLERANCES; k++) {
+    double decade = (k - TOLERANCES / 2) / (double)PER_DECADE;
+    sum -= decade * log10(error[k]);
+    weight += decade * decade;
+  }
+  return pow(10.0, sum / weight);
+}
+
+static void print_falls(const double error[TOLERANCES])
+{
+  for (int k = PER_DECADE; k < TOLERANCES; k += PER_DECADE) {
+    printf(" %6.1f", error[k - PER_DECADE] / error[k]);
+  }
+  double ends = pow(error[0] / error[TOLERANCES - 1], 1.0 / DECADES);
+  printf("   mean %4.1f   fitted %4.1f   error from %.1e to %.1e\n", ends, fit_fall(error),
+         error[0], error[TOLERANCES - 1]);
+  (void)fflush(stdout);
+}
+
+static double observe_fall(physics_mechanism which, const baum_integrator *integrator)
+{
+  double error[TOLERANCES];
+  model m = build_mechanism(which);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  for (int k = 0; k < TOLERANCES; k++) {
+    options.rtol = pow(10.0, -4.0 - k / (double)PER_DECADE);
+    reference_run run = reference_compare(&REFERENCES[which], m.mechanism, &options);
+    if (run.status < BAUM_OK) {
+      fail_msg("%s", run.message);
+    }
+    error[k] = run.error;
+  }
+  model_destroy(&m);
+  printf("%-12s %-20s", baum_integrator_name(integrator), mechanism_name(which));
+  print_falls(error);
+  return fit_fall(error);
+}
+
+static void compare_falls(const baum_integrator *integrator)
+{
+  double product = 1.0;
+  double least = (double)INFINITY;
+  printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
+  for (int which = 0; which < REFERENCE_COUNT; which++) {
+    double fall = observe_fall((physics_mechanism)which, integrator);
+    product *= fall;
+    least = fmin(least, fall);
+  }
+  double mean = pow(product, 1.0 / REFERENCE_COUNT);
+  printf("%-12s mean of the fitted %.2f, least %.2f\n", baum_integrator_name(integrator), mean,
+         least);
+  assert_true(mean >= LEAST_FALL);
+  assert_true(least >= LEAST_SINGLE_FALL);
+}
+
+static void the_error_of_adams_falls_with_its_tolerance(void **state)
+{
+  (void)state;
+  need_sundials();
+  compare_falls(baum_cvode_adams());
+}
+
+static void the_error_of_bdf_falls_with_its_tolerance(void **state)
+{
+  (void)state;
+  need_sundials();
+  compare_falls(baum_cvode_bdf());
+}
+
+static void the_error_of_ida_at_index_1_falls_with_its_tolerance(void **state)
+{
+  (void)state;
+  need_sundials();
+  compare_falls(baum_ida());
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_error_of_adams_falls_with_its_tolerance),
+    cmocka_unit_test(the_error_of_bdf_falls_with_its_tolerance),
+    cmocka_unit_test(the_error_of_ida_at_index_1_falls_with_its_tolerance),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
