@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The heap of a test program, to be counted and to fail: everything that the program loads allocates through the
- * functions defined here. They have to be in the program itself, so only its one source may include this, after
- * defining _GNU_SOURCE and including cmocka.h.
+/* The heap of a test program, to be counted and to fail: everything that the program loads
+ * allocates through the functions defined here. They have to be in the program itself, so only
+ * its one source may include this, after defining _GNU_SOURCE and including cmocka.h.
  *
- * For glibc. Where something else stands in for malloc, as valgrind and the thread sanitizer do, heap_is_ours() is
- * false; the address sanitizer is reached by its other names, and watches what is done after a failure.
+ * For glibc. Where something else stands in for malloc, as valgrind and the thread sanitizer do,
+ * heap_is_ours() is false; the address sanitizer is reached by its other names, and watches what
+ * is done after a failure.
  */
 #ifndef BAUM_TEST_HEAP_H
 #define BAUM_TEST_HEAP_H
@@ -134,60 +135,36 @@ HEAP_PUBLIC void free(void *memory)
 
 /* ---- what is excluded, and why ----
  *
- * All of it is in SUNDIALS 6.4.1, and nobody outside can help it.
- *
- * SUNLogger_Create(), called by SUNContext_Create(): the first allocation is checked; then SUNHashMap_New() allocates a
- * map and writes to it unchecked (it compares `map` with NULL where `*map` is meant), and when the buckets of the
- * map cannot be allocated it frees the map, which the logger keeps and later destroys. So all but the first may not
- * fail.
- *
- * SUNMatClone(), called by CVODE's first step to keep a Jacobian: it writes to what the matrix's own function gives
- * without asking whether it is NULL.
+ * SUNLogger_Create() of SUNDIALS 6.4.1, called by SUNContext_Create(): its first allocation is
+ * checked. Then SUNHashMap_New() allocates a map and writes to it unchecked (it compares `map` with
+ * NULL where `*map` is meant); and when the buckets of the map cannot be allocated it frees the
+ * map, which the logger keeps and later destroys. Nobody outside can help it, so all but the first
+ * may not fail.
  */
 #if BAUM_HAVE_SUNDIALS
 
 typedef int heap_create_logger(void *communicator, int rank, void **logger);
-typedef void *heap_clone_matrix(void *matrix);
 
-static struct {
-  heap_create_logger *create_logger;
-  heap_clone_matrix *clone_matrix;
-} heap_real;
+static heap_create_logger *heap_real_create_logger;
 
 /* Looked up beforehand: it allocates. */
 static bool heap_find_excluded(void)
 {
-  void *create_logger = dlsym(RTLD_NEXT, "SUNLogger_Create");
-  void *clone_matrix = dlsym(RTLD_NEXT, "SUNMatClone");
-  memcpy(&heap_real.create_logger, &create_logger, sizeof create_logger);
-  memcpy(&heap_real.clone_matrix, &clone_matrix, sizeof clone_matrix);
-  return create_logger && clone_matrix;
+  void *found = dlsym(RTLD_NEXT, "SUNLogger_Create");
+  memcpy(&heap_real_create_logger, &found, sizeof found);
+  return found != NULL;
 }
 
-static void heap_enter(long may_still_fail)
-{
-  heap.inside = true;
-  heap.may_still_fail = may_still_fail;
-}
-
-/* As in SUNDIALS' headers, but for the names of its types. */
+/* As in SUNDIALS' header, but for the names of its types. */
 int SUNLogger_Create(void *communicator, int rank, void **logger);
-void *SUNMatClone(void *matrix);
 
 HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 {
-  heap_enter(1);
-  int code = heap_real.create_logger(communicator, rank, logger);
+  heap.inside = true;
+  heap.may_still_fail = 1;
+  int code = heap_real_create_logger(communicator, rank, logger);
   heap.inside = false;
   return code;
-}
-
-HEAP_PUBLIC void *SUNMatClone(void *matrix)
-{
-  heap_enter(0);
-  void *copy = heap_real.clone_matrix(matrix);
-  heap.inside = false;
-  return copy;
 }
 
 #else

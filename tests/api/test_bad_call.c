@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function with NULL and at the wrong stage. Those of elements are in test_bad_definition.c, those of
- * stabilization.h in tests/unit/test_stability.c too. */
+/* Every public function with NULL and at the wrong stage. Those of elements are in
+ * test_bad_definition.c, those of stabilization.h in tests/unit/test_stability.c too. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

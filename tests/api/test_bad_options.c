@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options, starts, targets and channels that are refused, with the sentence, and nothing changed. */
+/* Options, starts, targets and channels that are refused, with the sentence, and nothing
+ * changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Starts that are inconsistent, and functions of the user that fail: named, and a run keeps its last good step. */
+/* Starts that are inconsistent, and functions of the user that fail: named, and a run keeps its
+ * last good step. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -263,7 +264,8 @@ static void check_fault_on_the_way(const baum_integrator *integrator, int f)
   assert_non_null(strstr(baum_simulation_message(run), faults[f].sentence));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
   double t = baum_simulation_time(run);
-  /* The step before the fault; Euler's last step ends after it, for it looks at the beginning of steps only. */
+  /* The step before the fault; Euler's last step ends after it, for it looks at the beginning of
+   * steps only. */
   bool fixed = baum_integrator_has_fixed_step(integrator);
   if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(integrator),
@@ -334,7 +336,8 @@ static void a_function_that_fails_at_create_is_named(void **state)
   }
 }
 
-/* One call fails and the next are fine: whichever it is, the run stands at a good step and goes on. */
+/* One call fails and the next are fine: whichever it is, the run stands at a good step and goes
+ * on. */
 static void check_single_fault(const baum_integrator *integrator, int f, int64_t n)
 {
   every_fault fault = {.answer = faults[f].answer};

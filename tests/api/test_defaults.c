@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The `Default:` texts of the headers against what the default functions give; definitions there and back. */
+/* The `Default:` texts of the headers against what the default functions give; definitions there
+ * and back. */
 #include <ctype.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -54,7 +55,8 @@ static const char *find_struct(const char *headers, const char *name, const char
   return begin + strlen(opening);
 }
 
-/* The next declaration from `from` on: its name and its Default text, "" for none. NULL when there is no more. */
+/* The next declaration from `from` on: its name and its Default text, "" for none. NULL when
+ * there is no more. */
 static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
                               char text[TEXT_SIZE])
 {
@@ -137,6 +139,7 @@ static bool integer_is(const char *text, int64_t value)
     const char *name;
     int64_t value;
   } enumerators[] = {{"BAUM_FORMULATION_DEFAULT", BAUM_FORMULATION_DEFAULT},
+                     {"BAUM_GAINS_DEFAULT", BAUM_GAINS_DEFAULT},
                      {"BAUM_START_ASSEMBLE", BAUM_START_ASSEMBLE},
                      {"BAUM_SOLVER_AUTO", BAUM_SOLVER_AUTO}};
   for (size_t k = 0; k < sizeof enumerators / sizeof *enumerators; k++) {
@@ -147,6 +150,16 @@ static bool integer_is(const char *text, int64_t value)
   return isdigit((unsigned char)text[0]) && value == strtoll(text, NULL, 10);
 }
 
+static bool is_nothing(const char *text, const char *word, const unsigned char *bytes, size_t size)
+{
+  return begins(text, word) && is_zero(bytes, size);
+}
+
+static bool flag_is(const char *text, unsigned char flag)
+{
+  return flag <= 1 && begins(text, flag ? "true" : "false");
+}
+
 /* Whether the bytes of a field are what its text says. */
 static bool is_as_documented(const element_field *field, const char *text, const any_def *def)
 {
@@ -154,13 +167,12 @@ static bool is_as_documented(const element_field *field, const char *text, const
   switch (field->type) {
   case FIELD_NAME:
   case FIELD_FUNCTION:
-  case FIELD_ARRAY: return begins(text, "NULL") && is_zero(bytes, field->size);
+  case FIELD_ARRAY: return is_nothing(text, "NULL", bytes, field->size);
+  case FIELD_ID: return is_nothing(text, "none", bytes, field->size);
   case FIELD_NUMBERS: return numbers_are(text, bytes, field->size);
   case FIELD_INTEGER: return integer_is(text, integer_of(bytes, field->size));
-  case FIELD_FLAG: return begins(text, bytes[0] ? "true" : "false") && bytes[0] <= 1;
-  case FIELD_ID: return begins(text, "none") && is_zero(bytes, field->size);
-  case FIELD_GAINS:
-    return begins(text, "BAUM_GAINS_DEFAULT") && integer_of(bytes, sizeof(int32_t)) == 0;
+  case FIELD_GAINS: return integer_is(text, integer_of(bytes, sizeof(int32_t)));
+  case FIELD_FLAG: return flag_is(text, bytes[0]);
   case FIELD_SIZE:
   default: return text[0] == '\0';
   }

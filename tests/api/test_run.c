@@ -164,7 +164,7 @@ static void the_present_time_as_target_does_nothing(void **state)
   }
 }
 
-/* A target is met exactly, and one step further than the error of the method would be a different motion. */
+/* Every target is met exactly, and the start is found again to the error of the method. */
 static void out_and_back_ends_near_the_start(void **state)
 {
   (void)state;

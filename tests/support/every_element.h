@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism with an element of every kind, and the kinds as a table: what tests of the interface go through.
+/* One mechanism with an element of every kind, and the kinds as a table: what tests of the
+ * interface go through.
  *
- *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on a circle about the
- *   slider (user constraint); two masses in a row (user coordinates); spring, load, drag (user force).
+ *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
+ *   a circle about the slider (user constraint); two masses in a row (user coordinates);
+ *   spring, load, drag (user force).
  *
  * 13 coordinates, 10 rows, 3 freedoms; drawn in its exact start pose.
  */
@@ -102,7 +104,8 @@ extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_o
 
 any_id every_element_id(const every_element *parts, const element_kind *kind);
 
-/* Build it, not frozen; on failure there is no mechanism. parts->fault is read, the rest written. */
+/* Build it, not frozen; on failure there is no mechanism. parts->fault is read, the rest
+ * written. */
 baum_status every_element_build(every_element *parts);
 
 /* The same, frozen; fails the test on failure. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One mechanism in many threads, and variants of it made by them. To be run under the thread sanitizer as well.
+/* One mechanism in many threads, and variants of it made by them. To be run under the thread
+ * sanitizer as well.
  *
  * cmocka's checks are for the main thread: the others only report.
  */
