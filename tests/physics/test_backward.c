@@ -1,0 +1,156 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Out and back in time on both slider-cranks, with stabilization: the violation is damped in either
+ * direction, and the start is found again as well as the method found the far end.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "physics_run.h"
+#include "slider_crank_driven_reference.h"
+#include "slider_crank_undriven_reference.h"
+
+enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
+
+/* Violation on the way back over that on the way out. Both are the method's local error, which
+ * depends on the direction by a few tenths, and on the steps chosen. */
+static const double MOST_VIOLATION = 4.0;
+/* Error at the start found again over that at the far end: errors of the speed made on the way out
+ * act on the way back too, in the worst case all with one sign and for twice the time, hence
+ * (1 + 2 + 1) for errors of the place; luck at the far end makes the rest. */
+static const double MOST_ERROR = 20.0;
+/* Rounding of some 1e4 steps, for the driven crank, whose q is a function of time alone. */
+static const double ROUNDING = 1e-11;
+
+typedef struct method {
+  const baum_integrator *integrator;
+  double step; /* [s] NaN with a tolerance; the samples of tests/data are on its grid */
+  double rtol;
+} method;
+
+typedef struct journey {
+  double error[2]; /* at the far end, at the start found again */
+  double phi[2];   /* largest on the way out, on the way back */
+} journey;
+
+static double scaled_error(const baum_mechanism *mechanism, const double *q, const double *want)
+{
+  double scale = (double)NAN;
+  double error = 0.0;
+  check(baum_mechanism_get_scale(mechanism, &scale));
+  for (int i = 0; i < NQ; i++) {
+    error = fmax(error, fabs(q[i] - want[i]) / (i % 3 == 2 ? 1.0 : scale));
+  }
+  return error;
+}
+
+/* Move on, and give the largest violation seen. */
+static double travel(const watched_run *watched, double from, double to)
+{
+  double phi[PHYSICS_NC];
+  double largest = 0.0;
+  for (int k = 1; k <= LOOKS; k++) {
+    double t = k < LOOKS ? from + (to - from) * k / LOOKS : to;
+    check(baum_simulation_advance_to(watched->run, t));
+    watch_phi(watched, phi);
+    largest = fmax(largest, largest_of(phi, watched->nc));
+  }
+  return largest;
+}
+
+static journey out_and_back(const model *m, const method *with, bool driven)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = with->integrator;
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.step = with->step;
+  options.rtol = with->rtol;
+  watched_run watched = watch(m->mechanism, &options);
+  double start[NQ];
+  memcpy(start, baum_simulation_q(watched.run), sizeof start);
+  double far = SLIDER_CRANK_DRIVEN_T[FAR];
+  const double *want = driven ? SLIDER_CRANK_DRIVEN_Q[FAR] : SLIDER_CRANK_UNDRIVEN_Q[FAR];
+  journey out;
+  out.phi[0] = travel(&watched, 0.0, far);
+  out.error[0] = scaled_error(m->mechanism, baum_simulation_q(watched.run), want);
+  out.phi[1] = travel(&watched, far, 0.0);
+  out.error[1] = scaled_error(m->mechanism, baum_simulation_q(watched.run), start);
+  unwatch(&watched);
+  return out;
+}
+
+static void assert_returns(physics_mechanism which, const method *with)
+{
+  model m = build_mechanism(which);
+  journey j = out_and_back(&m, with, which == DRIVEN_CRANK);
+  printf("%-20s %-20s %8.0e   error there %.1e, back %.1e   max|Phi| out %.1e, back %.1e\n",
+         baum_integrator_name(with->integrator), mechanism_name(which),
+         isnan(with->step) ? with->rtol : with->step, j.error[0], j.error[1], j.phi[0], j.phi[1]);
+  (void)fflush(stdout);
+  model_destroy(&m);
+  assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
+  assert_true(j.error[1] <= MOST_ERROR * j.error[0] + ROUNDING);
+}
+
+static void return_on_both(const baum_integrator *integrator, double step, double rtol)
+{
+  method with = {integrator, step, rtol};
+  assert_returns(FREE_CRANK, &with);
+  assert_returns(DRIVEN_CRANK, &with);
+}
+
+static void explicit_euler_finds_its_start_again(void **state)
+{
+  (void)state;
+  return_on_both(baum_euler(), 5e-6, (double)NAN);
+}
+
+static void semi_implicit_euler_finds_its_start_again(void **state)
+{
+  (void)state;
+  return_on_both(baum_semi_implicit_euler(), 5e-6, (double)NAN);
+}
+
+static void rk4_finds_its_start_again(void **state)
+{
+  (void)state;
+  return_on_both(baum_rk4(), 5e-5, (double)NAN);
+}
+
+static void adams_finds_its_start_again(void **state)
+{
+  (void)state;
+  need_sundials();
+  return_on_both(baum_cvode_adams(), (double)NAN, 1e-8);
+}
+
+static void bdf_finds_its_start_again(void **state)
+{
+  (void)state;
+  need_sundials();
+  return_on_both(baum_cvode_bdf(), (double)NAN, 1e-8);
+}
+
+static void ida_finds_its_start_again(void **state)
+{
+  (void)state;
+  need_sundials();
+  return_on_both(baum_ida(), (double)NAN, 1e-8);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(explicit_euler_finds_its_start_again),
+    cmocka_unit_test(semi_implicit_euler_finds_its_start_again),
+    cmocka_unit_test(rk4_finds_its_start_again),
+    cmocka_unit_test(adams_finds_its_start_again),
+    cmocka_unit_test(bdf_finds_its_start_again),
+    cmocka_unit_test(ida_finds_its_start_again),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
