@@ -40,7 +40,7 @@ static void emit(sink *s, int row, int col, double value)
 {
   if (s->slot) {
     s->values[s->slot[s->count]] += value;
-  } else {
+  } else if (s->row) {
     s->row[s->count] = row;
     s->col[s->count] = col;
   }
