@@ -73,7 +73,7 @@ int main(int argc, char **argv)
   options.rtol = 1e-9;
   baum_simulation *run = NULL;
   CHECK(baum_simulation_create(mechanism, &options, &run));
-  printf("pendulum: 1 particle, 1 constraint, 1 degree of freedom\n%s\n\n",
+  printf("pendulum: 1 kg on a rod of 1 m, let go from the horizontal\n%s\n\n",
          baum_simulation_explain(run));
 
   static const example_column columns[] = {{"t", "t [s]", 'f', 1},
@@ -84,6 +84,7 @@ int main(int argc, char **argv)
                                            {"energy_change", "energy change [J]", 'e', 1}};
   example_table("motion", columns, 6, true);
   double worst = 0.0;
+  double energy = 0.0;
   baum_counters counters;
   for (int k = 0; k < SAMPLES; k++) {
     double t = 0.5 * k;
@@ -95,6 +96,7 @@ int main(int argc, char **argv)
     const double *q = baum_simulation_q(run);
     double error = hypot(q[0] - x, q[1] - y);
     worst = fmax(worst, error);
+    energy = fmax(energy, fabs(counters.energy_change));
     example_number(t);
     example_number(q[0]);
     example_number(q[1]);
@@ -105,7 +107,7 @@ int main(int argc, char **argv)
   example_counters(run);
   example_expect("largest error of position [m]", worst, 1e-6);
   example_expect("largest violation max|Phi| [m^2]", counters.max_phi, 1e-7);
-  example_expect("energy change [J]", fabs(counters.energy_change), 1e-6);
+  example_expect("largest energy change [J]", energy, 1e-6);
 
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
