@@ -37,8 +37,6 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** The classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2(). */
 BAUM_API const baum_integrator *baum_rk4(void);
-/* Variable-step integrators may step over a force or a law that begins late or lasts shortly: give max_step then. */
-
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
@@ -98,7 +96,8 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-/** How to run. Start from baum_simulation_options_default(). */
+/** How to run. Start from baum_simulation_options_default(). Variable-step integrators may step over
+ *  a force or a law that begins late or does not last: give max_step then. */
 typedef struct baum_simulation_options {
   size_t struct_size;                /**< Set by the default. Do not write. */
   const baum_integrator *integrator; /**< Default: NULL, must be set. */

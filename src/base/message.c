@@ -42,16 +42,3 @@ baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kep
   }
   return status;
 }
-
-void baum_i_message_prefix(const char *format, ...)
-{
-  char text[BAUM_I_MESSAGE_SIZE];
-  va_list arguments;
-  va_start(arguments, format);
-  int length = vsnprintf(text, sizeof text, format, arguments);
-  va_end(arguments);
-  if (length >= 0 && (size_t)length < sizeof text) {
-    (void)snprintf(text + length, sizeof text - (size_t)length, "%s", sentence);
-    memcpy(sentence, text, sizeof text);
-  }
-}

@@ -32,7 +32,4 @@ void baum_i_message_keep(baum_i_sentence *kept);
 /* Return status; if all went well in the end, the sentence from before is this thread's again. */
 baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kept);
 
-/* Put a prefix such as "t = 1.2 s: " before this thread's sentence. */
-void baum_i_message_prefix(const char *format, ...) BAUM_I_PRINTF(1, 2);
-
 #endif

@@ -49,7 +49,7 @@ struct baum_workspace {
   double *a;        /* (nv) last solution */
   double *lambda;   /* (nc) last solution */
   double *work_v;   /* (2 nv) */
-  double *work_c;   /* (2 nc) */
+  double *work_c;   /* (nc) */
   double *shift;    /* (nc) regularization of assembly */
 
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */

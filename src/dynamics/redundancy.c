@@ -293,8 +293,9 @@ void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t 
   for (int j = 0; j < m->joint_count && used + 1 < size; j++) {
     double part = 0.0;
     for (int k = 0; k < r->count; k++) {
+      const double *row = r->combination + (size_t)k * (size_t)m->nc + m->joints[j]->row;
       for (int i = 0; i < m->joints[j]->rows; i++) {
-        part = fmax(part, fabs(r->combination[k * m->nc + m->joints[j]->row + i]));
+        part = fmax(part, fabs(row[i]));
       }
     }
     if (part > 1e-6) {

@@ -29,7 +29,7 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->a, m->nv},
     {&w->lambda, m->nc},
     {&w->work_v, 2 * m->nv},
-    {&w->work_c, 2 * m->nc},
+    {&w->work_c, m->nc},
     {&w->shift, m->nc},
     {&w->mass_q, m->mass_size},
     {&w->body_force_q, m->mass_size},

@@ -50,6 +50,16 @@ static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body
   return baum_i_marker_on(&point->frames[body], s);
 }
 
+/* Velocities over the six columns. */
+static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_frame *b,
+                                            double six[6])
+{
+  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  for (int i = 0; i < 6; i++) {
+    six[i] = v[i];
+  }
+}
+
 /* Check that a body exists and has a place in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);

@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "mechanism/definition.h"
 #include "simulate/run.h"
 
 /* Times that differ by less than this share of a step are the same. */
@@ -284,8 +285,8 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
 static baum_status finish(baum_simulation *run, baum_status status, const struct timespec *begin)
 {
   const baum_i_state *state = &run->state;
-  char reason[BAUM_I_MESSAGE_SIZE];
-  memcpy(reason, baum_message(), sizeof reason);
+  baum_i_sentence reason;
+  baum_i_message_keep(&reason);
   atomic_store(&run->cancelled, 0);
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
@@ -293,7 +294,7 @@ static baum_status finish(baum_simulation *run, baum_status status, const struct
   }
   run->counters.wall += seconds_since(begin);
   if (status != BAUM_OK) {
-    (void)baum_i_fail(status, "%s", reason);
+    (void)baum_i_fail(status, "%s", reason.text);
     return baum_i_run_fail(run, status);
   }
   return look == BAUM_OK ? baum_i_run_finish(run) : baum_i_run_fail(run, look);
@@ -312,10 +313,7 @@ static baum_status check_time(const baum_simulation *run, const char *call, doub
   if (!run) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
   }
-  if (!isfinite(t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
-  }
-  return BAUM_OK;
+  return baum_i_check_finite(call, "t", "s", t);
 }
 
 /* ---- public ---- */

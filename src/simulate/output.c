@@ -109,23 +109,43 @@ int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel 
 
 /* ---- evaluation that channels need ---- */
 
-static bool asks_for_solution(const baum_channel *channels, int count)
+/* How much has to be evaluated, each with what is before it. */
+typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
+
+static depth depth_of(baum_quantity quantity)
 {
-  for (int k = 0; k < count; k++) {
-    baum_quantity quantity = channels[k].quantity;
-    if (quantity == BAUM_A || quantity == BAUM_LAMBDA || quantity == BAUM_JOINT_REACTION) {
-      return true;
-    }
+  switch (quantity) {
+  case BAUM_A:
+  case BAUM_LAMBDA:
+  case BAUM_JOINT_REACTION: return DEPTH_SOLUTION;
+  case BAUM_PHI:
+  case BAUM_PHI_RATE: return DEPTH_VIOLATION;
+  case BAUM_Q:
+  case BAUM_V:
+  case BAUM_ENERGY:
+  case BAUM_BODY_POSE:
+  case BAUM_BODY_VELOCITY:
+  case BAUM_JOINT_COORDINATE:
+  default: return DEPTH_FRAMES;
   }
-  return false;
 }
 
 static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
                             const baum_channel *channels, int count)
 {
-  return asks_for_solution(channels, count)
-           ? baum_i_reported_acceleration(w, state->t, state->q, state->v)
-           : baum_i_violation(w, state->t, state->q, state->v);
+  depth deepest = DEPTH_FRAMES;
+  for (int k = 0; k < count; k++) {
+    depth asked = depth_of(channels[k].quantity);
+    deepest = asked > deepest ? asked : deepest;
+  }
+  if (deepest == DEPTH_SOLUTION) {
+    return baum_i_reported_acceleration(w, state->t, state->q, state->v);
+  }
+  if (deepest == DEPTH_VIOLATION) {
+    return baum_i_violation(w, state->t, state->q, state->v);
+  }
+  baum_i_point_set(&w->point, state->t, state->q, state->v);
+  return BAUM_OK;
 }
 
 /* ---- values; each returns its width ---- */

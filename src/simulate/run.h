@@ -37,10 +37,8 @@ struct baum_simulation {
 
   baum_i_grid grid;
   baum_counters counters;
-  int64_t evaluations_before; /* of the workspace, when the run was ready */
-  int64_t restarted_rejected;
   double start_energy;
-  double largest_gamma;       /* of rows that do not depend on time, over all steps */
+  double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
 
   int64_t signalled; /* warnings that a status has announced */

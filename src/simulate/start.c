@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
+#include "mechanism/definition.h"
 #include "simulate/run.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
@@ -184,16 +184,15 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   }
   const baum_mechanism *m = run->workspace->mechanism;
   bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
-  if (!isfinite(t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: t is %g s, must be finite", call, t);
-  }
   for (int i = 0; i < m->nv; i++) {
-    if (!isfinite(q[i]) || !(isfinite(v[i]) || (may_be_free && isnan(v[i])))) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %g and v[%d] is %g, must be finite", call,
-                         i, q[i], i, v[i]);
+    bool q_is_wrong = !isfinite(q[i]);
+    if (q_is_wrong || !(isfinite(v[i]) || (may_be_free && isnan(v[i])))) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %c[%d] is %g, must be finite%s", call,
+                         q_is_wrong ? 'q' : 'v', i, q_is_wrong ? q[i] : v[i],
+                         !q_is_wrong && may_be_free ? ", or NaN for free" : "");
     }
   }
-  return BAUM_OK;
+  return baum_i_check_finite(call, "t", "s", t);
 }
 
 static baum_status restart(baum_simulation *run)

@@ -167,9 +167,8 @@ static void linearize_one(const baum_i_force *element, const baum_i_point *point
   const baum_i_span *span = &element->span;
   double six[36];
   if (blocks->force_q) {
-    const baum_i_frame *a = &point->frames[span->bodies[0]];
-    const baum_i_frame *b = &point->frames[span->bodies[1]];
-    const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+    double v[6];
+    baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
     set_force_q(&s, numbers[STIFFNESS], numbers[DAMPING], v, six);
     baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
   }

@@ -109,9 +109,8 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
                            const double w[6], double lambda, baum_i_coordinate_blocks *out)
 {
   baum_i_axis x = axis_at(pair, direction);
-  const baum_i_frame *a = pair->frame_a;
-  const baum_i_frame *b = pair->frame_b;
-  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  double v[6];
+  baum_i_planar_velocities(pair->frame_a, pair->frame_b, v);
   times_hessian(&x, w, out->jw_q);
   for (int i = 0; i < 6; i++) {
     double unit[6] = {0.0};

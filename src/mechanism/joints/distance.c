@@ -120,9 +120,8 @@ static void set_gamma_q(const baum_i_planar_pair *pair, const baum_i_separation 
 static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
                           baum_i_planar_blocks *out)
 {
-  const baum_i_frame *a = pair->frame_a;
-  const baum_i_frame *b = pair->frame_b;
-  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  double v[6];
+  baum_i_planar_velocities(pair->frame_a, pair->frame_b, v);
   double scale = 1.0 / pair->numbers[LENGTH];
   baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
   double hessian[36];

@@ -156,9 +156,8 @@ static void coordinate(const baum_i_joint *joint, const baum_i_point *point, bau
 {
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   const double *axis = pair.numbers + AXIS;
-  const baum_i_frame *a = pair.frame_a;
-  const baum_i_frame *b = pair.frame_b;
-  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  double v[6];
+  baum_i_planar_velocities(pair.frame_a, pair.frame_b, v);
   out->value = baum_i_axis_value(&pair, axis);
   out->gamma = baum_i_axis_gamma(&pair, axis);
   baum_i_axis_gradient(&pair, axis, out->gradient);
