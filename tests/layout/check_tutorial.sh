@@ -1,0 +1,59 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: check_tutorial.sh PROJECT PROGRAM...
+# The documents show what is compiled and what it prints: README.md holds examples/first.c as it stands; every ```c
+# block of it and of docs/tutorial.md is a run of whole lines of a file in examples/, every ```text block of what a
+# PROGRAM prints.
+set -eu
+project=$1
+shift
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+mkdir "$scratch/sources" "$scratch/prints"
+failures=0
+
+fail() {
+  echo "$*"
+  failures=$((failures + 1))
+}
+
+# holds FILE BLOCK: whether the lines of BLOCK stand in FILE, one after the other.
+holds() {
+  awk -v RS='\001' 'NR == FNR { text = "\n" $0; next }
+    { found = index(text, "\n" $0) > 0 }
+    END { exit !found }' "$1" "$2"
+}
+
+# check DOCUMENT LANGUAGE FOLDER: every block of the language is held by a file of the folder.
+check() {
+  blocks=$scratch/$(basename "$1").$2
+  mkdir "$blocks"
+  awk -v fence="$(printf '\140\140\140')" -v language="$2" -v folder="$blocks" '
+    inside && $0 == fence { inside = 0; close(file) }
+    inside { print > file }
+    $0 == fence language { inside = 1; file = folder "/" NR }' "$1"
+  count=0
+  for block in "$blocks"/*; do
+    [ -e "$block" ] || continue
+    held=
+    for file in "$3"/*; do
+      if holds "$file" "$block"; then held=$file; fi
+    done
+    [ -n "$held" ] || fail "$1, the block after line $(basename "$block"): not so in any of $(basename "$3")"
+    count=$((count + 1))
+  done
+  echo "$1: $count blocks of $2"
+  [ "$count" -gt 0 ] || fail "$1 has no block of $2"
+}
+
+cp "$project"/examples/*.[ch] "$scratch/sources"
+for program in "$@"; do
+  "$program" >"$scratch/prints/$(basename "$program")" 2>&1 || fail "$program: exit code $?"
+done
+cd "$project"
+holds README.md examples/first.c || fail "README.md: not examples/first.c as it stands"
+for document in README.md docs/tutorial.md; do
+  check "$document" c "$scratch/sources"
+  check "$document" text "$scratch/prints"
+done
+[ "$failures" -eq 0 ]
