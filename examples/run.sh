@@ -57,7 +57,7 @@ for script in examples/*.gp; do
   name=$(basename "$script" .gp)
   case " $names " in *" $name "*) ;; *) continue ;; esac
   script=$PWD/$script
-  run "$name figure" env --chdir="$out" gnuplot "$script"
+  run "${name}_figure" env --chdir="$out" gnuplot "$script"
 done
 
 heading "summary"
