@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the tests of this folder have in common: mechanisms by number, and runs whose constraints are watched from outside.
- * Include after cmocka.h.
+/* What the tests of this folder have in common: mechanisms by number, and runs whose constraints
+ * are watched from outside. Include after cmocka.h.
  */
 #ifndef BAUM_TEST_PHYSICS_RUN_H
 #define BAUM_TEST_PHYSICS_RUN_H

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Observed order of every integrator of fixed step with every formulation: error against tests/data over a ladder of halved steps,
- * on a pendulum, a free slider-crank and a four-bar. Gains by the rule `auto`, which does not depend on the step here.
+/* Observed order of every integrator of fixed step with every formulation: error against tests/data
+ * over a ladder of halved steps, on a pendulum, a free slider-crank and a four-bar. Gains by the
+ * rule `auto`, which does not depend on the step here.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,8 +19,8 @@
 
 enum { RUNGS = 4, METHODS = 5, ORDER_MAX = 4 };
 
-/* What is demanded. Between 4 rungs, 8 times in the step, a term of the next order that is 1/4 of the error at the largest step
- * moves the mean slope by less than 0.11. */
+/* What is demanded. Between 4 rungs, 8 times in the step, a term of the next order that is 1/4 of
+ * the error at the largest step moves the mean slope by less than 0.11. */
 static const double TOLERANCE = 0.2;
 
 /* Up to the last sample used, the crank turns by 2 rad and the pendulum by 3. */
@@ -41,8 +42,9 @@ static const reference REFERENCES[] = {
                 .lengths = "mmrmmrmmr"},
 };
 
-/* Steps of the coarsest rung, by order. Order 4 begins late, because its term of order 5 is larger than that of order 4 with
- * gains and fewer than 128 steps. Errors of the finest are from 1e-3 for order 1 to 1e-12; rounding stays below 1e-13. */
+/* Steps of the coarsest rung, by order. Order 4 begins late, because its term of order 5 is larger
+ * than that of order 4 with gains and fewer than 128 steps. Errors of the finest are from 1e-3 for
+ * order 1 to 1e-12; rounding stays below 1e-13. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
 static double error_at(const model *m, const reference *with, baum_simulation_options *options,

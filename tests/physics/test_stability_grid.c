@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do mechanisms keep their constraints where baum_stability_at() says so? A pendulum and a free slider-crank start with all
- * rows violated, and a pair of gains is observed to be stable when the largest violation of the last quarter of a run is
- * below that of the first. All pairs of a grid over the plane of (alpha h, beta^2 h^2), both Eulers and RK4.
+/* Do mechanisms keep their constraints where baum_stability_at() says so? A pendulum and a free
+ * slider-crank start with all rows violated, and a pair of gains is observed to be stable when the
+ * largest violation of the last quarter of a run is below that of the first. All pairs of a grid
+ * over the plane of (alpha h, beta^2 h^2), both Eulers and RK4.
  *
- * The step: the motion itself keeps up a violation of (alpha h / beta^2 h^2) h^2 |gamma|, which must stay far below the start's.
- * With h omega = 1e-5 it is 1e-10 of the length scale, times 20 in the corner of the grid, against 1e-6.
+ * The step: the motion itself keeps up a violation of (alpha h / beta^2 h^2) h^2 |gamma|, which
+ * must stay far below the start's. With h omega = 1e-5 it is 1e-10 of the length scale, times 20 in
+ * the corner of the grid, against 1e-6.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -20,8 +22,8 @@ enum { CELLS = 44, STEPS = 3000, CALM = 32, TAYLOR_STEPS = 400 };
 static const double OFF = 1e-6; /* of the length scale, and rad */
 /* Times the start's violation: 1e-3 of the scale, hardly still linear. */
 static const double GROWN = 1e3;
-/* Of the start's violation. A start with Phi' = 0 gives a mode a share of (1 - z1) / (z2 - z1), 1/100 or more here, so that no
- * mode hides below this from the beginning. */
+/* Of the start's violation. A start with Phi' = 0 gives a mode a share of (1 - z1) / (z2 - z1),
+ * 1/100 or more here, so that no mode hides below this from the beginning. */
 static const double DECAYED = 1e-3;
 
 /* Steps of 1e-5 over omega: 3.1 and 150 rad/s at start. */
@@ -74,8 +76,9 @@ static watched_run start_consistent(const model *m)
 
 /* ---- observed ---- */
 
-/* Whether the last quarter's largest violation is below the first's. Runs that have grown or decayed beyond doubt end early: a
- * violation that swings through zero is no doubt after CALM steps. */
+/* Whether the last quarter's largest violation is below the first's. Runs that have grown or
+ * decayed beyond doubt end early: a violation that swings through zero is no doubt after CALM
+ * steps. */
 static bool watch_decay(const watched_run *watched)
 {
   double phi[PHYSICS_NC];
@@ -123,8 +126,8 @@ static double beta2_at(const window *w, double j)
   return fmax(0.0, w->beta2_h2 * j / CELLS);
 }
 
-/* Whether one of the neighbours of a point, or a point as good as itself, is on the other side: a cell may hold the boundary,
- * and points on it are marginal. */
+/* Whether one of the neighbours of a point, or a point as good as itself, is on the other side: a
+ * cell may hold the boundary, and points on it are marginal. */
 static bool at_boundary(const window *w, int i, int j)
 {
   static const double reach[] = {1.0, 1e-9};
@@ -240,7 +243,8 @@ static void watch_circle(physics_mechanism which)
   }
   printf("; largest |Phi(n) + Phi(n - 2)| / |Phi(0)| of %d rows in %d steps %.1e\n", watched.nc,
          TAYLOR_STEPS, worst);
-  /* The motion adds h^2 |gamma| a step, 1e-10 of the scale, to rows that were violated by 1e-7 of it or more. */
+  /* The motion adds h^2 |gamma| a step, 1e-10 of the scale, to rows that were violated by 1e-7 of
+   * it or more. */
   assert_true(worst < 1e-2);
   unwatch(&watched);
   unwatch(&consistent);

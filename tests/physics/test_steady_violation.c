@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far off its constraints does a motion run with the Eulers and Baumgarte's gains? After the start has decayed, with gamma
- * of the present state and row by row (docs/theory/stabilization.md):
+/* How far off its constraints does a motion run with the Eulers and Baumgarte's gains? After the
+ * start has decayed, with gamma of the present state and row by row (docs/theory/stabilization.md):
  *
  *   |Phi'_i| = (h / 2) |gamma_i|,   |Phi_i| = (alpha / beta^2) h |gamma_i|
  */
@@ -21,8 +21,9 @@ static const double GAINS[PAIRS][2] = {{0.3, 0.3}, {0.3, 0.7}, {0.5, 0.5},
 
 /* Share of the formula by which a row may be off. */
 static const double TOLERANCE = 0.02;
-/* Share of the largest |gamma| at the moment that is added: Phi follows gamma with a lag of a few steps, 2 alpha / beta^2 and
- * 1 / alpha, up to 10 h together, in which a gamma near zero changes by 10 h omega of its largest. */
+/* Share of the largest |gamma| at the moment that is added: Phi follows gamma with a lag of a few
+ * steps, 2 alpha / beta^2 and 1 / alpha, up to 10 h together, in which a gamma near zero changes by
+ * 10 h omega of its largest. */
 static const double LAG = 10.0;
 
 typedef struct motion {
@@ -31,8 +32,9 @@ typedef struct motion {
   double rate; /* [rad/s] at most, or nearly */
 } motion;
 
-/* The pendulum is thrown down from level with 3 m/s, 5.4 rad/s at its lowest, so that its only gamma is never near zero; the
- * crank turns at 150 rad/s and slower. Both move by more than 1 rad. */
+/* The pendulum is thrown down from level with 3 m/s, 5.4 rad/s at its lowest, so that its only
+ * gamma is never near zero; the crank turns at 150 rad/s and slower. Both move by more than 1 rad.
+ */
 static const model_pendulum THROWN = {.gravity = 9.81, .x = 1.0, .v = -3.0};
 static const motion MOTIONS[2] = {{PENDULUM, 1e-4, 5.4}, {FREE_CRANK, 1e-6, 150.0}};
 
@@ -91,9 +93,10 @@ static watched_run start(const model *m, const motion *with, const baum_integrat
   return watch(m->mechanism, &options);
 }
 
-/* The counters keep the largest of both sides over the run. They meet where gamma is largest later on, as the pendulum's is. That
- * of the free crank is largest at the start, where Phi begins at zero and overshoots as a step response does: by its own
- * size at most, and by 90 % with explicit Euler and (0.3, 0.7), whose roots have radius 0.94. */
+/* The counters keep the largest of both sides over the run. They meet where gamma is largest later
+ * on, as the pendulum's is. That of the free crank is largest at the start, where Phi begins at
+ * zero and overshoots as a step response does: by its own size at most, and by 90 % with explicit
+ * Euler and (0.3, 0.7), whose roots have radius 0.94. */
 static void compare_counters(const watched_run *watched, physics_mechanism which)
 {
   baum_counters c = read_counters(watched);

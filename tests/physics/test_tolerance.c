@@ -17,10 +17,11 @@
 #include "slider_crank_undriven_reference.h"
 
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
+enum { MIDDLE = TOLERANCES / 2 };
 
-/* Least fall of the error per decade, the geometric mean of all mechanisms. An error like rtol falls
- * tenfold; at order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5, would have
- * 6.8 if it were always there. */
+/* Least fall of the error per decade, the geometric mean of all mechanisms. An error like rtol
+ * falls tenfold; at order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5,
+ * would have 6.8 if it were always there. */
 static const double LEAST_FALL = 7.0;
 /* Of a single mechanism, where a lucky run at one end weighs more. */
 static const double LEAST_SINGLE_FALL = 5.5;
@@ -57,7 +58,7 @@ static double fit_fall(const double error[TOLERANCES])
   double sum = 0.0;
   double weight = 0.0;
   for (int k = 0; k < TOLERANCES; k++) {
-    double decade = (k - TOLERANCES / 2) / (double)PER_DECADE;
+    double decade = (k - MIDDLE) / (double)PER_DECADE;
     sum -= decade * log10(error[k]);
     weight += decade * decade;
   }
