@@ -174,6 +174,15 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   run->grid = (baum_i_grid){.origin = run->state.t};
 }
 
+static baum_status check_entry(const char *call, char name, int i, double value, bool may_be_free)
+{
+  if (isfinite(value) || (may_be_free && isnan(value))) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %c[%d] is %g, must be finite%s", call, name, i, value,
+                     may_be_free ? ", or NaN for free" : "");
+}
+
 static baum_status check_state(const baum_simulation *run, double t, const double *q,
                                const double *v)
 {
@@ -184,15 +193,14 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   }
   const baum_mechanism *m = run->workspace->mechanism;
   bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
-  for (int i = 0; i < m->nv; i++) {
-    bool q_is_wrong = !isfinite(q[i]);
-    if (q_is_wrong || !(isfinite(v[i]) || (may_be_free && isnan(v[i])))) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %c[%d] is %g, must be finite%s", call,
-                         q_is_wrong ? 'q' : 'v', i, q_is_wrong ? q[i] : v[i],
-                         !q_is_wrong && may_be_free ? ", or NaN for free" : "");
+  baum_status status = baum_i_check_finite(call, "t", "s", t);
+  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+    status = check_entry(call, 'q', i, q[i], false);
+    if (status == BAUM_OK) {
+      status = check_entry(call, 'v', i, v[i], may_be_free);
     }
   }
-  return baum_i_check_finite(call, "t", "s", t);
+  return status;
 }
 
 static baum_status restart(baum_simulation *run)
