@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism in 7 angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), as in the test set
- * (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II, p. 530 ff). M, f, g below are its own, term by
- * term; M a + G^T lambda = f.
+/* Andrews' squeezing mechanism in 7 angles q = (beta, Theta, gamma, Phi, delta, Omega, epsilon), as
+ * in the test set (G. Andrews, M. Ormrod, 1986; E. Hairer, G. Wanner, Solving ODEs II, p. 530 ff).
+ * M, f, g below are its own, term by term; M a + G^T lambda = f.
  */
 #include "andrews.h"
 #include "builder.h"

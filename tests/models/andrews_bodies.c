@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, read off the equations of the test set:
+/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, read off the equations of the
+ * test set:
  *
  *   K1 turns about O = (0, 0), angle beta.            E = rr (cos, sin) beta
  *   K2 at E, angle beta + Theta.                      F = E - d (cos, sin)
- *   K3 turns about B, angle gamma.                    F = B + ss (sin, -cos) gamma;  spring at (sd, -sc) to C
+ *   K3 turns about B, angle gamma.                    F = B + ss (sin, -cos) gamma
+ *                                                     and the spring at (sd, -sc) to C
  *   K5 turns about A, angle delta.                    G = A + zt (cos, sin) delta
  *   K4 at G, angle Phi + delta.                       F = G + e (sin, -cos)
  *   K7 turns about A, angle epsilon.                  H = A + u (sin, -cos) epsilon
  *   K6 at H, angle Omega + epsilon.                   F = H + zf (cos, sin)
  *
- * Centres of mass from the mass matrix: K1 ra from O, K2 da from E towards F, K4 e - ea from G towards F, K6 zf - fa
- * from H towards F, K3, K5, K7 at sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2), sqrt(ua^2 + ub^2) from their pivots; without
- * gravity their directions do not matter.
+ * Centres of mass from the mass matrix: K1 ra from O, K2 da from E towards F, K4 e - ea from G
+ * towards F, K6 zf - fa from H towards F, K3, K5, K7 at sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2),
+ * sqrt(ua^2 + ub^2) from their pivots; without gravity their directions do not matter.
  */
 #include "andrews.h"
 #include "builder.h"
 
 #include <math.h>
 
-/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); centre[] is the centre of mass. */
+/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); centre[] is the
+ * centre of mass. */
 static const double CENTRE[7][2] = {
   {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
   {ANDREWS_SB, -ANDREWS_SA}, {0, -(ANDREWS_E - ANDREWS_EA)},

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adding parts one after the other; after the first failure nothing more happens, and build_finish() tells. */
+/* Adding parts one after the other; after the first failure nothing more happens, and
+ * build_finish() tells. */
 #ifndef BAUM_TEST_MODELS_BUILDER_H
 #define BAUM_TEST_MODELS_BUILDER_H
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): p = (xl, yl, xr, yr) on two springs over a
- * bump that goes up and down, yb = r sin(w t), xb = sqrt(L^2 - yb^2), with k = eps^2 M / 2:
+/* Car axis of the Bari test set (S. Schneider; H. Mazzia, F. Magherini): p = (xl, yl, xr, yr) on
+ * two springs over a bump that goes up and down, yb = r sin(w t), xb = sqrt(L^2 - yb^2), with
+ * k = eps^2 M / 2:
  *
  *   k xl'' = (L0 - Ll) xl / Ll              + multipliers          Ll = |(xl, yl)|
  *   k yl'' = (L0 - Ll) yl / Ll - k g        + multipliers

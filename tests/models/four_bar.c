@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crank-rocker of uniform rods: crank a, coupler b, rocker c, pins of the frame at (0, 0) and (d, 0).
+/* Crank-rocker of uniform rods: crank a, coupler b, rocker c, pins of the frame at (0, 0) and
+ * (d, 0).
  *
  *   a (cos, sin) th1 + b (cos, sin) th2 - c (cos, sin) th3 - (d, 0) = 0
  */
@@ -31,7 +32,7 @@ baum_status model_four_bar(model *out)
   baum_planar_body_def crank = rod("crank", 1.0, CRANK, 1.0);
   crank.angular_velocity = 2.0;
   crank.held = true;
-  /* th2, th3 at th1 = 1: where the circles about the crank's tip and the rocker's pin meet, above. */
+  /* th2, th3 at th1 = 1: where circles about the crank's tip and the rocker's pin meet, above. */
   double tip[2] = {CRANK * cos(1.0), CRANK * sin(1.0)};
   double between = hypot(FRAME - tip[0], tip[1]);
   double inner =

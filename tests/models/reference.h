@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs against trajectories of tests/data: largest error over all samples, lengths relative to the length scale of the
- * mechanism, angles in radians.
+/* Runs against trajectories of tests/data: largest error over all samples, lengths relative to the
+ * length scale of the mechanism, angles in radians.
  */
 #ifndef BAUM_TEST_REFERENCE_H
 #define BAUM_TEST_REFERENCE_H
@@ -43,7 +43,8 @@ double reference_rtol(int rung);
 /* The same runs for each rtol, printed as a table. options->rtol is ignored. */
 reference_ladder reference_climb(const reference *with, const baum_mechanism *mechanism,
                                  const baum_simulation_options *options);
-/* The largest rtol from which on, among the runs that ended, the error reaches `wanted`; NaN when there is none. */
+/* The largest rtol from which on, among the runs that ended, the error reaches `wanted`; NaN when
+ * there is none. */
 double reference_rtol_needed(const reference_ladder *ladder, double wanted);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank with the data of P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23 (2010), table 1, without
- * clearance; the eccentricity of 0.05 m is not theirs. Crank 1 from the origin, rod 2, slider 3 on y = e:
+/* Slider-crank with the data of P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23
+ * (2010), table 1, without clearance; the eccentricity of 0.05 m is not theirs. Crank 1 from the
+ * origin, rod 2, slider 3 on y = e:
  *
  *   l1 sin th1 + l2 sin th2 = e,  x3 = l1 cos th1 + l2 cos th2,  th1(0) = 0, th1'(0) = 150 rad/s
  */

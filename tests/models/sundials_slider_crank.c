@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), read as rigid bodies: a crank of
- * inertia 1 about the origin with a pin at distance 1/2; a rod of mass 1 and inertia 2 whose centre runs on the x axis
- * while it turns, from the pin at (-1, 0) to (1, 0) in its axes, where a force (1, 0) acts; a spring and damper from
- * the middle of the crank to the middle of pin and centre of the rod. No gravity.
+/* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), read as rigid
+ * bodies: a crank of inertia 1 about the origin with a pin at distance 1/2; a rod of mass 1 and
+ * inertia 2 whose centre runs on the x axis while it turns, from the pin at (-1, 0) to (1, 0) in
+ * its axes, where a force (1, 0) acts; a spring and damper from the middle of the crank to the
+ * middle of pin and centre of the rod. No gravity.
  */
 #include "builder.h"
 

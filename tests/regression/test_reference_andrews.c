@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Andrews' squeezing mechanism by user functions in 7 angles, with and without a Jacobian, and as 7 rigid bodies,
- * against tests/data (own values, good to 15 digits; the published ones have only 10).
+/* Andrews' squeezing mechanism by user functions in 7 angles, with and without a Jacobian, and as 7
+ * rigid bodies, against tests/data (own values, good to 15 digits; the published ones have only
+ * 10).
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -67,7 +68,8 @@ static void rk4_with_projection_reaches_both(void **state)
 {
   (void)state;
   model m;
-  /* The crank turns at up to 1.4e3 rad/s: (1.4e3 h)^4 = 7e-10, times 16 rad turned, over an error constant of 5!. */
+  /* The crank turns at up to 1.4e3 rad/s: (1.4e3 h)^4 = 7e-10, times 16 rad turned, over an error
+   * constant of 5!. */
   double step = 0.03 / 8192;
   assert_int_equal(model_andrews_angles(true, &m), BAUM_OK);
   assert_reached_by_rk4(&ANGLES, m.mechanism, step, 1e-10);

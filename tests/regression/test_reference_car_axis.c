@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Car axis: four user coordinates, two rows that depend on time, with and without their derivatives, against tests/data
- * (18 digits).
+/* Car axis: four user coordinates, two rows that depend on time, with and without their
+ * derivatives, against tests/data (18 digits).
  */
 #include <setjmp.h>
 #include <stdarg.h>

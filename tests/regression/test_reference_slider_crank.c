@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Eccentric slider-crank, driven and free, against tests/data. The references are good to 16 digits, so that all error is the
- * run's. The free one turns about five times and errors of its speed add up to errors of its angle, which is why it needs
- * tighter tolerances than the driven one.
+/* Eccentric slider-crank, driven and free, against tests/data. The references are good to 16
+ * digits, so that all error is the run's. The free one turns about five times and errors of its
+ * speed add up to errors of its angle, which is why it needs tighter tolerances than the driven
+ * one.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -80,7 +81,8 @@ static void ida_at_index_3_runs_to_the_end_and_its_error_is_shown(void **state)
     const reference_run *run = &ladder.runs[2]; /* rtol 1e-6 */
     printf("at rtol 1e-06 the real error is %.2e\n", run->error);
     assert_true(run->status >= 0);
-    /* Positions are on the constraints; how far along, index 3 does not control. Measured 0.2 free, 7e-7 driven. */
+    /* Positions are on the constraints; how far along, index 3 does not control. Measured 0.2 free,
+     * 5e-7 driven. */
     assert_true(run->error < 1.0);
     assert_true(run->counters.max_phi < 1e-5);
     model_destroy(&m);
@@ -150,7 +152,8 @@ static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **stat
     assert_true(q[2] == 0.0);
     assert_true(counters.start_change > 0.01); /* the drawing was rough */
     for (int i = 0; i < 9; i++) {
-      /* Consistent to the rounding of a few operations on lengths below 1 m and speeds below 150 rad/s. */
+      /* Consistent to the rounding of a few operations on lengths below 1 m and speeds below 150
+       * rad/s. */
       ASSERT_NEAR(q[i], want_q[driven][i], 0.0, 1e-14);
       ASSERT_NEAR(v[i], want_v[driven][i], 0.0, 1e-14 * SPEED);
     }
