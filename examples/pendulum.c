@@ -4,7 +4,9 @@
 
 #include "example_util.h"
 
-enum { SAMPLES = 21 };
+enum { SAMPLES = 501, SHOWN = 25 /* every so many */ };
+
+static double path[SAMPLES][5]; /* t, x, y, error, energy change, for the figure */
 
 /* Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod. */
 static int circle(double t, const double *q, double *phi, void *user)
@@ -62,6 +64,21 @@ static void exact(double t, double *x, double *y)
   *y = 2.0 * s * s - 1.0;
 }
 
+static void write_path(void)
+{
+  static const example_column columns[] = {{"t", "t [s]", 'f', 2},
+                                           {"x", "x [m]", 'f', 9},
+                                           {"y", "y [m]", 'f', 9},
+                                           {"error", "error [m]", 'e', 1},
+                                           {"energy_change", "energy change [J]", 'e', 1}};
+  example_table("path", columns, 5, false);
+  for (int k = 0; k < SAMPLES; k++) {
+    for (int i = 0; i < 5; i++) {
+      example_number(path[k][i]);
+    }
+  }
+}
+
 int main(int argc, char **argv)
 {
   example_begin(argc, argv, "pendulum");
@@ -87,7 +104,7 @@ int main(int argc, char **argv)
   double energy = 0.0;
   baum_counters counters;
   for (int k = 0; k < SAMPLES; k++) {
-    double t = 0.5 * k;
+    double t = 0.02 * k;
     double x;
     double y;
     CHECK(baum_simulation_advance_to(run, t));
@@ -97,13 +114,18 @@ int main(int argc, char **argv)
     double error = hypot(q[0] - x, q[1] - y);
     worst = fmax(worst, error);
     energy = fmax(energy, fabs(counters.energy_change));
-    example_number(t);
-    example_number(q[0]);
-    example_number(q[1]);
-    example_number(error);
-    example_number(counters.max_phi);
-    example_number(counters.energy_change);
+    const double point[] = {t, q[0], q[1], error, counters.energy_change};
+    memcpy(path[k], point, sizeof point);
+    if (k % SHOWN == 0) {
+      example_number(t);
+      example_number(q[0]);
+      example_number(q[1]);
+      example_number(error);
+      example_number(counters.max_phi);
+      example_number(counters.energy_change);
+    }
   }
+  write_path();
   example_counters(run);
   example_expect("largest error of position [m]", worst, 1e-6);
   example_expect("largest violation max|Phi| [m^2]", counters.max_phi, 1e-7);

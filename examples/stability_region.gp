@@ -12,7 +12,7 @@ set key below samplen 2
 set object 1 polygon from 0,0 to 1,0 to 2,4 to 0,0 fillstyle empty border lc rgb "#000000" lw 2
 set style textbox opaque noborder
 set label 1 "Taylor (10, 11)" at 0.95,2.1 right front boxed
-set label 2 "dead-beat" at 1.05,1.0 left front boxed
+set label 2 "dead-beat" at 0.96,1.0 right front boxed
 plot data index "points" using ($4 == 1 ? $1 : NaN):2 with points pt 7 ps 0.7 lc rgb "#0b5fa5" \
        title "pendulum: violation decays", \
      data index "points" using ($4 == 0 ? $1 : NaN):2 with points pt 7 ps 0.3 lc rgb "#d9a27a" \
