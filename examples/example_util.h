@@ -119,6 +119,42 @@ static inline void example_close_table(void)
   example.columns = NULL;
 }
 
+/* The titles of the columns, on the screen and in the files. */
+static inline void example_titles(const example_column *columns, int count)
+{
+  for (int k = 0; k < count; k++) {
+    if (example.shown) {
+      int width = example_width(&columns[k]);
+      printf("%s%*s", k ? "  " : "", columns[k].format == 's' ? -width : width, columns[k].title);
+    }
+    if (example.data) {
+      (void)fprintf(example.data, "%s\"%s\"", k ? " " : "", columns[k].title);
+    }
+    if (example.json) {
+      (void)fprintf(example.json, "%s\"%s\": \"%s\"", k ? ", " : "", columns[k].key,
+                    columns[k].title);
+    }
+  }
+}
+
+/* The titles of a table, on the screen and in the files. */
+static inline void example_heading(void)
+{
+  for (int k = 0; k < example.column_count; k++) {
+    const example_column *column = &example.columns[k];
+    if (example.shown) {
+      int width = example_width(column);
+      printf("%s%*s", k ? "  " : "", column->format == 's' ? -width : width, column->title);
+    }
+    if (example.data) {
+      (void)fprintf(example.data, "%s\"%s\"", k ? " " : "", column->title);
+    }
+    if (example.json) {
+      (void)fprintf(example.json, "%s\"%s\": \"%s\"", k ? ", " : "", column->key, column->title);
+    }
+  }
+}
+
 /* Begins a table; one that is not shown goes to the files only. */
 static inline void example_table(const char *name, const example_column *columns, int count,
                                  bool shown)
@@ -135,19 +171,7 @@ static inline void example_table(const char *name, const example_column *columns
   if (example.json) {
     (void)fprintf(example.json, ",\n\"%s\": {\"columns\": {", name);
   }
-  for (int k = 0; k < count; k++) {
-    if (shown) {
-      int width = example_width(&columns[k]);
-      printf("%s%*s", k ? "  " : "", columns[k].format == 's' ? -width : width, columns[k].title);
-    }
-    if (example.data) {
-      (void)fprintf(example.data, "%s\"%s\"", k ? " " : "", columns[k].title);
-    }
-    if (example.json) {
-      (void)fprintf(example.json, "%s\"%s\": \"%s\"", k ? ", " : "", columns[k].key,
-                    columns[k].title);
-    }
-  }
+  example_heading();
   if (shown) {
     printf("\n");
   }
