@@ -99,13 +99,17 @@ static baum_status choose_problem(baum_simulation *run)
 
 /* ---- warnings that are known at the start ---- */
 
-static void warn_redundancy(baum_simulation *run)
+static baum_status warn_redundancy(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   const baum_i_redundancy *r = &w->redundancy;
   const baum_i_state *start = &run->trial;
-  if (r->count > 0 && baum_i_reported_acceleration(w, start->t, start->q, start->v) == BAUM_OK) {
+  if (r->count > 0) {
     char names[160];
+    baum_status status = baum_i_reported_acceleration(w, start->t, start->q, start->v);
+    if (status != BAUM_OK) {
+      return status;
+    }
     baum_i_redundancy_text(w, names, sizeof names);
     baum_i_run_warn(run,
                     "%d redundant constraint %s among %s: accelerations are right, multipliers and "
@@ -116,6 +120,7 @@ static void warn_redundancy(baum_simulation *run)
     baum_i_run_warn(run, "the start pose is singular: %d independent constraint rows, %d nearby",
                     r->rank_at_start, r->rank);
   }
+  return BAUM_OK;
 }
 
 static double difference_noise(const baum_mechanism *m)
@@ -183,7 +188,9 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
     status = run->integrator->create(&run->problem, &run->trial, &run->self);
   }
   if (status == BAUM_OK) {
-    warn_redundancy(run);
+    status = warn_redundancy(run);
+  }
+  if (status == BAUM_OK) {
     warn_settings(run);
     status = baum_i_run_measure(run, &energy);
   }
