@@ -119,24 +119,6 @@ static inline void example_close_table(void)
   example.columns = NULL;
 }
 
-/* The titles of the columns, on the screen and in the files. */
-static inline void example_titles(const example_column *columns, int count)
-{
-  for (int k = 0; k < count; k++) {
-    if (example.shown) {
-      int width = example_width(&columns[k]);
-      printf("%s%*s", k ? "  " : "", columns[k].format == 's' ? -width : width, columns[k].title);
-    }
-    if (example.data) {
-      (void)fprintf(example.data, "%s\"%s\"", k ? " " : "", columns[k].title);
-    }
-    if (example.json) {
-      (void)fprintf(example.json, "%s\"%s\": \"%s\"", k ? ", " : "", columns[k].key,
-                    columns[k].title);
-    }
-  }
-}
-
 /* The titles of a table, on the screen and in the files. */
 static inline void example_heading(void)
 {
