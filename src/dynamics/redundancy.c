@@ -26,6 +26,7 @@ static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the
 typedef struct search {
   baum_workspace *w;
   double *column_scale;       /* (nv) M^-1/2 */
+  double *start;              /* (nv) the pose to look at */
   double *q;                  /* (nv) neighbour */
   double *x;                  /* (nv) direction */
   unsigned char *independent; /* (nc) of the pose last looked at */
@@ -161,12 +162,21 @@ static baum_status look_around(const search *s, double t, const double *q)
   return BAUM_OK;
 }
 
-static baum_status find(const search *s, double t, const double *q)
+/* The pose to look at: assembled, because off the constraints no row depends on others exactly. A
+ * pose that cannot be assembled is taken as it is. */
+static baum_status assembled(const search *s, double t, const double *q)
+{
+  memcpy(s->start, q, (size_t)s->w->mechanism->nv * sizeof *q);
+  baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
+  return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
+}
+
+static baum_status find(const search *s, double t)
 {
   baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
   int rank = 0;
-  baum_status status = rank_at(s, t, q, &rank);
+  baum_status status = rank_at(s, t, s->start, &rank);
   if (status != BAUM_OK) {
     return status;
   }
@@ -175,7 +185,7 @@ static baum_status find(const search *s, double t, const double *q)
   if (rank == nc) {
     return BAUM_OK; /* independent here means independent nearby */
   }
-  status = look_around(s, t, q);
+  status = look_around(s, t, s->start);
   baum_i_free(r->combination);
   r->combination = NULL;
   if (status == BAUM_OK && r->count > 0) {
@@ -193,12 +203,14 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   if (nc == 0) {
     return BAUM_OK;
   }
-  double *memory = baum_i_alloc(3 * nv, sizeof *memory);
+  double *memory = baum_i_alloc(4 * nv, sizeof *memory);
   unsigned char *independent = baum_i_alloc(nc, 1);
   baum_status status = BAUM_ERR_MEMORY;
   if (memory && independent) {
-    const search s = {workspace, memory, memory + nv, memory + 2 * nv, independent};
-    status = find(&s, t, q);
+    const search s = {workspace,       memory,          memory + nv,
+                      memory + 2 * nv, memory + 3 * nv, independent};
+    status = assembled(&s, t, q);
+    status = status == BAUM_OK ? find(&s, t) : status;
   } else {
     status = baum_i_fail_memory();
   }

@@ -104,6 +104,45 @@ static void observe_singular(baum_simulation *run, double t)
   run->near_singular_seen = w->near_singular;
 }
 
+/* Rows that were left out depend on the others only as long as the constraints agree with each
+ * other and the motion stays on its branch. Near a pose where the kept rows alone are singular, the
+ * others may be off by the root of what the kept ones are off by; more is a contradiction. */
+static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
+static const double OF_ROOT = 10.0;
+
+static void observe_redundant(baum_simulation *run, double t)
+{
+  const baum_workspace *w = run->workspace;
+  const baum_mechanism *m = w->mechanism;
+  if (w->redundancy.count == 0 || run->redundant_seen) {
+    return;
+  }
+  double *distance = w->work_c;
+  baum_i_row_displacements(w, distance);
+  double kept = 0.0;
+  double left_out = 0.0;
+  int row = 0;
+  for (int i = 0; i < m->nc; i++) {
+    double size = fabs(w->phi[i]) / distance[i];
+    if (!w->redundancy.dropped[i]) {
+      kept = fmax(kept, size);
+    } else if (size > left_out) {
+      left_out = size;
+      row = i;
+    }
+  }
+  if (left_out > NEGLIGIBLE + OF_ROOT * sqrt(kept)) {
+    char label[BAUM_I_LABEL_SIZE];
+    (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
+    baum_i_run_warn(run,
+                    "t = %.9g s: a row of %s that was left out as redundant is violated by %.3g, "
+                    "relative to the scales, the rows that were kept by %.1g: constraints "
+                    "contradict each other, or the motion has left its branch; do not trust it",
+                    t, label, left_out, kept);
+    run->redundant_seen = true;
+  }
+}
+
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 {
   const baum_workspace *w = run->workspace;
@@ -114,6 +153,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
     observe_gamma(run);
   }
   observe_singular(run, t);
+  observe_redundant(run, t);
 }
 
 /* ---- counters ---- */

@@ -40,6 +40,7 @@ struct baum_simulation {
   double start_energy;
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
+  bool redundant_seen;        /* a row left out as redundant was found violated */
 
   int64_t signalled; /* warnings that a status has announced */
   char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
