@@ -177,7 +177,8 @@ BAUM_API baum_status baum_simulation_step(baum_simulation *simulation, int64_t c
 BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 
 /** Replace time and state; multistep methods restart. The state is handled as the option `start`
- *  says.
+ *  says, but for one that violates the constraints no more than the run already has: that, as every
+ *  state of the run itself, is taken as it is.
  *  @param      t    [s] finite
  *  @param[in]  q    (nq) finite
  *  @param[in]  v    (nv) finite, or NaN where free when `start` is BAUM_START_ASSEMBLE

@@ -304,7 +304,9 @@ static struct timespec begin(baum_simulation *run)
 {
   struct timespec now;
   (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  run->last_progress = now;
+  if (run->last_progress.tv_sec == 0) { /* the first call; later ones go on with the interval */
+    run->last_progress = now;
+  }
   return now;
 }
 

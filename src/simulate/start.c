@@ -129,16 +129,22 @@ static baum_status check_exact(baum_simulation *run)
 
 /* ---- the whole ---- */
 
-baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
+/* Take a state as it is, free velocities zero. */
+static void start_as_given(baum_simulation *run, double t, const double *q, const double *v)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   run->trial.t = t;
   memcpy(run->trial.q, q, (size_t)m->nq * sizeof *q);
-  if (run->options.start == BAUM_START_ASSEMBLE) {
-    return start_assembled(run, q, v);
-  }
   for (int i = 0; i < m->nv; i++) {
     run->trial.v[i] = isnan(v[i]) ? 0.0 : v[i];
+  }
+}
+
+baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
+{
+  start_as_given(run, t, q, v);
+  if (run->options.start == BAUM_START_ASSEMBLE) {
+    return start_assembled(run, q, v);
   }
   return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
 }
@@ -203,6 +209,26 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   return status;
 }
 
+/* Whether a whole state violates the constraints no more than this run has already done, as one of
+ * its own does: then it is taken as it is, so that a run can be put back to where it was. */
+static bool is_of_this_run(baum_simulation *run, double t, const double *q, const double *v)
+{
+  baum_workspace *w = run->workspace;
+  double phi = 0.0;
+  double phi_rate = 0.0;
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    if (isnan(v[i])) {
+      return false;
+    }
+  }
+  if (baum_i_violation(w, t, q, v) != BAUM_OK) {
+    return false;
+  }
+  (void)baum_i_largest(w->phi, w->mechanism->nc, &phi);
+  (void)baum_i_largest(w->phi_rate, w->mechanism->nc, &phi_rate);
+  return phi <= run->counters.max_phi && phi_rate <= run->counters.max_phi_rate;
+}
+
 static baum_status restart(baum_simulation *run)
 {
   baum_status status = run->integrator->restart(run->self, &run->problem, &run->trial);
@@ -221,7 +247,11 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   baum_i_message_keep(&kept);
   double start_change = simulation->counters.start_change;
   double energy = 0.0;
-  status = baum_i_run_start(simulation, t, q, v);
+  if (is_of_this_run(simulation, t, q, v)) {
+    start_as_given(simulation, t, q, v);
+  } else {
+    status = baum_i_run_start(simulation, t, q, v);
+  }
   if (status == BAUM_OK) {
     status = baum_i_run_measure(simulation, &energy);
   }

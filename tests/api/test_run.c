@@ -222,6 +222,24 @@ static void max_steps_ends_a_call_and_the_next_goes_on(void **state)
   close_scene(&s);
 }
 
+static void a_run_can_be_put_back_to_where_it_was(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
+    scene s = open_scene(integrator_at(k));
+    double q[EVERY_NV];
+    double v[EVERY_NV];
+    assert_true(baum_simulation_advance_to(s.run, 0.05) >= BAUM_OK);
+    memcpy(q, baum_simulation_q(s.run), sizeof q);
+    memcpy(v, baum_simulation_v(s.run), sizeof v);
+    assert_true(baum_simulation_advance_to(s.run, 0.08) >= BAUM_OK);
+    assert_int_equal(baum_simulation_set_state(s.run, 0.05, q, v), BAUM_OK);
+    assert_memory_equal(baum_simulation_q(s.run), q, sizeof q);
+    assert_memory_equal(baum_simulation_v(s.run), v, sizeof v);
+    close_scene(&s);
+  }
+}
+
 static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
 {
   (void)state;
@@ -535,6 +553,7 @@ int main(void)
     cmocka_unit_test(out_and_back_ends_near_the_start),
     cmocka_unit_test(targets_do_not_alter_the_steps_of_a_variable_step_method),
     cmocka_unit_test(max_steps_ends_a_call_and_the_next_goes_on),
+    cmocka_unit_test(a_run_can_be_put_back_to_where_it_was),
     cmocka_unit_test(a_state_can_be_set_and_the_run_goes_on_from_there),
     cmocka_unit_test(samples_off_the_grid_do_not_alter_the_motion),
     cmocka_unit_test(a_sample_is_what_an_advance_to_its_time_finds),
