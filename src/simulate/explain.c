@@ -36,9 +36,9 @@ static void say_mechanism(baum_simulation *run)
   const baum_i_redundancy *r = &run->workspace->redundancy;
   int rank = m->nc > 0 ? r->rank : 0;
   say(run,
-      "mechanism     %d bodies, %d joints, %d forces; %d velocities, %d constraint rows, %d %s\n",
-      m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank,
-      m->nv - rank == 1 ? "freedom" : "freedoms");
+      "mechanism     bodies %d, joints %d, forces %d; velocities %d, constraint rows %d, freedoms "
+      "%d\n",
+      m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank);
   if (r->count > 0) {
     say(run, "              %d redundant %s left out of every solution\n", r->count,
         r->count == 1 ? "row" : "rows");
