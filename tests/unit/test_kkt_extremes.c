@@ -1,0 +1,381 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Saddle-point systems at their limits: units, sizes, bodies without mass, singular positions. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "saddle_solver.h"
+
+#define PI 3.14159265358979323846
+
+/* ---- size and units ---- */
+
+/* Lengths in units of 1 / per_metre: rotations j % 3 == 2 keep their unit, all else is a length; so are all rows. */
+static void change_unit(saddle *system, double per_metre)
+{
+  for (int b = 0; b < system->structure.mass_block_count; b++) {
+    const baum_i_mass_block *block = &system->mass_blocks[b];
+    system->mass[block->value + 8] *= per_metre * per_metre;
+    system->f[block->first] *= per_metre;
+    system->f[block->first + 1] *= per_metre;
+    system->f[block->first + 2] *= per_metre * per_metre;
+  }
+  for (int b = 0; b < system->structure.row_block_count; b++) {
+    const baum_i_row_block *block = &system->row_blocks[b];
+    for (int k = 0; k < block->rows * block->cols; k++) {
+      bool turns = block->col[k % block->cols] % 3 == 2;
+      system->jacobian[block->value + k] *= turns ? per_metre : 1.0;
+    }
+  }
+  for (int i = 0; i < system->structure.nc; i++) {
+    system->r[i] *= per_metre;
+  }
+}
+
+static saddle make_pose(int loops, double angle)
+{
+  saddle system = saddle_make_four_bar(loops);
+  uint64_t seed = 17;
+  saddle_pose_four_bar(&system, angle);
+  saddle_make_consistent(&system, seed);
+  for (int j = 0; j < system.structure.nv; j++) {
+    system.f[j] = saddle_random(&seed);
+  }
+  return system;
+}
+
+/* Solve at one pose in two units; compare in metres. Returns the worse of the two qualities. */
+static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
+{
+  baum_i_kkt_quality worst = BAUM_I_KKT_GOOD;
+  double rcond[2];
+  double a[2][15];
+  for (int k = 0; k < 2; k++) {
+    saddle system = make_pose(2, angle);
+    double unit = k == 0 ? 1.0 : per_metre;
+    change_unit(&system, unit);
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    for (int j = 0; j < 15; j++) {
+      a[k][j] = system.a[j] / (j % 3 == 2 ? 1.0 : unit);
+    }
+    rcond[k] = baum_i_kkt_rcond(kkt);
+    worst = baum_i_kkt_get_quality(kkt) > worst ? baum_i_kkt_get_quality(kkt) : worst;
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+  for (int j = 0; j < 15; j++) {
+    ASSERT_NEAR(a[1][j], a[0][j], 0.0, tolerance);
+  }
+  /* Powers of two follow a unit to a factor of two in each d_j and e_i. */
+  assert_true(rcond[0] <= 64.0 * rcond[1] && rcond[1] <= 64.0 * rcond[0]);
+  return worst;
+}
+
+static void the_unit_of_length_does_not_matter(void **state)
+{
+  (void)state;
+  const double units[] = {1e3, 1e-3, 39.37, 1e9, 1e-9};
+  for (int k = 0; k < 5; k++) {
+    assert_int_equal(compare_units(1.0, units[k], 1e-14), BAUM_I_KKT_GOOD);
+    /* Rounding over the distance from the singular position. */
+    assert_int_equal(compare_units(1e-4, units[k], 1e-10), BAUM_I_KKT_GOOD);
+  }
+}
+
+static void masses_of_very_different_size_are_all_accurate(void **state)
+{
+  (void)state;
+  /* Every other body, from a picogram beside a megaton to the reverse and beyond. */
+  for (int exponent = -27; exponent <= 21; exponent += 3) {
+    saddle system = make_pose(3, 1.0);
+    double want[MOST_UNKNOWNS];
+    for (int b = 0; b < system.structure.mass_block_count; b += 2) {
+      for (int k = 0; k < 9; k++) {
+        system.mass[system.mass_blocks[b].value + k] *= pow(10.0, exponent);
+      }
+    }
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    saddle_solve(&system, want);
+    for (int j = 0; j < system.structure.nv; j++) {
+      ASSERT_NEAR(system.a[j], want[j], 1e-11, 1e-11); /* all are of size 1 */
+    }
+    if (abs(exponent) <= 18) {
+      assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+    }
+    assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 0);
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+static void values_near_the_ends_of_the_range_are_solved(void **state)
+{
+  (void)state;
+  const double sizes[] = {1e-150, 1e150};
+  for (int k = 0; k < 4; k++) {
+    saddle system = make_pose(1, 1.0);
+    double want[MOST_UNKNOWNS];
+    for (int i = 0; i < system.mass_count; i++) {
+      system.mass[i] *= sizes[k % 2];
+    }
+    for (int i = 0; i < system.jacobian_count; i++) {
+      system.jacobian[i] *= sizes[k / 2];
+    }
+    saddle_make_consistent(&system, 3);
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    for (int j = 0; j < system.structure.nv; j++) {
+      system.f[j] *= sizes[k % 2];
+    }
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    saddle_solve(&system, want);
+    assert_solution(&system, want, 1e-12);
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+static void values_beyond_the_range_of_scaling_are_solved_or_refused(void **state)
+{
+  (void)state;
+  const double sizes[] = {1e-300, 1e-200, 1e200, 1e300};
+  for (int k = 0; k < 16; k++) {
+    saddle system = make_pose(1, 1.0);
+    for (int i = 0; i < system.mass_count; i++) {
+      system.mass[i] *= sizes[k % 4];
+    }
+    for (int i = 0; i < system.jacobian_count; i++) {
+      system.jacobian[i] *= sizes[k / 4];
+    }
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    baum_status status = factor(kkt, &system);
+    status = status == BAUM_OK ? solve(kkt, &system) : status;
+    if (status == BAUM_OK && baum_i_kkt_get_quality(kkt) == BAUM_I_KKT_GOOD) {
+      assert_true(saddle_backward_error(&system) < 3e-14);
+    } else {
+      assert_true(status == BAUM_OK || status == BAUM_ERR_SINGULAR);
+    }
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+/* ---- massless bodies ---- */
+
+static void a_body_without_mass_is_solved_where_joints_hold_it(void **state)
+{
+  (void)state;
+  for (int k = 0; k < CHOICES; k++) {
+    saddle system = make_pose(2, 1.0);
+    for (int b = 3; b < 5; b++) {
+      memset(system.mass + system.mass_blocks[b].value, 0, 9 * sizeof(double));
+    }
+    baum_i_kkt *kkt = make_solver(&system, choices[k]);
+    solve_and_compare(kkt, &system, 1e-12);
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+/* Particles in a row, each tied to the next; only the first has mass. */
+static saddle make_massless_row(int particles)
+{
+  saddle system = saddle_make_dense(particles, particles - 1);
+  system.mass[0] = 2.0;
+  for (int i = 0; i < particles - 1; i++) {
+    system.jacobian[i * particles + i] = 1.0;
+    system.jacobian[i * particles + i + 1] = -1.0;
+  }
+  for (int j = 0; j < particles; j++) {
+    system.f[j] = 1.0 + j;
+  }
+  return system;
+}
+
+static void scales_spread_along_bodies_without_mass(void **state)
+{
+  (void)state;
+  saddle system = make_massless_row(6);
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  solve_and_compare(kkt, &system, 1e-15);
+  ASSERT_NEAR(system.a[5], 10.5, 1e-15, 0.0); /* the sum of f over the mass */
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+static void a_free_body_without_mass_is_singular_under_load(void **state)
+{
+  (void)state;
+  saddle system = make_massless_row(3);
+  system.jacobian[5] = 0.0; /* lets the last one go */
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  assert_int_equal(factor(kkt, &system), BAUM_OK);
+  assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
+  system.f[2] = 0.0;
+  assert_int_equal(solve(kkt, &system), BAUM_OK);
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_NEAR_SINGULAR);
+  ASSERT_NEAR(system.a[2], 0.0, 0.0, 1e-15);
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+static void no_mass_at_all_is_kinematics(void **state)
+{
+  (void)state;
+  saddle system = saddle_make_dense(2, 2);
+  const double jacobian[] = {3.0, 1.0, 0.0, 2.0};
+  memcpy(system.jacobian, jacobian, sizeof jacobian);
+  system.r[0] = 5.0;
+  system.r[1] = 4.0;
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  solve_and_compare(kkt, &system, 1e-15);
+  ASSERT_NEAR(system.a[0], 1.0, 1e-15, 0.0);
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+/* ---- singular positions ---- */
+
+/* Half a degree a step; the singular positions, flat, are left out. */
+static void turn_and_solve(int loops, double start)
+{
+  saddle system = make_pose(loops, start);
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  for (int k = 0; k < 720; k++) {
+    double angle = start + k * PI / 360.0;
+    if (fabs(sin(angle)) < 1e-9) {
+      continue;
+    }
+    saddle_pose_four_bar(&system, angle);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+    assert_true(saddle_backward_error(&system) < 3e-14);
+  }
+  baum_i_kkt_counters counters = baum_i_kkt_get_counters(kkt);
+  assert_in_range(counters.full_factorizations, 1, 20);
+  assert_int_equal(counters.fallbacks, 0);
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+static void a_full_turn_from_a_degenerate_pose_is_solved_everywhere(void **state)
+{
+  (void)state;
+  /* Upright and at 45 degrees, where numbers are zero, or equal, but for rounding; and anywhere. */
+  const double starts[] = {PI / 2.0, PI / 4.0, 1.0};
+  for (int k = 0; k < 3; k++) {
+    turn_and_solve(1, starts[k]);
+    turn_and_solve(6, starts[k]);
+  }
+}
+
+static void pivots_that_have_become_small_are_chosen_anew(void **state)
+{
+  (void)state;
+  /* A rotation; test_klu.c shows what kept pivots would give. */
+  saddle system = saddle_make_dense(2, 2);
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_KLU);
+  system.r[0] = 1.0;
+  system.r[1] = 2.0;
+  for (int k = 0; k <= 4; k++) {
+    double angle = k * PI / 2.0;
+    system.jacobian[0] = system.jacobian[3] = cos(angle);
+    system.jacobian[1] = sin(angle);
+    system.jacobian[2] = -sin(angle);
+    solve_and_compare(kkt, &system, 1e-15);
+    assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+    assert_int_equal(baum_i_kkt_get_counters(kkt).full_factorizations, k + 1);
+  }
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+static void accuracy_falls_only_as_fast_as_the_singular_position_nears(void **state)
+{
+  (void)state;
+  for (int exponent = 0; exponent <= 11; exponent++) {
+    double distance = pow(10.0, -exponent);
+    saddle system = make_pose(1, distance);
+    double want[MOST_UNKNOWNS];
+    baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    saddle_solve(&system, want);
+    for (int j = 0; j < system.structure.nv; j++) {
+      ASSERT_NEAR(system.a[j], want[j], 0.0, 1e-15 / distance + 1e-15); /* eps / distance times 5 */
+    }
+    assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 0);
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+static void close_to_a_singular_position_the_solver_says_so(void **state)
+{
+  (void)state;
+  saddle system = make_pose(1, 1e-12);
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  assert_int_equal(factor(kkt, &system), BAUM_OK);
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_NEAR_SINGULAR);
+  assert_true(baum_i_kkt_rcond(kkt) < 1e-10 && baum_i_kkt_rcond(kkt) > 0.0);
+  saddle_pose_four_bar(&system, 0.3);
+  assert_int_equal(factor(kkt, &system), BAUM_OK);
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+  assert_string_equal(baum_i_kkt_backend(kkt), "klu");
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
+{
+  (void)state;
+  saddle system = make_pose(1, 0.0);
+  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
+  assert_int_equal(factor(kkt, &system), BAUM_OK);
+  assert_int_equal(solve(kkt, &system), BAUM_OK);
+  assert_string_equal(baum_i_kkt_backend(kkt), "qr");
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_NEAR_SINGULAR);
+  assert_true(baum_i_kkt_rcond(kkt) == 0.0);
+  assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 1);
+  saddle_pose_four_bar(&system, 0.3);
+  saddle_make_consistent(&system, 3);
+  solve_and_compare(kkt, &system, 1e-13);
+  assert_string_equal(baum_i_kkt_backend(kkt), "klu");
+  assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_GOOD);
+  assert_int_equal(baum_i_kkt_get_counters(kkt).fallbacks, 1);
+  baum_i_kkt_destroy(kkt);
+  saddle_free(&system);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_unit_of_length_does_not_matter),
+    cmocka_unit_test(masses_of_very_different_size_are_all_accurate),
+    cmocka_unit_test(values_near_the_ends_of_the_range_are_solved),
+    cmocka_unit_test(values_beyond_the_range_of_scaling_are_solved_or_refused),
+    cmocka_unit_test(a_body_without_mass_is_solved_where_joints_hold_it),
+    cmocka_unit_test(scales_spread_along_bodies_without_mass),
+    cmocka_unit_test(a_free_body_without_mass_is_singular_under_load),
+    cmocka_unit_test(no_mass_at_all_is_kinematics),
+    cmocka_unit_test(a_full_turn_from_a_degenerate_pose_is_solved_everywhere),
+    cmocka_unit_test(pivots_that_have_become_small_are_chosen_anew),
+    cmocka_unit_test(accuracy_falls_only_as_fast_as_the_singular_position_nears),
+    cmocka_unit_test(close_to_a_singular_position_the_solver_says_so),
+    cmocka_unit_test(at_a_singular_position_qr_takes_over_and_hands_back),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
