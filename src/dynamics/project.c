@@ -8,6 +8,7 @@
  * Newton on the positions until a step is so small that the next, being of its square,
  * is below rounding.
  */
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -38,6 +39,12 @@ static baum_status least_change(baum_workspace *w)
   return status;
 }
 
+/* Steps below it are rounding of the coordinates: far from the origin, or after many turns. */
+static double rounding_of(const baum_mechanism *m, const double *q)
+{
+  return 8.0 * DBL_EPSILON * baum_i_scaled_size(m, q);
+}
+
 static double apply(const baum_mechanism *m, const double *change, double *q)
 {
   for (int i = 0; i < m->nv; i++) {
@@ -63,7 +70,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
       return status;
     }
     double size = apply(m, w->a, q);
-    if (size <= CONVERGED) {
+    if (size <= fmax(CONVERGED, rounding_of(m, q))) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * last)) {

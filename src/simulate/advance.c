@@ -42,15 +42,17 @@ static bool progress_cancels(baum_simulation *run)
   return o->progress(run, run->state.t, o->user) != 0;
 }
 
-/* Before every step: cancelled, or too many steps in this call? */
+/* Before every step: cancelled, or too many steps in this call? A run that stops here stands where
+ * its last step ended, which a variable-step method keeps ahead. */
 static baum_status may_go_on(baum_simulation *run, int64_t taken)
 {
+  double t = run->integrator->step ? run->state.t : run->ahead.t;
   if (atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run)) {
-    return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", run->state.t);
+    return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", t);
   }
   if (taken >= run->options.max_steps) {
-    return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call",
-                       run->state.t, (long long)run->options.max_steps);
+    return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
+                       (long long)run->options.max_steps);
   }
   return BAUM_OK;
 }
