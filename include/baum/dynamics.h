@@ -24,7 +24,8 @@ extern "C" {
 /** Memory for evaluating one mechanism. */
 typedef struct baum_workspace baum_workspace;
 
-/** Make a workspace; it keeps the mechanism alive.
+/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the drawn pose
+ *  at t = 0.
  *  @param[in]  mechanism  frozen
  *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY

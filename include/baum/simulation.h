@@ -40,7 +40,8 @@ BAUM_API const baum_integrator *baum_rk4(void);
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
-/** SUNDIALS CVODE, BDF with Newton iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. */
+/** SUNDIALS CVODE, BDF with Newton iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. Its Jacobian is
+ *  dense and taken by differences: for up to about 100 coordinates. */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. BAUMGARTE (auto), UNSTABILIZED,
  *  and INDEX3, which is there for comparison: its error is far above its tolerance. */

@@ -25,6 +25,8 @@ static const double STEP_LIMIT = 0.25; /* change of a coordinate in one step, of
 static const double CONVERGED = 1e-11; /* a Newton step below this leaves its square */
 static const double ROUNDING = 1e-13;  /* violation, as a displacement, that counts as none */
 static const double CONSISTENT = 1e-9; /* likewise, above which rows contradict each other */
+/* [scales per unit of time] a velocity that small is a rounded zero, and contradicts nothing. */
+static const double NO_RATE = 1e-14;
 
 /* Memory of one assembly. */
 typedef struct assembly {
@@ -286,7 +288,7 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   }
   measure_rows(w, w->shift, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
-  if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size)) {
+  if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + NO_RATE)) {
     return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",
                              "per s left");
   }

@@ -52,6 +52,16 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
 
 /* ---- life ---- */
 
+/* Which rows are redundant, from the drawn pose at t = 0. Where that cannot be assembled or evaluated all
+ * rows are taken for independent; evaluation will tell what is wrong. */
+static baum_status learn_redundancy(baum_workspace *w)
+{
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_status status = baum_i_find_redundancy(w, 0.0, w->mechanism->drawn_q);
+  return status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
+}
+
 baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out)
 {
   if (!out) {
@@ -59,7 +69,17 @@ baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspac
   }
   *out = NULL;
   baum_status status = baum_i_check_frozen(mechanism, "baum_workspace_create");
-  return status == BAUM_OK ? baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out) : status;
+  if (status == BAUM_OK) {
+    status = baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out);
+  }
+  if (status == BAUM_OK) {
+    status = learn_redundancy(*out);
+  }
+  if (status != BAUM_OK) {
+    baum_workspace_destroy(*out);
+    *out = NULL;
+  }
+  return status;
 }
 
 baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v)

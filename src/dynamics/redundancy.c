@@ -162,21 +162,26 @@ static baum_status look_around(const search *s, double t, const double *q)
   return BAUM_OK;
 }
 
-/* The pose to look at: assembled, because off the constraints no row depends on others exactly. A
- * pose that cannot be assembled is taken as it is. */
-static baum_status assembled(const search *s, double t, const double *q)
+/* Constraints that contradict each other have no redundant rows: leaving one out would hide the
+ * contradiction. */
+static void keep_all(baum_i_redundancy *r, int nc)
 {
-  memcpy(s->start, q, (size_t)s->w->mechanism->nv * sizeof *q);
-  baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
-  return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
+  r->count = 0;
+  memset(r->dropped, 0, (size_t)nc);
 }
 
-static baum_status find(const search *s, double t)
+/* The pose to look at is assembled, because off the constraints no row depends on others exactly. */
+static baum_status find(const search *s, double t, const double *q)
 {
   baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
   int rank = 0;
-  baum_status status = rank_at(s, t, s->start, &rank);
+  memcpy(s->start, q, (size_t)s->w->mechanism->nv * sizeof *q);
+  baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
+  bool fits = status == BAUM_OK;
+  if (status != BAUM_ERR_MEMORY) {
+    status = rank_at(s, t, s->start, &rank);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -184,6 +189,10 @@ static baum_status find(const search *s, double t)
   r->rank_at_start = rank;
   if (rank == nc) {
     return BAUM_OK; /* independent here means independent nearby */
+  }
+  if (!fits) {
+    keep_all(r, nc);
+    return BAUM_OK;
   }
   status = look_around(s, t, s->start);
   baum_i_free(r->combination);
@@ -209,8 +218,7 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   if (memory && independent) {
     const search s = {workspace,       memory,          memory + nv,
                       memory + 2 * nv, memory + 3 * nv, independent};
-    status = assembled(&s, t, q);
-    status = status == BAUM_OK ? find(&s, t) : status;
+    status = find(&s, t, q);
   } else {
     status = baum_i_fail_memory();
   }

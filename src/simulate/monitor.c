@@ -143,6 +143,35 @@ static void observe_redundant(baum_simulation *run, double t)
   }
 }
 
+/* A constraint that is off by more than this share of the scales is no longer that of the mechanism:
+ * the run has drifted far or blown up. */
+static const double LARGE = 0.05;
+
+/* Judged anew only when the largest violation has doubled, for it costs a pass over J. */
+static void observe_large(baum_simulation *run, double t)
+{
+  const baum_workspace *w = run->workspace;
+  const baum_mechanism *m = w->mechanism;
+  if (run->large_seen || run->counters.max_phi <= 2.0 * run->judged_phi) {
+    return;
+  }
+  run->judged_phi = run->counters.max_phi;
+  double *distance = w->work_c;
+  baum_i_row_displacements(w, distance);
+  for (int i = 0; i < m->nc && !run->large_seen; i++) {
+    double size = fabs(w->phi[i]) / distance[i];
+    run->large_seen = size > LARGE;
+    if (run->large_seen) {
+      char label[BAUM_I_LABEL_SIZE];
+      (void)baum_i_joint_label(m, baum_i_row_joint(m, i), label);
+      baum_i_run_warn(run,
+                      "t = %.9g s: %s is violated by %.3g, relative to the scales: the run has "
+                      "drifted far or blows up; take other gains, a smaller step, or projection",
+                      t, label, size);
+    }
+  }
+}
+
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 {
   const baum_workspace *w = run->workspace;
@@ -152,6 +181,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   if (with_gamma && run->integrator->predicts_violation) {
     observe_gamma(run);
   }
+  observe_large(run, t);
   observe_singular(run, t);
   observe_redundant(run, t);
 }

@@ -313,6 +313,90 @@ static void a_redundant_mechanism_runs_with_a_warning_that_names_its_joints(void
   baum_mechanism_destroy(m);
 }
 
+/* A pin driven twice: by rate * t, and by rate * t + acceleration * t^2 / 2. */
+static baum_mechanism *driven_twice(double acceleration)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_body_id link = add_link(m, "link", 1.0, 0.0, 0.0);
+  baum_driver_def def = baum_driver_def_default();
+  def.joint = add_pin(m, "pin", BAUM_GROUND, link, 0.0, 0.0);
+  def.rate = 2.0;
+  def.name = "one motor";
+  assert_int_equal(baum_mechanism_add_driver(m, &def, NULL), BAUM_OK);
+  def.acceleration = acceleration;
+  def.name = "other motor";
+  assert_int_equal(baum_mechanism_add_driver(m, &def, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static int64_t warnings_after(const baum_mechanism *m, double t)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *s = NULL;
+  baum_counters c;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(s, t), BAUM_WARNED);
+  assert_int_equal(baum_simulation_counters(s, &c, sizeof c), BAUM_OK);
+  baum_simulation_destroy(s);
+  return c.warnings;
+}
+
+static void drivers_that_part_later_are_warned_of(void **state)
+{
+  (void)state;
+  baum_mechanism *same = driven_twice(0.0);
+  baum_mechanism *parting = driven_twice(1.0);
+  assert_int_equal(warnings_after(same, 1.0), 1); /* redundant, and nothing else */
+  assert_true(warnings_after(parting, 1.0) >= 2); /* and violated */
+  baum_mechanism_destroy(same);
+  baum_mechanism_destroy(parting);
+}
+
+static void a_workspace_projects_a_redundant_mechanism(void **state)
+{
+  (void)state;
+  baum_mechanism *m = parallelogram(3, 0.7);
+  baum_workspace *w = NULL;
+  double q[12];
+  double v[12] = {0.0};
+  double phi[12];
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  for (int i = 0; i < 12; i++) {
+    q[i] += 1e-4 * sin(3.0 * i);
+    v[i] = cos(2.0 * i);
+  }
+  assert_int_equal(baum_workspace_project(w, 0.0, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_phi(w, 0.0, q, phi), BAUM_OK);
+  for (int i = 0; i < 12; i++) {
+    ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-14); /* rows that were left out too */
+  }
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
+static void a_run_that_blows_up_is_warned_of(void **state)
+{
+  (void)state;
+  baum_mechanism *m = pendulum_with_pins(1);
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *s = NULL;
+  char text[320];
+  o.integrator = baum_euler();
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  o.step = 0.1; /* far too large */
+  assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(s, 3.0), BAUM_WARNED);
+  assert_int_equal(baum_simulation_warning(s, 0, text, sizeof text), BAUM_OK);
+  assert_non_null(strstr(text, "joint 1 \"pin\" is violated by"));
+  baum_simulation_destroy(s);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -324,6 +408,9 @@ int main(void)
     cmocka_unit_test(a_body_without_a_joint_is_named),
     cmocka_unit_test(two_contradicting_rods_are_named_and_refused),
     cmocka_unit_test(a_redundant_mechanism_runs_with_a_warning_that_names_its_joints),
+    cmocka_unit_test(drivers_that_part_later_are_warned_of),
+    cmocka_unit_test(a_workspace_projects_a_redundant_mechanism),
+    cmocka_unit_test(a_run_that_blows_up_is_warned_of),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
