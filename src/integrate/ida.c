@@ -345,6 +345,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   count(run, &present);
   run->before = present;
   begin(run, problem, state->t);
+  run->sundials.unfinished = true;
   baum_status status = load(run, problem, state);
   if (status != BAUM_OK) {
     return status;
