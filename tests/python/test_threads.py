@@ -140,8 +140,10 @@ class Cancelled(unittest.TestCase):
             rod_pendulum().simulate([1.0], "rk4", step=1e-3, progress=progress, progress_interval=0)
 
 
+# A program started in the background of a shell inherits that SIGINT is ignored.
 INTERRUPTED = """
-import sys, threading, time
+import signal, sys, threading, time
+signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.path.insert(0, {here!r})
 import baum
 from mechanisms import *
