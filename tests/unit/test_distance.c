@@ -149,7 +149,7 @@ static void definitions_come_back(void **state)
   second.name = "other";
   second.point_b[1] = -6.0;
   second.length = 2.5;
-  CHECK_ROUND_TRIP(joint, planar_distance, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(joint, planar_distance, length, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -307,7 +307,7 @@ static void definitions_come_back(void **state)
   second.acceleration = -2.0;
   second.law = swing;
   second.user = &fast;
-  CHECK_ROUND_TRIP(joint, driver, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(joint, driver, user, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

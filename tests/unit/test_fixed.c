@@ -93,7 +93,7 @@ static void definitions_come_back(void **state)
   second.name = "other";
   second.point_b[1] = -6.0;
   second.angle = 2.5;
-  CHECK_ROUND_TRIP(joint, planar_fixed, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(joint, planar_fixed, angle, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

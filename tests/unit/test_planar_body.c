@@ -156,7 +156,7 @@ static void definitions_come_back(void **state)
   second.velocity[0] = 0.5;
   second.angular_velocity = 3.0;
   second.held = true;
-  CHECK_ROUND_TRIP(body, planar_body, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(body, planar_body, held, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

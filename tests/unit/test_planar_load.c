@@ -201,7 +201,7 @@ static void definitions_come_back(void **state)
   second.force[0] = 2.5;
   second.torque = 9.0;
   second.follows_body = true;
-  CHECK_ROUND_TRIP(force, planar_load, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(force, planar_load, follows_body, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -133,7 +133,7 @@ static void definitions_come_back(void **state)
   second.mass = 11.0;
   second.velocity[0] = 0.5;
   second.held = true;
-  CHECK_ROUND_TRIP(body, planar_particle, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(body, planar_particle, held, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -192,7 +192,7 @@ static void definitions_come_back(void **state)
   second.stiffness = 2.5;
   second.damping = 0.5;
   second.free_length = 0.0;
-  CHECK_ROUND_TRIP(force, planar_spring, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(force, planar_spring, free_length, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -140,7 +140,7 @@ static void definitions_come_back(void **state)
   second.body_b = scene.crank;
   second.point[0] = 3.0;
   second.point[1] = -4.0;
-  CHECK_ROUND_TRIP(joint, planar_revolute, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(joint, planar_revolute, point_b, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 

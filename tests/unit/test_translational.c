@@ -195,7 +195,7 @@ static void definitions_come_back(void **state)
   second.axis[0] = 0.6;
   second.axis[1] = -0.8;
   second.angle = 2.5;
-  CHECK_ROUND_TRIP(joint, planar_translational, scene.mechanism, &first, &second);
+  CHECK_ROUND_TRIP(joint, planar_translational, angle, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 
