@@ -41,8 +41,8 @@ struct baum_simulation {
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
   bool redundant_seen;        /* a row left out as redundant was found violated */
-  bool large_seen;             /* a violation above a share of the scales has been warned of */
-  double judged_phi;           /* max_phi when that was last looked at */
+  bool large_seen;            /* a violation above a share of the scales has been warned of */
+  double judged_phi;          /* max_phi when that was last looked at */
 
   int64_t signalled; /* warnings that a status has announced */
   char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
