@@ -140,6 +140,24 @@ class Cancelled(unittest.TestCase):
             rod_pendulum().simulate([1.0], "rk4", step=1e-3, progress=progress, progress_interval=0)
 
 
+class Tasks(unittest.TestCase):
+    def test_a_call_that_never_reached_its_worker_is_let_be(self):
+        made = []
+        task = _calls._Task(made.append, (1,))
+        _calls._come_back(task, None)
+        task.run()
+        self.assertEqual(made, [])
+        self.assertFalse(task.finished)
+
+    def test_a_call_is_made_once(self):
+        made = []
+        task = _calls._Task(made.append, (1,))
+        task.run()
+        task.run()
+        _calls._come_back(task, None)
+        self.assertEqual(made, [1])
+
+
 # A program started in the background of a shell inherits that SIGINT is ignored.
 INTERRUPTED = """
 import signal, sys, threading, time

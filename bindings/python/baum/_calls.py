@@ -64,10 +64,19 @@ class _Task:
         self._call = (contextvars.copy_context().run, function, *arguments)
         self._done = threading.Lock()
         self._done.acquire()
+        self._claims = {}
         self.finished = False
         self._result = self._error = None
 
+    def claim(self):
+        """Whether the caller is the first to ask: it alone may make the call, or let it be. Ctrl-C
+        may strike before the call has reached the worker."""
+        me = object()
+        return self._claims.setdefault("first", me) is me
+
     def run(self):
+        if not self.claim():
+            return
         try:
             call, *arguments = self._call
             self._result = call(*arguments)
@@ -143,8 +152,10 @@ def interruptible(function, *arguments, cancel=None):
 
 
 def _come_back(task, cancel):
-    """Ask a call to stop and wait until it has."""
+    """Ask a call to stop and wait until it has; one that has not begun never will."""
     try:
+        if task.claim():
+            return
         if cancel is not None and not task.finished:
             cancel()
         while not task.finished:
