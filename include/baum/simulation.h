@@ -92,7 +92,8 @@ typedef enum baum_solver {
   BAUM_SOLVER_QR = 2    /**< Sparse rank-revealing QR; slow, for comparison and singular poses. */
 } baum_solver;
 
-/** Called now and then during a run. @return non-zero to cancel */
+/** Called now and then during a call that advances a run; each call begins the interval anew.
+ *  @return non-zero to cancel */
 typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *user);
 
 /* ---- options --------------------------------------------------------------------------------- */

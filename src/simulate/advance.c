@@ -306,9 +306,7 @@ static struct timespec begin(baum_simulation *run)
 {
   struct timespec now;
   (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  if (run->last_progress.tv_sec == 0) { /* the first call; later ones go on with the interval */
-    run->last_progress = now;
-  }
+  run->last_progress = now;
   return now;
 }
 
