@@ -101,6 +101,8 @@ static void compare_jacobians(const char *name, baum_mechanism *mechanism,
   double steps = (double)exact.steps / (double)differences.steps;
   double iterations = (double)exact.statistics.nonlinear_iterations /
                       (double)differences.statistics.nonlinear_iterations;
+  print_message("%-20s %-10s %6.3f x the iterations per step, %6.3f x the iterations\n", name,
+                baum_formulation_name(formulation), iterations / steps, iterations);
   if (!(steps <= 1.15 && iterations <= 1.15)) {
     fail_msg("%s, %s: %.2f x the steps, %.2f x the iterations", name,
              baum_formulation_name(formulation), steps, iterations);
