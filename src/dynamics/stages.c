@@ -12,18 +12,6 @@ baum_status baum_i_evaluate_mass(baum_workspace *w)
   return status;
 }
 
-static baum_status evaluate_position(baum_workspace *w)
-{
-  baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_jacobian(&w->point, w->jacobian);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_nu(&w->point, w->nu);
-  }
-  return status;
-}
-
 /* Phi' = J v - nu (3) */
 static void evaluate_rate(baum_workspace *w, const double *v)
 {
@@ -36,31 +24,34 @@ static void evaluate_rate(baum_workspace *w, const double *v)
 baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
 {
   baum_i_point_set(&w->point, t, q, NULL);
-  baum_status status = evaluate_position(w);
+  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu};
+  baum_status status = baum_i_mechanism_rows(&w->point, &rows);
   return status == BAUM_OK ? baum_i_evaluate_mass(w) : status;
 }
 
-baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const double *v)
+/* Rows at (t, q, v), Phi', and gamma where it is not NULL. */
+static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, const double *v,
+                                 double *gamma)
 {
   baum_i_point_set(&w->point, t, q, v);
-  baum_status status = evaluate_position(w);
+  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = gamma};
+  baum_status status = baum_i_mechanism_rows(&w->point, &rows);
   if (status == BAUM_OK) {
     evaluate_rate(w, v);
   }
   return status;
 }
 
+baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const double *v)
+{
+  return evaluate_rows(w, t, q, v, NULL);
+}
+
 baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, const double *v)
 {
-  baum_status status = baum_i_violation(w, t, q, v);
+  baum_status status = evaluate_rows(w, t, q, v, w->gamma);
   if (status == BAUM_OK) {
     status = baum_i_evaluate_mass(w);
   }
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_gamma(&w->point, w->gamma);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_force(&w->point, w->force);
-  }
-  return status;
+  return status == BAUM_OK ? baum_i_mechanism_force(&w->point, w->force) : status;
 }

@@ -42,51 +42,36 @@ void baum_i_point_set(baum_i_point *point, double t, const double *q, const doub
 
 /* ---- joints ---- */
 
-baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi)
+baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows)
 {
   const baum_mechanism *mechanism = point->mechanism;
   baum_status status = BAUM_OK;
   for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
     const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    status = group->type->phi(group, point, phi);
+    status = group->type->evaluate(group, point, rows);
   }
   return status;
+}
+
+baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi)
+{
+  return baum_i_mechanism_rows(point, &(baum_i_rows){.phi = phi});
 }
 
 baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
-    const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    status = group->type->jacobian(group, point, jacobian);
-  }
-  return status;
+  return baum_i_mechanism_rows(point, &(baum_i_rows){.jacobian = jacobian});
 }
 
 baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  memset(nu, 0, (size_t)mechanism->nc * sizeof *nu);
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
-    const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    if (group->type->nu) {
-      status = group->type->nu(group, point, nu);
-    }
-  }
-  return status;
+  memset(nu, 0, (size_t)point->mechanism->nc * sizeof *nu);
+  return baum_i_mechanism_rows(point, &(baum_i_rows){.nu = nu});
 }
 
 baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
-    const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    status = group->type->gamma(group, point, gamma);
-  }
-  return status;
+  return baum_i_mechanism_rows(point, &(baum_i_rows){.gamma = gamma});
 }
 
 static void clear(double *values, int count)

@@ -149,6 +149,15 @@ void baum_i_point_set(baum_i_point *point, double t, const double *q, const doub
 
 /* ---- types ---- */
 
+/* What is wanted of all constraint rows; NULL members are not. Rows of nu whose joint is
+ * scleronomic are left as they are: they hold zeros. */
+typedef struct baum_i_rows {
+  double *phi;      /* (nc) */
+  double *jacobian; /* (jacobian_size) */
+  double *nu;       /* (nc) */
+  double *gamma;    /* (nc); needs velocities */
+} baum_i_rows;
+
 /* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the
  * joint's `jacobian` (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted.
  * Set, not added. */
@@ -228,11 +237,9 @@ struct baum_i_joint_type {
    * sentence. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Each sets its rows or blocks; nu may be NULL for zeros. */
-  baum_status (*phi)(const baum_i_joint_group *group, baum_i_point *point, double *phi);
-  baum_status (*jacobian)(const baum_i_joint_group *group, baum_i_point *point, double *jacobian);
-  baum_status (*nu)(const baum_i_joint_group *group, baum_i_point *point, double *nu);
-  baum_status (*gamma)(const baum_i_joint_group *group, baum_i_point *point, double *gamma);
+  /* Sets its rows and blocks of what is wanted. */
+  baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
+                          const baum_i_rows *rows);
   /* w (nv), lambda (nc); blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_joint_group *group, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -350,6 +357,8 @@ const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
 
 /* ---- evaluation of the whole: runs over all groups; arrays as in the types above ---- */
 
+baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows);
+/* One of them, all of it set. */
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi);           /* (nc) */
 baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian); /* (jacobian_size) */
 baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /* (nc) */

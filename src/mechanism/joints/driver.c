@@ -146,61 +146,42 @@ static void coordinate_of(const baum_i_joint *joint, const baum_i_point *point,
   driven->type->coordinate(driven, point, out);
 }
 
-static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
+                                const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    double s[3];
+  double s[3] = {0.0};
+  if (out->phi || out->nu || out->gamma) {
     baum_status status = law(joint, point, s);
     if (status != BAUM_OK) {
       return status;
     }
-    baum_i_coordinate c;
-    coordinate_of(joint, point, &c);
-    out[joint->row] = c.value - s[0];
+  }
+  baum_i_coordinate c;
+  coordinate_of(joint, point, &c);
+  if (out->phi) {
+    out->phi[joint->row] = c.value - s[0];
+  }
+  if (out->jacobian) {
+    baum_i_planar_pack(point->mechanism, &joint->span, 1, c.gradient,
+                       out->jacobian + joint->jacobian);
+  }
+  if (out->nu) {
+    out->nu[joint->row] = s[1];
+  }
+  if (out->gamma) {
+    out->gamma[joint->row] = c.gamma + s[2];
   }
   return BAUM_OK;
 }
 
-static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_coordinate c;
-    coordinate_of(joint, point, &c);
-    baum_i_planar_pack(point->mechanism, &joint->span, 1, c.gradient, out + joint->jacobian);
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    status = evaluate_one(group->joints[i], point, out);
   }
-  return BAUM_OK;
-}
-
-static baum_status nu(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    double s[3];
-    baum_status status = law(joint, point, s);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    out[joint->row] = s[1];
-  }
-  return BAUM_OK;
-}
-
-static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    double s[3];
-    baum_status status = law(joint, point, s);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    baum_i_coordinate c;
-    coordinate_of(joint, point, &c);
-    out[joint->row] = c.gamma + s[2];
-  }
-  return BAUM_OK;
+  return status;
 }
 
 static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, const double *six,
@@ -253,10 +234,7 @@ static const baum_i_joint_type type = {
   .rows = rows,
   .bodies = bodies,
   .lower = lower,
-  .phi = phi,
-  .jacobian = jacobian,
-  .nu = nu,
-  .gamma = gamma_rows,
+  .evaluate = evaluate,
   .linearize = linearize,
   .place = place,
 };

@@ -7,6 +7,8 @@
 #ifndef BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
 #define BAUM_I_MECHANISM_JOINTS_PLANAR_ROWS_H
 
+#include <string.h>
+
 #include "mechanism/planar.h"
 
 enum {
@@ -64,30 +66,46 @@ static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
   return pair->frame_b->angle - pair->frame_a->angle;
 }
 
-/* One value per row: phi, gamma. */
-static inline baum_status baum_i_planar_values(const baum_i_joint_group *group,
-                                               const baum_i_point *point,
-                                               baum_i_planar_kernel *kernel, double *out)
+/* What one joint computes; static const beside the kernels, so that the loop below needs no calls
+ * through pointers. */
+typedef struct baum_i_planar_kernels {
+  baum_i_planar_kernel *phi;
+  baum_i_planar_kernel *jacobian; /* six columns; the zeros are there already */
+  baum_i_planar_kernel *gamma;
+} baum_i_planar_kernels;
+
+static inline void baum_i_planar_put_jacobian(const baum_i_joint *joint, const baum_i_point *point,
+                                              const baum_i_planar_pair *pair,
+                                              baum_i_planar_kernel *kernel, double *packed)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-    kernel(&pair, out + joint->row);
+  enum { COLUMNS = BAUM_I_PLANAR_COLUMNS };
+  double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS] = {0.0};
+  kernel(pair, six);
+  if (joint->span.nl == COLUMNS) {
+    memcpy(packed, six, (size_t)(joint->rows * COLUMNS) * sizeof *six);
+  } else {
+    baum_i_planar_pack(point->mechanism, &joint->span, joint->rows, six, packed);
   }
-  return BAUM_OK;
 }
 
-static inline baum_status baum_i_planar_jacobian(const baum_i_joint_group *group,
+static inline baum_status baum_i_planar_evaluate(const baum_i_joint_group *group,
                                                  const baum_i_point *point,
-                                                 baum_i_planar_kernel *kernel, double *jacobian)
+                                                 const baum_i_planar_kernels *kernels,
+                                                 const baum_i_rows *rows)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_joint *joint = group->joints[i];
     baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-    double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS] = {0.0};
-    kernel(&pair, six);
-    baum_i_planar_pack(point->mechanism, &joint->span, joint->rows, six,
-                       jacobian + joint->jacobian);
+    if (rows->phi) {
+      kernels->phi(&pair, rows->phi + joint->row);
+    }
+    if (rows->jacobian) {
+      baum_i_planar_put_jacobian(joint, point, &pair, kernels->jacobian,
+                                 rows->jacobian + joint->jacobian);
+    }
+    if (rows->gamma) {
+      kernels->gamma(&pair, rows->gamma + joint->row);
+    }
   }
   return BAUM_OK;
 }

@@ -25,19 +25,12 @@ static int rows(const void *def)
   return 2;
 }
 
-static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
 {
-  return baum_i_planar_values(group, point, baum_i_pin_phi, out);
-}
-
-static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  return baum_i_planar_jacobian(group, point, baum_i_pin_jacobian, out);
-}
-
-static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  return baum_i_planar_values(group, point, baum_i_pin_gamma, out);
+  static const baum_i_planar_kernels kernels = {baum_i_pin_phi, baum_i_pin_jacobian,
+                                                baum_i_pin_gamma};
+  return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 
 static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
@@ -79,9 +72,7 @@ static const baum_i_joint_type type = {
   .rows = rows,
   .bodies = baum_i_planar_bodies,
   .lower = baum_i_planar_lower_points,
-  .phi = phi,
-  .jacobian = jacobian,
-  .gamma = gamma_rows,
+  .evaluate = evaluate,
   .linearize = linearize,
   .place = baum_i_planar_place,
   .coordinate_unit = "rad",

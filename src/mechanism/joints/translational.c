@@ -131,19 +131,11 @@ static void one_linearize(const baum_i_planar_pair *pair, const double *w, const
 
 /* ---- type ---- */
 
-static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
 {
-  return baum_i_planar_values(group, point, one_phi, out);
-}
-
-static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  return baum_i_planar_jacobian(group, point, one_jacobian, out);
-}
-
-static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  return baum_i_planar_values(group, point, one_gamma, out);
+  static const baum_i_planar_kernels kernels = {one_phi, one_jacobian, one_gamma};
+  return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 
 static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
@@ -185,9 +177,7 @@ static const baum_i_joint_type type = {
   .rows = rows,
   .bodies = baum_i_planar_bodies,
   .lower = lower,
-  .phi = phi,
-  .jacobian = jacobian,
-  .gamma = gamma_rows,
+  .evaluate = evaluate,
   .linearize = linearize,
   .place = baum_i_planar_place,
   .coordinate_unit = "m",

@@ -245,46 +245,29 @@ static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, d
 
 /* ---- evaluation ---- */
 
-static baum_status phi(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
+                                const baum_i_rows *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_local at = baum_i_gather(point, &joint->span);
-    status = phi_at(joint, &at, out + joint->row);
+  baum_i_local at = baum_i_gather(point, &joint->span);
+  baum_status status = out->phi ? phi_at(joint, &at, out->phi + joint->row) : BAUM_OK;
+  if (status == BAUM_OK && out->jacobian) {
+    status = jacobian_at(joint, &at, out->jacobian + joint->jacobian);
+  }
+  if (status == BAUM_OK && out->nu) {
+    status = nu_at(joint, &at, out->nu + joint->row);
+  }
+  if (status == BAUM_OK && out->gamma) {
+    status = gamma_at(joint, &at, out->gamma + joint->row);
   }
   return status;
 }
 
-static baum_status jacobian(const baum_i_joint_group *group, baum_i_point *point, double *out)
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
 {
   baum_status status = BAUM_OK;
   for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_local at = baum_i_gather(point, &joint->span);
-    status = jacobian_at(joint, &at, out + joint->jacobian);
-  }
-  return status;
-}
-
-static baum_status nu(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_local at = baum_i_gather(point, &joint->span);
-    status = nu_at(joint, &at, out + joint->row);
-  }
-  return status;
-}
-
-static baum_status gamma_rows(const baum_i_joint_group *group, baum_i_point *point, double *out)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_local at = baum_i_gather(point, &joint->span);
-    status = gamma_at(joint, &at, out + joint->row);
+    status = evaluate_one(group->joints[i], point, out);
   }
   return status;
 }
@@ -564,10 +547,7 @@ static const baum_i_joint_type type = {
                  .release = release},
   .rows = rows,
   .bodies = bodies,
-  .phi = phi,
-  .jacobian = jacobian,
-  .nu = nu,
-  .gamma = gamma_rows,
+  .evaluate = evaluate,
   .linearize = linearize,
   .check = check_derivatives,
   .noise = noise,
