@@ -17,7 +17,9 @@
  *  Callbacks: q and v hold the coordinates of the named bodies one after the other; matrices are
  *  dense and row-major, zeroed before the call; return 0 when fine, > 0 to ask for a smaller
  *  step, < 0 to stop the run. They must be reentrant when the mechanism is shared between threads.
- *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused.
+ *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are only
+ *  ever appended: a struct of a program that was compiled with an older version is smaller, and what
+ *  it lacks has its default. A larger one, of a newer version, is refused (BAUM_ERR_STRUCT).
  */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H

@@ -98,8 +98,9 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-/** How to run. Start from baum_simulation_options_default(). Variable-step integrators may step over
- *  a force or a law that begins late or does not last: give max_step then. */
+/** How to run. Start from baum_simulation_options_default(); a struct of an older version is taken as
+ *  definitions are, see mechanism.h. Variable-step integrators may step over a force or a law that
+ *  begins late or does not last: give max_step then. */
 typedef struct baum_simulation_options {
   size_t struct_size;                /**< Set by the default. Do not write. */
   const baum_integrator *integrator; /**< Default: NULL, must be set. */

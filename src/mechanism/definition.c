@@ -6,6 +6,7 @@
  */
 #include "mechanism/definition.h"
 
+#include <assert.h>
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -56,20 +57,46 @@ baum_status baum_i_check_optional(const char *label, const char *field, const ch
                      label, field, value, unit);
 }
 
-static const void *defined(const void *def, const baum_i_definition *definition)
+/* ---- a caller's struct, which may be of an older version ---- */
+
+/* Fields are only ever appended, so that a smaller struct is one of an older version: what it lacks
+ * has its default. */
+typedef union whole_def {
+  baum_i_def_head head;
+  double numbers[32];
+  unsigned char bytes[256];
+} whole_def;
+
+/* How much of a struct of that size are fields that its version had. A struct ends with padding,
+ * where a later version may have put a field. */
+static size_t fields_of(const baum_i_definition *definition, size_t size)
 {
-  const baum_i_def_head *head = def;
+  const size_t word = sizeof(size_t);
+  for (const size_t *end = definition->former; end && *end > 0; end++) {
+    if ((*end + word - 1) / word * word == size) {
+      return *end;
+    }
+  }
+  return size;
+}
+
+static baum_status complete(const baum_i_definition *definition, const void *def, whole_def *out)
+{
   if (!def) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the definition is NULL", definition->kind);
-    return NULL;
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the definition is NULL", definition->kind);
   }
-  if (head->struct_size != definition->size) {
-    (void)baum_i_fail(BAUM_ERR_STRUCT,
-                      "%s: struct_size is %zu, must be %zu; start from the default definition",
-                      definition->kind, head->struct_size, definition->size);
-    return NULL;
+  size_t size = ((const baum_i_def_head *)def)->struct_size;
+  if (!baum_i_is_struct_size(size, definition->size)) {
+    return baum_i_fail(BAUM_ERR_STRUCT,
+                       "%s: struct_size is %zu, must be %zu, or that of an older version; start "
+                       "from the default definition",
+                       definition->kind, size, definition->size);
   }
-  return def;
+  assert(definition->size <= sizeof *out);
+  memcpy(out, definition->defaults, definition->size);
+  memcpy(out, def, fields_of(definition, size));
+  out->head.struct_size = definition->size;
+  return BAUM_OK;
 }
 
 /* ---- the element's own copy ---- */
@@ -147,26 +174,27 @@ static baum_status fail_no_mechanism(const kind *k)
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", k->definition->kind);
 }
 
-/* Check a definition for the number-th element of its family. */
+/* Complete a definition and check it for the number-th element of its family. */
 static baum_status check(const baum_mechanism *mechanism, const kind *k, const void *def,
-                         int number)
+                         int number, whole_def *out)
 {
   const baum_i_definition *definition = k->definition;
   if (mechanism->frozen) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
                        definition->kind);
   }
-  if (!defined(def, definition)) {
-    return def ? BAUM_ERR_STRUCT : BAUM_ERR_ARGUMENT;
+  baum_status status = complete(definition, def, out);
+  if (status != BAUM_OK) {
+    return status;
   }
-  const char *name = ((const baum_i_def_head *)def)->name;
+  const char *name = out->head.name;
   char label[BAUM_I_LABEL_SIZE];
   if (name) {
     (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", k->family, number, name);
   } else {
     (void)snprintf(label, sizeof label, "%s %d \"%s%d\"", k->family, number, k->family, number);
   }
-  return definition->check(mechanism, def, label);
+  return definition->check(mechanism, out, label);
 }
 
 static void free_span(baum_i_span *span)
@@ -265,15 +293,16 @@ static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, co
 static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element *element,
                        const void *def)
 {
-  baum_status status = check(mechanism, k, def, element->index);
+  whole_def whole;
+  baum_status status = check(mechanism, k, def, element->index, &whole);
   if (status == BAUM_OK) {
-    status = check_ties(mechanism, k, def, element);
+    status = check_ties(mechanism, k, &whole, element);
   }
   if (status != BAUM_OK) {
     return status;
   }
   baum_i_element next = *element;
-  status = fill(&next, k->family, def);
+  status = fill(&next, k->family, &whole);
   if (status == BAUM_OK) {
     release(element);
     *element = next;
@@ -334,7 +363,8 @@ baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *t
     return fail_no_mechanism(&k);
   }
   int number = mechanism->body_count + 1;
-  baum_status status = check(mechanism, &k, def, number);
+  whole_def whole;
+  baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
   }
@@ -343,7 +373,7 @@ baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *t
     return BAUM_ERR_MEMORY;
   }
   mechanism->bodies = list;
-  list[number] = baum_i_body_new(mechanism, type, def, number);
+  list[number] = baum_i_body_new(mechanism, type, &whole, number);
   if (!list[number]) {
     return BAUM_ERR_MEMORY;
   }
@@ -411,7 +441,8 @@ baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type 
     return fail_no_mechanism(&k);
   }
   int number = mechanism->joint_count + 1;
-  baum_status status = check(mechanism, &k, def, number);
+  whole_def whole;
+  baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
   }
@@ -420,7 +451,7 @@ baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type 
     return BAUM_ERR_MEMORY;
   }
   mechanism->joints = list;
-  list[number - 1] = baum_i_joint_new(mechanism, type, def, number);
+  list[number - 1] = baum_i_joint_new(mechanism, type, &whole, number);
   if (!list[number - 1]) {
     return BAUM_ERR_MEMORY;
   }
@@ -475,7 +506,8 @@ baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type 
     return fail_no_mechanism(&k);
   }
   int number = mechanism->force_count + 1;
-  baum_status status = check(mechanism, &k, def, number);
+  whole_def whole;
+  baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
   }
@@ -484,7 +516,7 @@ baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type 
     return BAUM_ERR_MEMORY;
   }
   mechanism->forces = list;
-  list[number - 1] = baum_i_force_new(mechanism, type, def, number);
+  list[number - 1] = baum_i_force_new(mechanism, type, &whole, number);
   if (!list[number - 1]) {
     return BAUM_ERR_MEMORY;
   }

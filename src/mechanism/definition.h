@@ -12,6 +12,13 @@
 /* What an optional number is by default; NAN itself is a float. */
 #define BAUM_I_NOT_GIVEN ((double)NAN)
 
+/* Whether a caller's struct_size may be that of this struct or of a version before it had all of
+ * its fields: whole words, from the first two fields on. */
+static inline bool baum_i_is_struct_size(size_t size, size_t present)
+{
+  return size >= sizeof(baum_i_def_head) && size <= present && size % sizeof(size_t) == 0;
+}
+
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size);
 
 baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *type,

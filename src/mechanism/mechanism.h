@@ -26,6 +26,9 @@ typedef struct baum_i_definition {
   const char *kind;     /* "planar body", for messages */
   size_t size;          /* of the struct */
   const void *defaults; /* one with the defaults; its struct_size is `size` */
+  /* Where the fields of former versions ended that had padding in which a later field lies;
+   * 0 ends the list. NULL: none. */
+  const size_t *former;
   /* Check every field; the sentence starts with label, such as: joint 2 "B".
    * NULL members and ids too. */
   baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);

@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "mechanism/definition.h"
 #include "simulate/options.h"
 #include "simulate/run.h"
 
@@ -208,10 +209,10 @@ static baum_status check_create(const baum_mechanism *mechanism,
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
                        mechanism ? "options are" : "the mechanism is");
   }
-  if (options->struct_size != sizeof *options) {
+  if (!baum_i_is_struct_size(options->struct_size, sizeof *options)) {
     return baum_i_fail(BAUM_ERR_STRUCT,
-                       "%s: struct_size of the options is %zu, must be %zu; start from "
-                       "baum_simulation_options_default()",
+                       "%s: struct_size of the options is %zu, must be %zu, or that of an older "
+                       "version; start from baum_simulation_options_default()",
                        call, options->struct_size, sizeof *options);
   }
   if (!mechanism->frozen) {
@@ -231,7 +232,9 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   if (status != BAUM_OK) {
     return status;
   }
-  baum_simulation_options checked = *options;
+  baum_simulation_options checked = baum_simulation_options_default();
+  memcpy(&checked, options, options->struct_size); /* what an older version lacks has its default */
+  checked.struct_size = sizeof checked;
   status = baum_i_options_check(&checked);
   if (status != BAUM_OK) {
     return status;

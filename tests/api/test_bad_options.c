@@ -56,7 +56,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   (void)state;
   every_element parts = every_element_make(NULL);
   baum_simulation_options o = good_options();
-  const size_t sizes[] = {0, 1, sizeof o - 1, sizeof o + 8, SIZE_MAX};
+  const size_t sizes[] = {0, 1, sizeof(size_t), sizeof o - 1, sizeof o + 8, SIZE_MAX};
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     char sentence[96];
     (void)snprintf(sentence, sizeof sentence, "struct_size of the options is %zu|must be %zu",

@@ -1,0 +1,172 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Definitions and options of programs that were compiled with an older version: shorter structs are
+ * the same as whole ones whose missing fields have their defaults. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "every_element.h"
+
+enum { WORD = sizeof(size_t), FILL = 0xA5, TEXT_SIZE = 1024 };
+
+/* Whether a field is wholly within so many bytes. */
+static bool is_within(const element_field *field, size_t size)
+{
+  return field->offset + field->size <= size;
+}
+
+/* Two structs that say the same: the whole one, with defaults from `size` on, and the short one,
+ * with garbage there. */
+typedef struct two_structs {
+  any_def whole;
+  any_def cut;
+} two_structs;
+
+static two_structs cut_at(const any_def *good, const any_def *defaults, size_t size,
+                          const element_field *fields, int field_count)
+{
+  two_structs two = {.whole = *defaults};
+  memset(&two.cut, FILL, sizeof two.cut);
+  for (int k = 0; k < field_count; k++) {
+    if (is_within(&fields[k], size)) {
+      memcpy(two.whole.bytes + fields[k].offset, good->bytes + fields[k].offset, fields[k].size);
+      memcpy(two.cut.bytes + fields[k].offset, good->bytes + fields[k].offset, fields[k].size);
+    }
+  }
+  two.whole.head.struct_size = defaults->head.struct_size;
+  two.cut.head.struct_size = size;
+  return two;
+}
+
+/* Sizes that an older version can have had: where a field ends, filled up to a whole word. */
+static size_t older_size(const element_field *last)
+{
+  size_t end = last->offset + last->size;
+  return (end + WORD - 1) / WORD * WORD;
+}
+
+/* ---- definitions ---- */
+
+/* Names and arrays are copies of the element's own. */
+static void check_same_fields(const element_kind *kind, const any_def *a, const any_def *b)
+{
+  for (int k = 0; k < kind->field_count; k++) {
+    const element_field *field = &kind->fields[k];
+    if (field->type != FIELD_NAME && field->type != FIELD_ARRAY) {
+      assert_memory_equal(a->bytes + field->offset, b->bytes + field->offset, field->size);
+    }
+  }
+  assert_string_equal(a->head.name, b->head.name);
+}
+
+/* Add to a copy of a mechanism and read back. */
+static baum_status add_to_copy(const baum_mechanism *mechanism, const element_kind *kind,
+                               const any_def *def, any_def *got, char text[TEXT_SIZE])
+{
+  baum_mechanism *copy = NULL;
+  any_id id = {0, 0};
+  assert_int_equal(baum_mechanism_copy(mechanism, &copy), BAUM_OK);
+  baum_status status = kind->add(copy, def, &id);
+  (void)snprintf(text, TEXT_SIZE, "%s", status == BAUM_OK ? "" : baum_message());
+  if (status == BAUM_OK) {
+    assert_int_equal(kind->get(copy, id, got, kind->size), BAUM_OK);
+    got->head.name = def->head.name; /* its own ends with the copy */
+    assert_int_equal(kind->set(copy, id, def), BAUM_OK);
+  }
+  baum_mechanism_destroy(copy);
+  return status;
+}
+
+static bool check_cut(const every_element *parts, const element_kind *kind, size_t size)
+{
+  any_def good;
+  any_def defaults;
+  memset(&defaults, 0, sizeof defaults);
+  kind->good(parts, &good);
+  kind->init(&defaults, kind->size);
+  two_structs two = cut_at(&good, &defaults, size, kind->fields, kind->field_count);
+  any_def got[2];
+  char text[2][TEXT_SIZE];
+  baum_status whole = add_to_copy(parts->mechanism, kind, &two.whole, &got[0], text[0]);
+  baum_status cut = add_to_copy(parts->mechanism, kind, &two.cut, &got[1], text[1]);
+  assert_int_equal(cut, whole);
+  assert_string_equal(text[0], text[1]);
+  if (whole == BAUM_OK) {
+    check_same_fields(kind, &got[0], &got[1]);
+    assert_int_equal(got[1].head.struct_size, kind->size);
+  }
+  return whole == BAUM_OK;
+}
+
+static void a_shorter_definition_has_defaults_where_it_ends(void **state)
+{
+  (void)state;
+  every_element parts = {.fault = NULL};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  int accepted = 0;
+  for (int k = 0; k < ELEMENT_KINDS; k++) {
+    const element_kind *kind = &element_kinds[k];
+    for (int f = 1; f < kind->field_count; f++) {
+      accepted += check_cut(&parts, kind, older_size(&kind->fields[f]));
+    }
+  }
+  /* Each kind as a whole, and a good part of the others: not only refusals have been compared. */
+  assert_in_range(accepted, 2 * ELEMENT_KINDS, 1000);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- options ---- */
+
+/* The status of a run with options, and what it says of itself. */
+static baum_status run_with(const baum_mechanism *mechanism, const any_def *def,
+                            char text[TEXT_SIZE])
+{
+  baum_simulation *run = NULL;
+  baum_status status = baum_simulation_create(mechanism, (const void *)def, &run);
+  (void)snprintf(text, TEXT_SIZE, "%s",
+                 status == BAUM_OK ? baum_simulation_explain(run) : baum_message());
+  baum_simulation_destroy(run);
+  return status;
+}
+
+static void shorter_options_have_defaults_where_they_end(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation_options o = baum_simulation_options_default();
+  any_def good;
+  any_def defaults;
+  memset(&defaults, 0, sizeof defaults);
+  memcpy(&defaults, &o, sizeof o);
+  o.integrator = baum_euler();
+  o.step = 1e-3;
+  memcpy(&good, &o, sizeof o);
+  int accepted = 0;
+  for (int f = 1; f < OPTION_FIELDS; f++) {
+    two_structs two =
+      cut_at(&good, &defaults, older_size(&option_fields[f]), option_fields, OPTION_FIELDS);
+    char text[2][TEXT_SIZE];
+    baum_status whole = run_with(parts.mechanism, &two.whole, text[0]);
+    baum_status cut = run_with(parts.mechanism, &two.cut, text[1]);
+    assert_int_equal(cut, whole);
+    assert_string_equal(text[0], text[1]);
+    accepted += whole == BAUM_OK;
+  }
+  /* From `step` on, the last field that these options need. */
+  assert_int_equal(accepted, OPTION_FIELDS - 5);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_shorter_definition_has_defaults_where_it_ends),
+    cmocka_unit_test(shorter_options_have_defaults_where_they_end),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
