@@ -15,15 +15,6 @@ static const double EXACT = 1e-9; /* of the scales */
 
 /* ---- assembled ---- */
 
-static int owner_of(const baum_mechanism *m, int coordinate)
-{
-  int body = m->body_count;
-  while (m->bodies[body]->q > coordinate) {
-    body--;
-  }
-  return body;
-}
-
 static bool is_angle(const baum_i_body *body, int coordinate)
 {
   return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->q + 2;
@@ -55,25 +46,35 @@ static void name_worst_joint(baum_simulation *run, double t, const double *drawn
   (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
 }
 
+static baum_status fail_far(baum_simulation *run, const double *drawn, const baum_i_body *body,
+                            int coordinate, double limit)
+{
+  double scale = run->workspace->mechanism->scale[coordinate];
+  char label[BAUM_I_LABEL_SIZE];
+  char joint[BAUM_I_LABEL_SIZE];
+  name_worst_joint(run, run->trial.t, drawn, joint);
+  return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g; the drawing "
+                     "fits least in %s; draw the start pose closer",
+                     run->trial.t, baum_i_label(&body->element, "body", label),
+                     fabs(run->trial.q[coordinate] - drawn[coordinate]), unit_of(body, coordinate),
+                     limit * scale, joint);
+}
+
+/* Largest displacement of all into `largest`. */
 static baum_status check_displacement(baum_simulation *run, const double *drawn, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   *largest = 0.0;
-  for (int i = 0; i < m->nq; i++) {
-    const baum_i_body *owner = m->bodies[owner_of(m, i)];
-    double move = fabs(run->trial.q[i] - drawn[i]) / m->scale[i];
-    double limit = is_angle(owner, i) ? LARGEST_TURN : LARGEST_MOVE;
-    *largest = fmax(*largest, move);
-    if (move > limit) {
-      char body[BAUM_I_LABEL_SIZE];
-      char joint[BAUM_I_LABEL_SIZE];
-      (void)baum_i_label(&owner->element, "body", body);
-      name_worst_joint(run, run->trial.t, drawn, joint);
-      return baum_i_fail(
-        BAUM_ERR_INCONSISTENT,
-        "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g; the drawing "
-        "fits least in %s; draw the start pose closer",
-        run->trial.t, body, move * m->scale[i], unit_of(owner, i), limit * m->scale[i], joint);
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    for (int i = body->q; i < body->q + body->nv; i++) {
+      double move = fabs(run->trial.q[i] - drawn[i]) / m->scale[i];
+      double limit = is_angle(body, i) ? LARGEST_TURN : LARGEST_MOVE;
+      *largest = fmax(*largest, move);
+      if (move > limit) {
+        return fail_far(run, drawn, body, i, limit);
+      }
     }
   }
   return BAUM_OK;
