@@ -17,6 +17,45 @@
  */
 #include "mechanism/joints/axis_row.h"
 
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+
+/* ---- an axis in definitions ---- */
+
+baum_status baum_i_axis_check(const double axis[2], const char *label)
+{
+  baum_status status = baum_i_check_finite(label, "axis[0]", "[-]", axis[0]);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "axis[1]", "[-]", axis[1]);
+  }
+  if (status == BAUM_OK && axis[0] == 0.0 && axis[1] == 0.0) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis is (0, 0), must have a direction", label);
+  }
+  return status;
+}
+
+void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
+                       double along[2], double normal[2])
+{
+  /* Scaled first, so that the length of a very long or short axis neither overflows nor
+   * vanishes. */
+  double largest = fmax(fabs(axis[0]), fabs(axis[1]));
+  double x = axis[0] / largest;
+  double y = axis[1] / largest;
+  double length = hypot(x, y);
+  x /= length;
+  y /= length;
+  bool on_ground = !isnan(point[0]);
+  along[0] = on_ground ? a->c * x + a->s * y : x;
+  along[1] = on_ground ? -a->s * x + a->c * y : y;
+  normal[0] = -along[1];
+  normal[1] = along[0];
+}
+
+/* ---- the row ---- */
+
 /* What all of the above is made of. */
 typedef struct baum_i_axis {
   double u[2];

@@ -11,6 +11,7 @@
 
 #include "base/message.h"
 #include "mechanism/definition.h"
+#include "mechanism/joints/coordinate.h"
 #include "mechanism/planar.h"
 
 /* Parameters. */
@@ -26,28 +27,10 @@ static const baum_i_joint *driven_by(const baum_mechanism *mechanism, const void
   return mechanism->joints[baum_i_joint_index(mechanism, def->joint)];
 }
 
-static baum_status check_joint(const baum_mechanism *mechanism, const baum_driver_def *def,
-                               const char *label)
-{
-  baum_status status = baum_i_check_joint(mechanism, def->joint, label, "joint");
-  if (status != BAUM_OK) {
-    return status;
-  }
-  const baum_i_joint *driven = driven_by(mechanism, def);
-  if (!driven->type->coordinate) {
-    char text[BAUM_I_LABEL_SIZE];
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: joint is %s, a %s, which has no coordinate to drive",
-                       label, baum_i_label(&driven->element, "joint", text),
-                       driven->type->definition.kind);
-  }
-  /* A pin may hold a particle, but then there is no angle to drive. */
-  return baum_i_planar_check_angles(mechanism, driven->element.def, label);
-}
-
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_driver_def *def = given;
-  baum_status status = check_joint(mechanism, def, label);
+  baum_status status = baum_i_check_coordinate(mechanism, def->joint, label, "joint", "to drive");
   if (status == BAUM_OK) {
     status = baum_i_check_finite(label, "value", "rad or m", def->value);
   }

@@ -11,7 +11,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "mechanism/definition.h"
 #include "mechanism/joints/axis_row.h"
 
@@ -29,18 +28,6 @@ static const baum_planar_translational_def defaults = {
 
 /* ---- definition ---- */
 
-static baum_status check_axis(const double axis[2], const char *label)
-{
-  baum_status status = baum_i_check_finite(label, "axis[0]", "[-]", axis[0]);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "axis[1]", "[-]", axis[1]);
-  }
-  if (status == BAUM_OK && axis[0] == 0.0 && axis[1] == 0.0) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis is (0, 0), must have a direction", label);
-  }
-  return status;
-}
-
 static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
 {
   const baum_planar_translational_def *given = def;
@@ -49,7 +36,7 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
     status = baum_i_planar_check_angles(mechanism, def, label);
   }
   if (status == BAUM_OK) {
-    status = check_axis(given->axis, label);
+    status = baum_i_axis_check(given->axis, label);
   }
   return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
 }
@@ -58,26 +45,6 @@ static int rows(const void *def)
 {
   (void)def;
   return 2;
-}
-
-/* The axis has those axes that the points have: with `point` it is drawn on the ground and turns
- * into body_a's. */
-static void lower_axis(const baum_planar_translational_def *def, const baum_i_frame *a,
-                       double *numbers)
-{
-  /* Scaled first, so that the length of a very long or short axis neither overflows nor
-   * vanishes. */
-  double largest = fmax(fabs(def->axis[0]), fabs(def->axis[1]));
-  double x = def->axis[0] / largest;
-  double y = def->axis[1] / largest;
-  double length = hypot(x, y);
-  x /= length;
-  y /= length;
-  bool on_ground = !isnan(def->point[0]);
-  numbers[AXIS] = on_ground ? a->c * x + a->s * y : x;
-  numbers[AXIS + 1] = on_ground ? -a->s * x + a->c * y : y;
-  numbers[NORMAL] = -numbers[AXIS + 1];
-  numbers[NORMAL + 1] = numbers[AXIS];
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -91,7 +58,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
-  lower_axis(def, &a, numbers);
+  baum_i_axis_lower(def->axis, def->point, &a, numbers + AXIS, numbers + NORMAL);
   numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;
   return BAUM_OK;
 }
