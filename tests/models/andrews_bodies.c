@@ -108,15 +108,15 @@ static void add_forces(builder *build, const baum_body_id k[7])
   spring.body_a = BAUM_GROUND;
   spring.body_b = end.body;
   for (int i = 0; i < 2; i++) {
-    spring.point_a[i] = ANDREWS_C[i];
-    spring.point_b[i] = end.point[i];
+    spring.point_a[i] = ANDREWS_C[i] * build_unit(build, 1, 0, 0);
+    spring.point_b[i] = end.point[i] * build_unit(build, 1, 0, 0);
   }
-  spring.stiffness = ANDREWS_C0;
-  spring.free_length = ANDREWS_L0;
+  spring.stiffness = ANDREWS_C0 * build_unit(build, 0, 1, -2);
+  spring.free_length = ANDREWS_L0 * build_unit(build, 1, 0, 0);
   baum_planar_load_def motor = baum_planar_load_def_default();
   motor.name = "motor";
   motor.body = k[0];
-  motor.torque = ANDREWS_MOMENT;
+  motor.torque = ANDREWS_MOMENT * build_unit(build, 2, 1, -2);
   if (build_fine(build)) {
     build_force(build, baum_mechanism_add_planar_spring(build->out->mechanism, &spring, NULL));
   }
@@ -127,7 +127,12 @@ static void add_forces(builder *build, const baum_body_id k[7])
 
 baum_status model_andrews_bodies(model *out)
 {
-  builder build = build_begin(out);
+  return model_andrews_bodies_in(NULL, out);
+}
+
+baum_status model_andrews_bodies_in(const model_units *units, model *out)
+{
+  builder build = build_begin_in(units, out);
   build_gravity(&build, 0.0);
   baum_body_id ids[7];
   add_bodies(&build, ids);

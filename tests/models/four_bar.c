@@ -28,7 +28,13 @@ static baum_planar_body_def rod(const char *name, double mass, double length, do
 
 baum_status model_four_bar(model *out)
 {
-  builder build = build_begin(out);
+  return model_four_bar_in(NULL, out);
+}
+
+baum_status model_four_bar_in(const model_units *units, model *out)
+{
+  builder build = build_begin_in(units, out);
+  build_gravity(&build, 9.81);
   baum_planar_body_def crank = rod("crank", 1.0, CRANK, 1.0);
   crank.angular_velocity = 2.0;
   crank.held = true;

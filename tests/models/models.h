@@ -12,18 +12,26 @@
 
 #include <baum/baum.h>
 
-enum { MODEL_BODIES = 7, MODEL_JOINTS = 10 };
-
 /* A frozen mechanism and its parts in the order of adding. */
 typedef struct model {
   baum_mechanism *mechanism;
-  baum_body_id bodies[MODEL_BODIES];
-  baum_joint_id joints[MODEL_JOINTS];
+  baum_body_id *bodies;  /* (body_count) */
+  baum_joint_id *joints; /* (joint_count) */
   int body_count;
   int joint_count;
 } model;
 
 void model_destroy(model *out);
+
+/* How many of its units a metre, a kilogram and a second are. Data of models are in SI units; a
+ * mechanism is built in these. */
+typedef struct model_units {
+  double length;
+  double mass;
+  double time;
+} model_units;
+
+extern const model_units MODEL_MILLI; /* millimetres, grams, milliseconds */
 
 /* ---- pendulum: a point of 1 kg on a circle of 1 m -------------------------------------------- */
 
@@ -47,12 +55,18 @@ enum { MODEL_CRANK, MODEL_ROD, MODEL_SLIDER };
 enum { MODEL_PIN_GROUND, MODEL_PIN_CRANK, MODEL_PIN_SLIDER, MODEL_GUIDE, MODEL_MOTOR };
 
 typedef struct model_slider_crank {
-  bool driven; /* the crank turns at 150 rad/s for ever, else only at start */
-  bool rough;  /* rod and slider are drawn on one line and out of place, the crank in place */
+  bool driven;  /* the crank turns at 150 rad/s for ever, else only at start */
+  bool rough;   /* rod and slider are drawn on one line and out of place, the crank in place */
+  bool centric; /* no eccentricity */
+  bool doubled_guide;       /* a second guide on the same line: two redundant rows */
+  double angle;             /* [rad] of the crank at start */
+  double rod;               /* [m] its length; 0: that of the source */
+  double rod_mass;          /* [kg] 0: that of the source */
+  const model_units *units; /* NULL: SI */
 } model_slider_crank;
 
-/* Three bodies, three pins, a guide, and the motor if driven. q = (x, y, angle) of crank, rod,
- * slider. */
+/* Three bodies, three pins, a guide, the second guide if doubled, and the motor if driven.
+ * q = (x, y, angle) of crank, rod, slider. */
 baum_status model_slider_crank_build(model_slider_crank options, model *out);
 
 /* ---- Andrews' squeezing mechanism ------------------------------------------------------------ */
@@ -63,6 +77,7 @@ enum { MODEL_ANDREWS_ANGLES = 7 };
 baum_status model_andrews_angles(bool with_jacobian, model *out);
 /* As 7 planar bodies (K1 to K7) and 10 pins, 21 coordinates and 20 rows. */
 baum_status model_andrews_bodies(model *out);
+baum_status model_andrews_bodies_in(const model_units *units, model *out); /* NULL: SI */
 /* The 7 angles of the test set from the 21 coordinates (or their rates from the velocities). */
 void model_andrews_from_bodies(const double *q, double angles[MODEL_ANDREWS_ANGLES]);
 
@@ -80,5 +95,49 @@ baum_status model_sundials_slider_crank(model *out);
 
 /* q = (x, y, angle) of crank, coupler, rocker; the crank starts at 1 rad with 2 rad/s. */
 baum_status model_four_bar(model *out);
+baum_status model_four_bar_in(const model_units *units, model *out); /* NULL: SI */
+
+/* ---- N-four-bar: N windows of uniform rods of 1 m ---------------------------------------------- */
+
+typedef struct model_n_four_bar {
+  int loops;                /* N */
+  double angle;             /* [rad] of all cranks at start; flat, which is singular, at 0 */
+  double rate;              /* [rad/s] of all cranks at start */
+  double crank_mass;        /* [kg] 1 in the benchmark */
+  double coupler_mass;      /* [kg] likewise */
+  const model_units *units; /* NULL: SI */
+} model_n_four_bar;
+
+/* IFToMM/A Coruna A02: cranks upright, moving to the right at 1 m/s. */
+model_n_four_bar model_n_four_bar_a02(int loops);
+/* q = (x, y, angle) of crank 0, coupler 0, crank 1, ..., crank N: 2 N + 1 bodies, 6 N + 2 rows. */
+baum_status model_n_four_bar_build(const model_n_four_bar *data, model *out);
+
+/* ---- chain: uniform rods one after the other, pinned to the ground at the origin --------------- */
+
+typedef struct model_chain {
+  int links;
+  const double *mass;       /* (links) [kg]; NULL: 1 */
+  const double *length;     /* (links) [m]; NULL: 1 */
+  const double *angle;      /* (links) [rad] at start; NULL: 0, level */
+  const double *rate;       /* (links) [rad/s] at start; NULL: 0 */
+  const model_units *units; /* NULL: SI */
+} model_chain;
+
+extern const model_chain MODEL_CHAIN_3; /* three links of tests/data */
+
+/* q = (x, y, angle) of each link: 3 N coordinates, 2 N rows. */
+baum_status model_chain_build(const model_chain *data, model *out);
+
+/* ---- parallelogram: cranks of 1 m that carry one coupler of 2 m -------------------------------- */
+
+typedef enum model_parallelogram {
+  MODEL_TWO_CRANKS,   /* one at each end: 9 coordinates, 8 rows */
+  MODEL_THREE_CRANKS, /* and one in the middle: 12 coordinates, 12 rows, of which one is redundant */
+  MODEL_THIRD_BY_A_ROD /* the middle one held parallel by a massless rod of 1 m: 11 rows */
+} model_parallelogram;
+
+/* q = (x, y, angle) of first and last crank, coupler, middle crank. Starts at 1 rad with 2 rad/s. */
+baum_status model_parallelogram_build(model_parallelogram which, model *out);
 
 #endif

@@ -4,6 +4,8 @@
  * origin, rod 2, slider 3 on y = e:
  *
  *   l1 sin th1 + l2 sin th2 = e,  x3 = l1 cos th1 + l2 cos th2,  th1(0) = 0, th1'(0) = 150 rad/s
+ *
+ * With l2 = l1 and e = 0 rod and crank fall on each other at th1 = pi/2, and J loses rank.
  */
 #include "builder.h"
 
@@ -20,54 +22,62 @@ typedef struct bodies {
   baum_body_id slider;
 } bodies;
 
-static bodies add_bodies(builder *build, bool rough)
+/* Lengths, and angles in radians. */
+typedef struct pose {
+  double rod;
+  double eccentricity;
+  double crank_angle;
+  double rod_angle;
+} pose;
+
+static pose find_pose(const model_slider_crank *options)
 {
-  bodies out;
-  double angle = rough ? 0.0 : asin(ECCENTRICITY / ROD);
-  double reach = CRANK + ROD * cos(angle);
+  pose out = {.rod = options->rod > 0.0 ? options->rod : ROD,
+              .eccentricity = options->centric ? 0.0 : ECCENTRICITY,
+              .crank_angle = options->angle};
+  double rise = out.eccentricity - CRANK * sin(out.crank_angle);
+  out.rod_angle = options->rough ? 0.0 : asin(rise / out.rod);
+  return out;
+}
+
+static void add_crank(builder *build, const pose *at, bodies *out)
+{
   baum_planar_body_def def = baum_planar_body_def_default();
   def.name = "crank";
   def.mass = 0.038;
   def.inertia = 7.4e-5;
-  def.position[0] = CRANK / 2;
+  def.position[0] = CRANK / 2 * cos(at->crank_angle);
+  def.position[1] = CRANK / 2 * sin(at->crank_angle);
+  def.angle = at->crank_angle;
   def.angular_velocity = SPEED;
   def.held = true;
-  out.crank = build_body(build, &def);
+  out->crank = build_body(build, &def);
+}
 
-  def = baum_planar_body_def_default();
+static bodies add_bodies(builder *build, const model_slider_crank *options, const pose *at)
+{
+  bodies out;
+  bool rough = options->rough;
+  double tip[2] = {CRANK * cos(at->crank_angle), CRANK * sin(at->crank_angle)};
+  add_crank(build, at, &out);
+
+  baum_planar_body_def def = baum_planar_body_def_default();
   def.name = "rod";
-  def.mass = 0.038;
-  def.inertia = 5.9e-4;
-  def.position[0] = CRANK + ROD / 2 * cos(angle);
-  def.position[1] = ROD / 2 * sin(angle);
-  def.angle = angle;
+  def.mass = options->rod_mass > 0.0 ? options->rod_mass : 0.038;
+  def.inertia = 5.9e-4 * (def.mass / 0.038) * (at->rod / ROD) * (at->rod / ROD);
+  def.position[0] = tip[0] + at->rod / 2 * cos(at->rod_angle);
+  def.position[1] = tip[1] + at->rod / 2 * sin(at->rod_angle);
+  def.angle = at->rod_angle;
   out.rod = build_body(build, &def);
 
   def = baum_planar_body_def_default();
   def.name = "slider";
   def.mass = 0.076;
   def.inertia = 2.7e-6;
-  def.position[0] = reach + (rough ? 0.01 : 0.0);
-  def.position[1] = ECCENTRICITY - (rough ? 0.02 : 0.0);
+  def.position[0] = tip[0] + at->rod * cos(at->rod_angle) + (rough ? 0.01 : 0.0);
+  def.position[1] = at->eccentricity - (rough ? 0.02 : 0.0);
   out.slider = build_body(build, &def);
   return out;
-}
-
-static void add_guide(builder *build, baum_body_id slider)
-{
-  if (!build_fine(build)) {
-    return;
-  }
-  baum_planar_translational_def def = baum_planar_translational_def_default();
-  def.name = "guide";
-  def.body_a = BAUM_GROUND;
-  def.body_b = slider;
-  def.point_a[0] = 0.0;
-  def.point_a[1] = ECCENTRICITY;
-  def.point_b[0] = def.point_b[1] = 0.0;
-  baum_joint_id id = {0};
-  baum_status status = baum_mechanism_add_planar_translational(build->out->mechanism, &def, &id);
-  build_joint(build, status, id);
 }
 
 static void add_motor(builder *build, baum_joint_id pin)
@@ -78,7 +88,7 @@ static void add_motor(builder *build, baum_joint_id pin)
   baum_driver_def def = baum_driver_def_default();
   def.name = "motor";
   def.joint = pin;
-  def.rate = SPEED;
+  def.rate = SPEED * build_unit(build, 0, 0, -1);
   baum_joint_id id = {0};
   baum_status status = baum_mechanism_add_driver(build->out->mechanism, &def, &id);
   build_joint(build, status, id);
@@ -86,13 +96,19 @@ static void add_motor(builder *build, baum_joint_id pin)
 
 baum_status model_slider_crank_build(model_slider_crank options, model *out)
 {
-  builder build = build_begin(out);
-  bodies body = add_bodies(&build, options.rough);
+  builder build = build_begin_in(options.units, out);
+  build_gravity(&build, 9.81);
+  pose at = find_pose(&options);
+  bodies body = add_bodies(&build, &options, &at);
   baum_joint_id pin = build_pin(&build, "A", (place){BAUM_GROUND, {0.0, 0.0}},
                                 (place){body.crank, {-CRANK / 2, 0.0}});
-  build_pin(&build, "B", (place){body.crank, {CRANK / 2, 0.0}}, (place){body.rod, {-ROD / 2, 0.0}});
-  build_pin(&build, "C", (place){body.rod, {ROD / 2, 0.0}}, (place){body.slider, {0.0, 0.0}});
-  add_guide(&build, body.slider);
+  build_pin(&build, "B", (place){body.crank, {CRANK / 2, 0.0}},
+            (place){body.rod, {-at.rod / 2, 0.0}});
+  build_pin(&build, "C", (place){body.rod, {at.rod / 2, 0.0}}, (place){body.slider, {0.0, 0.0}});
+  build_guide(&build, "guide", body.slider, at.eccentricity, 0.0);
+  if (options.doubled_guide) {
+    build_guide(&build, "second guide", body.slider, at.eccentricity, CRANK / 2);
+  }
   if (options.driven) {
     add_motor(&build, pin);
   }
