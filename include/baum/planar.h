@@ -345,8 +345,19 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
 
 /* ---- spring-damper between two points -------------------------------------------------------- */
 
-/** A linear spring and damper in parallel along the line between two points. Its force is zero when
- *  the points coincide. */
+/** Law of a spring: tension, or torque of a torsion spring, and its derivatives.
+ *  @param      length  [m] distance of the points; [rad] angle_b - angle_a of a torsion spring
+ *  @param      rate    [m/s or rad/s] its rate
+ *  @param[out] out     zeroed before the call: out[0] what shortens the length [N], or turns the
+ *                      angle back [N m], when > 0; out[1] its derivative by length [N/m or
+ *                      N m/rad]; out[2] by rate [N s/m or N m s/rad]
+ *  @param      user    the definition's `user`
+ *  @return             as baum_q_fn. The check of derivatives calls it beside poses of the mechanism
+ */
+typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
+
+/** A linear spring and damper in parallel along the line between two points, or a law of the user.
+ *  Its force is zero when the points coincide. */
 typedef struct baum_planar_spring_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
@@ -358,6 +369,8 @@ typedef struct baum_planar_spring_def {
   double stiffness;    /**< [N/m] >= 0. Default: 0. */
   double damping;      /**< [N s/m] >= 0. Default: 0. */
   double free_length;  /**< [m] >= 0. Default: NaN, that of the drawn pose. */
+  baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
+  void *user;          /**< Passed to law, not owned. Default: NULL. */
 } baum_planar_spring_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -397,6 +410,61 @@ BAUM_API baum_status baum_mechanism_get_planar_spring(const baum_mechanism *mech
  */
 BAUM_API baum_status baum_mechanism_set_planar_spring(baum_mechanism *mechanism, baum_force_id id,
                                                       const baum_planar_spring_def *def);
+
+/* ---- torsion spring-damper between two bodies ------------------------------------------------ */
+
+/** A linear torsion spring and damper in parallel on angle_b - angle_a, which is continuous over
+ *  turns, or a law of the user. Both bodies must have an angle; ground has. */
+typedef struct baum_planar_torsion_spring_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body_a; /**< Default: none, must be set. */
+  baum_body_id body_b; /**< Default: none, must be set; not body_a. */
+  double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
+  double damping;      /**< [N m s/rad] >= 0. Default: 0. */
+  double free_angle;   /**< [rad] angle_b - angle_a without torque. Default: NaN, as drawn. */
+  baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
+  void *user;          /**< Passed to law, not owned. Default: NULL. */
+} baum_planar_torsion_spring_def;
+
+/** Set the defaults of a definition; writes at most caller_size bytes.
+ *  @param[out] def          NULL is ignored
+ *  @param      caller_size  sizeof *def
+ */
+BAUM_API void baum_planar_torsion_spring_def_init(baum_planar_torsion_spring_def *def,
+                                                  size_t caller_size);
+
+/** The default definition of a torsion spring-damper between two bodies. */
+static inline baum_planar_torsion_spring_def baum_planar_torsion_spring_def_default(void)
+{
+  baum_planar_torsion_spring_def def;
+  baum_planar_torsion_spring_def_init(&def, sizeof def);
+  return def;
+}
+
+/** Add a torsion spring-damper between two bodies.
+ *  @param      mechanism  not yet frozen
+ *  @param[in]  def        copied
+ *  @param[out] id         receives the force; left as it is on failure. May be NULL.
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
+ */
+BAUM_API baum_status baum_mechanism_add_planar_torsion_spring(
+  baum_mechanism *mechanism, const baum_planar_torsion_spring_def *def, baum_force_id *id);
+
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+ *  @return BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_mechanism_get_planar_torsion_spring(const baum_mechanism *mechanism,
+                                                              baum_force_id id,
+                                                              baum_planar_torsion_spring_def *out,
+                                                              size_t caller_size);
+
+/** Replace a definition; the bodies must stay.
+ *  @return as baum_mechanism_add_planar_torsion_spring()
+ */
+BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
+  baum_mechanism *mechanism, baum_force_id id, const baum_planar_torsion_spring_def *def);
 
 /* ---- constant load --------------------------------------------------------------------------- */
 

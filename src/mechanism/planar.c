@@ -48,9 +48,10 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
   return BAUM_OK;
 }
 
-static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_planar_head *head,
-                                const char *label)
+baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
+                                       const char *label)
 {
+  const baum_i_planar_head *head = def;
   baum_status status = baum_i_planar_check_body(mechanism, head->body_a, label, "body_a");
   if (status == BAUM_OK) {
     status = baum_i_planar_check_body(mechanism, head->body_b, label, "body_b");
@@ -177,7 +178,7 @@ baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def
                                 bool point_allowed)
 {
   const baum_i_planar_head *head = def;
-  baum_status status = check_bodies(mechanism, head, label);
+  baum_status status = baum_i_planar_check_bodies(mechanism, head, label);
   if (status == BAUM_OK) {
     status = check_points(head, label);
   }

@@ -64,8 +64,12 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);
 
-/* Check bodies (as above, and that they differ) and that the points are given in exactly one way;
- * point_allowed false refuses `point`: for elements of non-zero length. */
+/* Check body_a and body_b, as above, and that they differ. */
+baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
+                                       const char *label);
+
+/* Check the bodies and that the points are given in exactly one way; point_allowed false refuses
+ * `point`: for elements of non-zero length. */
 baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
                                 bool point_allowed);
 

@@ -92,7 +92,7 @@ static baum_status fail_not_finite(const baum_i_user_function *function, const b
                      baum_i_user_entry(function, entry, text), what, at->t);
 }
 
-static baum_status judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
+baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out)
 {
   if (answer != 0) {
@@ -111,21 +111,21 @@ baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
                           const baum_i_local *at, double *out)
 {
   clear(function, out);
-  return judge(function, at, call(at->t, at->q, out, function->user), out);
+  return baum_i_judge(function, at, call(at->t, at->q, out, function->user), out);
 }
 
 baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *call,
                            const baum_i_local *at, double *out)
 {
   clear(function, out);
-  return judge(function, at, call(at->t, at->q, at->v, out, function->user), out);
+  return baum_i_judge(function, at, call(at->t, at->q, at->v, out, function->user), out);
 }
 
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out)
 {
   clear(function, out);
-  return judge(function, at, call(at->t, at->q, at->v, NULL, out, function->user), out);
+  return baum_i_judge(function, at, call(at->t, at->q, at->v, NULL, out, function->user), out);
 }
 
 /* ---- definitions ---- */

@@ -54,6 +54,10 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
+/* The last part of a call, for functions of another shape: of `at` point and t are used. */
+baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
+                         const double *out);
+
 /* `joint 2 "circle": jacobian()[0][1]` into text; returns text.
  * The entry counts over the output as stored. */
 enum { BAUM_I_ENTRY_SIZE = BAUM_I_LABEL_SIZE + 80 };

@@ -4,7 +4,7 @@
  *
  *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
  *   a circle about the slider (user constraint); two masses in a row (user coordinates);
- *   spring, load, drag (user force).
+ *   spring, load, drag (user force), torsion spring.
  *
  * 13 coordinates, 10 rows, 3 freedoms; drawn in its exact start pose.
  */
@@ -44,6 +44,7 @@ typedef struct every_element {
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
+  baum_force_id twist;
   every_fault *fault;            /* `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* of the definitions */
   baum_body_id drag_bodies[1];
@@ -96,7 +97,7 @@ typedef struct element_kind {
   int field_count;
 } element_kind;
 
-enum { ELEMENT_KINDS = 12 };
+enum { ELEMENT_KINDS = 13 };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 17 };

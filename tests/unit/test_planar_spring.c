@@ -10,6 +10,7 @@
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
+#include "spring_laws.h"
 
 static void add_spring(planar_scene *scene, baum_body_id a, baum_body_id b)
 {
@@ -18,6 +19,16 @@ static void add_spring(planar_scene *scene, baum_body_id a, baum_body_id b)
   def.stiffness = 7.0;
   def.damping = 1.3;
   def.free_length = 0.9;
+  assert_int_equal(baum_mechanism_add_planar_spring(scene->mechanism, &def, NULL), BAUM_OK);
+}
+
+static void add_with_law(planar_scene *scene, baum_body_id a, baum_body_id b)
+{
+  baum_planar_spring_def def = baum_planar_spring_def_default();
+  PLANAR_BETWEEN(scene, &def, a, b);
+  def.stiffness = 1e9; /* replaced */
+  def.law = spring_law_cubic;
+  def.user = &spring_law_good;
   assert_int_equal(baum_mechanism_add_planar_spring(scene->mechanism, &def, NULL), BAUM_OK);
 }
 
@@ -49,6 +60,13 @@ static double length_of(const test_point *p, const baum_i_force *spring)
   return hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]);
 }
 
+static void check_force_when_long(test_point *p)
+{
+  if (length_of(p, p->mechanism->forces[0]) > 0.3 && length_of(p, p->mechanism->forces[1]) > 0.3) {
+    check_force_derivatives(p);
+  }
+}
+
 static void check_when_long(test_point *p)
 {
   if (length_of(p, p->mechanism->forces[0]) > 0.3 && length_of(p, p->mechanism->forces[1]) > 0.3) {
@@ -61,6 +79,81 @@ static void derivatives_agree_with_differences(void **state)
 {
   (void)state;
   for_each_planar_pair(add_spring, true, check_when_long);
+  for_each_planar_pair(add_with_law, true, check_force_when_long);
+}
+
+/* A spring "S" with a law from ball to bead, 3 by 4 apart, the bead on its way along x. */
+static void open_law(test_point *p, spring_law *user)
+{
+  planar_scene scene = planar_scene_make();
+  baum_planar_spring_def def = baum_planar_spring_def_default();
+  PLANAR_BETWEEN(&scene, &def, scene.ball, scene.bead);
+  def.name = "S";
+  def.law = spring_law_cubic;
+  def.user = user;
+  assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(scene.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
+  test_point_open(p, scene.mechanism);
+  int ball = p->mechanism->bodies[scene.ball.index1]->q;
+  int bead = p->mechanism->bodies[scene.bead.index1]->q;
+  p->q[ball] = 0.0;
+  p->q[ball + 1] = 0.0;
+  p->q[bead] = 3.0;
+  p->q[bead + 1] = 4.0;
+  p->v[bead] = 5.0;
+  test_point_update(p);
+}
+
+static void a_law_replaces_the_numbers_and_has_no_potential(void **state)
+{
+  (void)state;
+  test_point p;
+  open_law(&p, &spring_law_good);
+  double force[TEST_SIZE_MAX];
+  double potential;
+  double want[3];
+  spring_law_cubic_at(5.0, 3.0, want);
+  assert_int_equal(baum_i_mechanism_force(&p.point, force), BAUM_OK);
+  const int *columns = p.mechanism->forces[0]->span.columns;
+  ASSERT_NEAR(force[columns[0]], 0.6 * want[0], 1e-15, 0.0);
+  ASSERT_NEAR(force[columns[1]], 0.8 * want[0], 1e-15, 0.0);
+  ASSERT_NEAR(force[columns[2]], -0.6 * want[0], 1e-15, 0.0);
+  ASSERT_NEAR(force[columns[3]], -0.8 * want[0], 1e-15, 0.0);
+  assert_int_equal(baum_i_mechanism_potential(&p.point, &potential), BAUM_OK);
+  ASSERT_NEAR(potential, 0.0, 0.0, 0.0);
+  test_point_close(&p);
+}
+
+static void a_failing_law_is_named(void **state)
+{
+  (void)state;
+  test_point p;
+  spring_law law = {.answer = -1};
+  open_law(&p, &law);
+  check_spring_law_fails(&p, BAUM_ERR_CALLBACK, false, "force 1 \"S\": law() returned -1 (stop)");
+  law = (spring_law){.answer = 5};
+  check_spring_law_fails(&p, BAUM_ERR_CALLBACK, true, "force 1 \"S\": law() returned 5 (retry)");
+  law = (spring_law){.spoil = 3};
+  check_spring_law_fails(&p, BAUM_ERR_NOT_FINITE, true,
+                         "force 1 \"S\": law()[2] is nan at t = 0 s");
+  test_point_close(&p);
+}
+
+static void wrong_derivatives_are_found(void **state)
+{
+  (void)state;
+  for (int entry = 0; entry <= 2; entry++) {
+    planar_scene scene = planar_scene_make();
+    spring_law law = {.wrong = entry};
+    baum_planar_spring_def def = baum_planar_spring_def_default();
+    PLANAR_BETWEEN(&scene, &def, scene.crank, scene.bead);
+    def.name = "S";
+    def.law = spring_law_cubic;
+    def.user = &law;
+    assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
+    assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_OK);
+    check_spring_law_verdict(scene.mechanism, "S", entry);
+  }
 }
 
 static void it_pulls_both_ends_together_and_damps_along_its_line(void **state)
@@ -192,7 +285,9 @@ static void definitions_come_back(void **state)
   second.stiffness = 2.5;
   second.damping = 0.5;
   second.free_length = 0.0;
-  CHECK_ROUND_TRIP(force, planar_spring, free_length, scene.mechanism, &first, &second);
+  second.law = spring_law_cubic;
+  second.user = &spring_law_good;
+  CHECK_ROUND_TRIP(force, planar_spring, user, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 
@@ -201,6 +296,9 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
     cmocka_unit_test(it_pulls_both_ends_together_and_damps_along_its_line),
+    cmocka_unit_test(a_law_replaces_the_numbers_and_has_no_potential),
+    cmocka_unit_test(a_failing_law_is_named),
+    cmocka_unit_test(wrong_derivatives_are_found),
     cmocka_unit_test(without_length_it_has_no_force),
     cmocka_unit_test(the_free_length_is_drawn_unless_given),
     cmocka_unit_test(wrong_fields_are_refused),

@@ -234,6 +234,9 @@ class baum_planar_fixed_def(Structure):
     ]
 
 
+baum_spring_fn = CFUNCTYPE(c_int, c_double, c_double, c_void_p, c_void_p)
+
+
 class baum_planar_spring_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -246,6 +249,22 @@ class baum_planar_spring_def(Structure):
         ("stiffness", c_double),
         ("damping", c_double),
         ("free_length", c_double),
+        ("law", baum_spring_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_planar_torsion_spring_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_angle", c_double),
+        ("law", baum_spring_fn),
+        ("user", c_void_p),
     ]
 
 
@@ -550,6 +569,18 @@ PROTOTYPES = {
     "baum_mechanism_set_planar_spring": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_planar_spring_def),
     ]),
+    "baum_planar_torsion_spring_def_init": (None, [
+        POINTER(baum_planar_torsion_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_add_planar_torsion_spring": (c_int, [
+        c_void_p, POINTER(baum_planar_torsion_spring_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_planar_torsion_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_torsion_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_torsion_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_planar_torsion_spring_def),
+    ]),
     "baum_planar_load_def_init": (None, [POINTER(baum_planar_load_def), c_size_t]),
     "baum_mechanism_add_planar_load": (c_int, [
         c_void_p, POINTER(baum_planar_load_def), POINTER(baum_force_id),
@@ -624,6 +655,7 @@ DEFAULTS = {
     baum_planar_distance_def: "baum_planar_distance_def_init",
     baum_planar_fixed_def: "baum_planar_fixed_def_init",
     baum_planar_spring_def: "baum_planar_spring_def_init",
+    baum_planar_torsion_spring_def: "baum_planar_torsion_spring_def_init",
     baum_planar_load_def: "baum_planar_load_def_init",
     baum_simulation_options: "baum_simulation_options_init",
 }
@@ -646,6 +678,7 @@ STRUCTS = [
     baum_planar_distance_def,
     baum_planar_fixed_def,
     baum_planar_spring_def,
+    baum_planar_torsion_spring_def,
     baum_planar_load_def,
     baum_gains,
     baum_amplification,

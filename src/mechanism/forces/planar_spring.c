@@ -9,16 +9,18 @@
  *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
  *   g_v = -c h h^T                                                            (6 x 6)
  *
+ * With the user's law T(l, l') without V, k and c are its derivatives.
  * At l = 0 there is no direction; force and derivatives are zero there.
  */
 #include <float.h>
 #include <math.h>
 
 #include "mechanism/definition.h"
+#include "mechanism/forces/spring_law.h"
 #include "mechanism/separation.h"
 
 /* Parameters; s_a and s_b come first. */
-enum { STIFFNESS = 4, DAMPING, FREE_LENGTH, PARAMETER_COUNT };
+enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
 static const baum_planar_spring_def defaults = {
   .struct_size = sizeof(baum_planar_spring_def),
@@ -53,11 +55,12 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
   char label[BAUM_I_LABEL_SIZE];
   baum_status status =
     baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label), parameters);
-  parameters[STIFFNESS] = def->stiffness;
-  parameters[DAMPING] = def->damping;
-  parameters[FREE_LENGTH] = def->free_length;
+  double *numbers = parameters + LAW;
+  numbers[BAUM_I_STIFFNESS] = def->stiffness;
+  numbers[BAUM_I_DAMPING] = def->damping;
+  numbers[BAUM_I_FREE_LENGTH] = def->free_length;
   if (isnan(def->free_length)) {
-    parameters[FREE_LENGTH] = baum_i_separation_drawn(mechanism, &force->span, parameters);
+    numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_drawn(mechanism, &force->span, parameters);
   }
   return status;
 }
@@ -67,8 +70,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 typedef struct spring {
   baum_i_separation line;
   double length; /* l, 0 when there is no direction */
+  double rate;
   double h[6];
-  double tension;
 } spring;
 
 static spring spring_at(const baum_i_force *force, const baum_i_point *point)
@@ -85,9 +88,17 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
   baum_i_separation_spread(&s.line, e, s.h);
-  double rate = e[0] * s.line.rate[0] + e[1] * s.line.rate[1];
-  s.tension = numbers[STIFFNESS] * (s.length - numbers[FREE_LENGTH]) + numbers[DAMPING] * rate;
+  s.rate = e[0] * s.line.rate[0] + e[1] * s.line.rate[1];
   return s;
+}
+
+static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
+{
+  const baum_planar_spring_def *def = force->element.def;
+  return (baum_i_spring_law){.element = &force->element,
+                             .numbers = point->parameters + force->element.parameter + LAW,
+                             .law = def->law,
+                             .user = def->user};
 }
 
 /* l_qq */
@@ -101,8 +112,7 @@ static void bend_of(const spring *s, double bend[36])
   }
 }
 
-static void set_force_q(const spring *s, double stiffness, double damping, const double v[6],
-                        double out[36])
+static void set_force_q(const spring *s, const baum_i_tension *t, const double v[6], double out[36])
 {
   double bend[36];
   bend_of(s, bend);
@@ -112,20 +122,20 @@ static void set_force_q(const spring *s, double stiffness, double damping, const
     for (int k = 0; k < 6; k++) {
       rate_q += bend[6 * j + k] * v[k];
     }
-    tension_q[j] = stiffness * s->h[j] + damping * rate_q;
+    tension_q[j] = t->by_length * s->h[j] + t->by_rate * rate_q;
   }
   for (int i = 0; i < 6; i++) {
     for (int j = 0; j < 6; j++) {
-      out[6 * i + j] = -s->h[i] * tension_q[j] - s->tension * bend[6 * i + j];
+      out[6 * i + j] = -s->h[i] * tension_q[j] - t->value * bend[6 * i + j];
     }
   }
 }
 
-static void set_force_v(const spring *s, double damping, double out[36])
+static void set_force_v(const spring *s, const baum_i_tension *t, double out[36])
 {
   for (int i = 0; i < 6; i++) {
     for (int j = 0; j < 6; j++) {
-      out[6 * i + j] = -damping * s->h[i] * s->h[j];
+      out[6 * i + j] = -t->by_rate * s->h[i] * s->h[j];
     }
   }
 }
@@ -134,57 +144,76 @@ static void set_force_v(const spring *s, double damping, double out[36])
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
-  for (int i = 0; i < group->count; i++) {
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
     const baum_i_force *element = group->forces[i];
     spring s = spring_at(element, point);
+    if (s.length == 0.0) {
+      continue;
+    }
+    baum_i_spring_law law = law_of(element, point);
+    baum_i_tension t;
+    status = baum_i_tension_at(&law, point, s.length, s.rate, &t);
     for (int k = 0; k < 6; k++) {
-      s.h[k] *= -s.tension;
+      s.h[k] *= -t.value;
     }
     baum_i_planar_scatter(point->mechanism, &element->span, s.h, out);
   }
-  return BAUM_OK;
+  return status;
 }
 
 static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_force *element = group->forces[i];
-    const double *numbers = point->parameters + element->element.parameter;
-    double stretch = spring_at(element, point).length - numbers[FREE_LENGTH];
-    *sum += 0.5 * numbers[STIFFNESS] * stretch * stretch;
+    baum_i_spring_law law = law_of(element, point);
+    *sum += baum_i_spring_potential(&law, spring_at(element, point).length);
   }
   return BAUM_OK;
 }
 
-static void linearize_one(const baum_i_force *element, const baum_i_point *point,
-                          const baum_i_force_blocks *blocks)
+static baum_status linearize_one(const baum_i_force *element, baum_i_point *point,
+                                 const baum_i_force_blocks *blocks)
 {
   spring s = spring_at(element, point);
   if (s.length == 0.0) {
-    return;
+    return BAUM_OK;
   }
-  const double *numbers = point->parameters + element->element.parameter;
+  baum_i_spring_law law = law_of(element, point);
+  baum_i_tension t;
+  baum_status status = baum_i_tension_at(&law, point, s.length, s.rate, &t);
   const baum_i_span *span = &element->span;
   double six[36];
   if (blocks->force_q) {
     double v[6];
     baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
-    set_force_q(&s, numbers[STIFFNESS], numbers[DAMPING], v, six);
+    set_force_q(&s, &t, v, six);
     baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
   }
   if (blocks->force_v) {
-    set_force_v(&s, numbers[DAMPING], six);
+    set_force_v(&s, &t, six);
     baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
   }
+  return status;
 }
 
 static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
-  for (int i = 0; i < group->count; i++) {
-    linearize_one(group->forces[i], point, blocks);
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    status = linearize_one(group->forces[i], point, blocks);
   }
-  return BAUM_OK;
+  return status;
+}
+
+static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+{
+  spring s = spring_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return s.length == 0.0
+           ? BAUM_OK
+           : baum_i_check_spring_law(&law, point, s.length, s.rate, point->mechanism->length);
 }
 
 static const baum_i_force_type type = {
@@ -198,6 +227,7 @@ static const baum_i_force_type type = {
   .force = force,
   .potential = potential,
   .linearize = linearize,
+  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, planar_spring, type)
