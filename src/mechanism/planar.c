@@ -68,8 +68,8 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
   return BAUM_OK;
 }
 
-static baum_status check_angle(const baum_mechanism *mechanism, baum_body_id id, const char *label,
-                               const char *field)
+baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field)
 {
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
   if (has_angle(body)) {
@@ -84,8 +84,9 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
                                        const char *label)
 {
   const baum_i_planar_head *head = def;
-  baum_status status = check_angle(mechanism, head->body_a, label, "body_a");
-  return status == BAUM_OK ? check_angle(mechanism, head->body_b, label, "body_b") : status;
+  baum_status status = baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
+  return status == BAUM_OK ? baum_i_planar_check_angle(mechanism, head->body_b, label, "body_b")
+                           : status;
 }
 
 void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)

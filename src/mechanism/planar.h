@@ -73,7 +73,9 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
 baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
                                 bool point_allowed);
 
-/* Both bodies must have an angle (ground does). */
+/* A body that has passed the checks above must have an angle (ground does); both bodies. */
+baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field);
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 

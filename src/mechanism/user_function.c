@@ -125,7 +125,8 @@ baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_f
                               const baum_i_local *at, double *out)
 {
   clear(function, out);
-  return baum_i_judge(function, at, call(at->t, at->q, at->v, NULL, out, function->user), out);
+  return baum_i_judge(function, at,
+                      call(at->t, at->q, at->v, at->point->inputs, out, function->user), out);
 }
 
 /* ---- definitions ---- */
