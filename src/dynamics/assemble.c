@@ -36,6 +36,7 @@ typedef struct assembly {
   double *q;        /* (nv) present pose */
   double *trial;    /* (nv) */
   double *distance; /* (nc) d_i */
+  bool fits;        /* the violation at q, when it was last looked at, is rounding */
 } assembly;
 
 static bool is_held(const bool *held, int i)
@@ -74,32 +75,41 @@ static void decouple_held_masses(baum_workspace *w, const bool *held)
   }
 }
 
-/* S, and the displacement sizes of rows, from the present J and M.
- * A row without effect moves nothing. */
-static void measure_rows(const baum_workspace *w, double *shift, double *distance)
+/* S, from the present J and M. A row without effect moves nothing. */
+static void find_shift(baum_workspace *w)
 {
-  baum_i_row_displacements(w, distance);
-  baum_i_row_mobilities(w, shift);
+  baum_i_row_mobilities(w, w->shift);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    shift[i] = shift[i] > 0.0 ? MU * shift[i] : 1.0;
+    w->shift[i] = w->shift[i] > 0.0 ? MU * w->shift[i] : 1.0;
   }
+}
+
+static baum_status translate(const assembly *s, baum_status status)
+{
+  if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_NOT_FINITE) {
+    return baum_i_fail(status, "t = %.9g s: assembly: the equations are %s", s->t,
+                       status == BAUM_ERR_SINGULAR ? "singular" : "not finite");
+  }
+  return status;
+}
+
+/* For the present J and M, which stay in place until the last solution with them. */
+static baum_status factor(const assembly *s)
+{
+  baum_workspace *w = s->w;
+  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
+  w->mass_ready = false; /* held coordinates may have changed M */
+  decouple_held_masses(w, s->held);
+  find_shift(w);
+  return translate(s, baum_i_kkt_factor(w->kkt, &values));
 }
 
 /* Solve for the least change that makes the rows change by rhs; the result is in w->a. */
 static baum_status least_change(const assembly *s)
 {
   baum_workspace *w = s->w;
-  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
-  w->mass_ready = false; /* held coordinates may have changed M */
-  decouple_held_masses(w, s->held);
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  baum_status status =
-    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
-  if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail(status, "t = %.9g s: assembly: the equations are %s", s->t,
-                       status == BAUM_ERR_SINGULAR ? "singular" : "not finite");
-  }
-  return status;
+  return translate(s, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda));
 }
 
 /* ---- naming what contradicts ---- */
@@ -197,17 +207,19 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
     return status;
   }
   clear_held_columns(w, s->held);
-  measure_rows(w, w->shift, s->distance);
-  double before = merit(s, w->phi);
-  *fell = worst_displacement(s, w->phi) > ROUNDING;
-  *size = 0.0;
-  if (!*fell) {
+  baum_i_row_displacements(w, s->distance);
+  s->fits = worst_displacement(s, w->phi) <= ROUNDING;
+  if (s->fits) {
     return BAUM_OK;
   }
+  double before = merit(s, w->phi);
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -w->phi[i];
   }
-  status = least_change(s);
+  status = factor(s);
+  if (status == BAUM_OK) {
+    status = least_change(s);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -221,7 +233,7 @@ static baum_status assemble_positions(assembly *s)
   bool fell = true;
   for (int k = 0; k < ITERATIONS && fell && size > CONVERGED; k++) {
     baum_status status = newton_step(s, &size, &fell);
-    if (status != BAUM_OK) {
+    if (status != BAUM_OK || s->fits) {
       return status;
     }
   }
@@ -235,39 +247,54 @@ static baum_status assemble_positions(assembly *s)
 
 /* ---- velocities ---- */
 
-/* Held are the velocities that were given; free ones arrive as zero. */
-static baum_status assemble_velocities(assembly *s, double *v)
+/* What is left of Phi' at v: its opposite as the right side, and as a displacement per time. */
+static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;
-  const baum_mechanism *m = w->mechanism;
+  baum_status status = baum_i_violation(w, s->t, s->q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  clear_held_columns(w, s->held);
+  baum_i_row_displacements(w, s->distance);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -w->phi_rate[i];
+  }
+  *worst = worst_displacement(s, w->phi_rate);
+  return BAUM_OK;
+}
+
+static baum_status correct_velocities(const assembly *s, double *v)
+{
+  baum_status status = least_change(s);
+  for (int i = 0; i < s->w->mechanism->nv && status == BAUM_OK; i++) {
+    v[i] += is_held(s->held, i) ? 0.0 : s->w->a[i];
+  }
+  return status;
+}
+
+/* Held are the velocities that were given; free ones arrive as zero. The matrix is that of the pose
+ * all the time. */
+static baum_status assemble_velocities(const assembly *s, double *v)
+{
   double last = INFINITY;
-  for (int k = 0; k < CORRECTIONS; k++) {
-    baum_status status = baum_i_violation(w, s->t, s->q, v);
-    if (status == BAUM_OK) {
-      status = baum_i_evaluate_mass(w);
-    }
-    if (status != BAUM_OK) {
-      return status;
-    }
-    clear_held_columns(w, s->held);
-    measure_rows(w, w->shift, s->distance);
-    for (int i = 0; i < m->nc; i++) {
-      w->rhs[i] = -w->phi_rate[i];
-    }
-    double worst = worst_displacement(s, w->phi_rate);
-    if (!(worst < 0.5 * last) || worst == 0.0) {
-      break;
-    }
+  double worst = 0.0;
+  baum_status status = find_rate(s, v, &worst);
+  if (status != BAUM_OK || !(worst > 0.0)) {
+    return status;
+  }
+  status = baum_i_evaluate_mass(s->w);
+  if (status == BAUM_OK) {
+    status = factor(s);
+  }
+  for (int k = 0; k < CORRECTIONS && status == BAUM_OK && worst > 0.0 && worst < 0.5 * last; k++) {
     last = worst;
-    status = least_change(s);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    for (int i = 0; i < m->nv; i++) {
-      v[i] += is_held(s->held, i) ? 0.0 : w->a[i];
+    status = correct_velocities(s, v);
+    if (status == BAUM_OK) {
+      status = find_rate(s, v, &worst);
     }
   }
-  return BAUM_OK;
+  return status;
 }
 
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
@@ -286,7 +313,7 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   if (status != BAUM_OK) {
     return status;
   }
-  measure_rows(w, w->shift, s->distance);
+  baum_i_row_displacements(w, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + NO_RATE)) {
     return fail_inconsistent(s, w->phi_rate, "the given velocities and the constraints",

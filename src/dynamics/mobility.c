@@ -20,32 +20,36 @@ static void BAUM_I_PRINTF(2, 3) say(baum_mobility *report, const char *format, .
   va_end(arguments);
 }
 
-static bool has_joint(const baum_mechanism *m, int body)
+/* jointed (body_count + 1) */
+static void mark_jointed(const baum_mechanism *m, bool *jointed)
 {
   for (int k = 0; k < m->joint_count; k++) {
     const baum_i_span *span = &m->joints[k]->span;
     for (int i = 0; i < span->body_count; i++) {
-      if (span->bodies[i] == body) {
-        return true;
-      }
+      jointed[span->bodies[i]] = true;
     }
   }
-  return false;
 }
 
-static void count_free_bodies(const baum_mechanism *m, baum_mobility *report)
+static baum_status report_free_bodies(const baum_mechanism *m, baum_mobility *report)
 {
+  bool *jointed = baum_i_alloc((size_t)m->body_count + 1, sizeof *jointed);
+  if (!jointed) {
+    return baum_i_fail_memory();
+  }
+  mark_jointed(m, jointed);
   for (int i = 1; i <= m->body_count; i++) {
-    if (has_joint(m, i)) {
-      continue;
+    if (!jointed[i]) {
+      say(report, "%s\"%s\"", report->free_bodies == 0 ? " Bodies without a joint: " : ", ",
+          m->bodies[i]->element.name);
+      report->free_bodies++;
     }
-    say(report, "%s\"%s\"", report->free_bodies == 0 ? " Bodies without a joint: " : ", ",
-        m->bodies[i]->element.name);
-    report->free_bodies++;
   }
   if (report->free_bodies > 0) {
     say(report, ".");
   }
+  baum_i_free(jointed);
+  return BAUM_OK;
 }
 
 static void find_worst(const baum_workspace *w, baum_mobility *report)
@@ -113,8 +117,7 @@ static baum_status survey(baum_workspace *w, double *q, baum_mobility *report)
     find_worst(w, report);
     status = status == BAUM_OK ? report_rank(w, q, report) : status;
   }
-  count_free_bodies(m, report);
-  return status;
+  return status == BAUM_OK ? report_free_bodies(m, report) : status;
 }
 
 baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
