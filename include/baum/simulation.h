@@ -46,6 +46,12 @@ BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. BAUMGARTE (auto), UNSTABILIZED,
  *  and INDEX3, which is there for comparison: its error is far above its tolerance. */
 BAUM_API const baum_integrator *baum_ida(void);
+/** Kinematics: for mechanisms without freedom, whose drivers take it all, so that every coordinate
+ *  follows from Phi(q, t) = 0; others are refused. Nothing is integrated: poses are solved to
+ *  rounding at the times asked for, by continuation along the branch of the start pose. Takes no
+ *  formulation, gains, step, rtol or atol. A run that cannot go on, because the mechanism locks up or
+ *  branches cross, stops with BAUM_ERR_SINGULAR; it never jumps to another branch. */
+BAUM_API const baum_integrator *baum_kinematics(void);
 
 /** All integrators by number, for bindings and tables; linking this links every backend.
  *  @param k  0, 1, ...
@@ -57,7 +63,8 @@ BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
 BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
 /** Order of accuracy of a fixed-step integrator, 0 for variable order or NULL. */
 BAUM_API int32_t baum_integrator_order(const baum_integrator *integrator);
-/** Whether the integrator takes `step` (true) or `rtol` (false). NULL gives false. */
+/** Whether the integrator takes `step` (true) or `rtol` (false; baum_kinematics() takes neither).
+ *  NULL gives false. */
 BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
 
 /** Form of the equations of motion; h is the step. */
@@ -142,7 +149,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *  @param[in]  options    copied
  *  @param[out] out        receives the run, NULL on failure; release with baum_simulation_destroy()
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
- *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, or the build),
+ *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, the build, or
+ *              kinematics where freedom is left),
  *              BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
  *              BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR
  */
@@ -201,8 +209,11 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
 
-/** What a channel holds; in brackets its number of columns. Accelerations, multipliers and
- *  reactions come from one solution of (5) at the present state, without stabilization terms. */
+/** What a channel holds; in brackets its number of columns. Accelerations, multipliers, reactions
+ *  and efforts come from one solution of (5) at the present state, without stabilization terms,
+ *  which is made only when a channel asks for one of them. The effort of a driver is its force [N]
+ *  or torque [N m] on the coordinate it drives: times the coordinate's rate it is the power that
+ *  the driver puts into the mechanism. */
 typedef enum baum_quantity {
   BAUM_Q = 1,         /**< Positions (nq). */
   BAUM_V = 2,         /**< Velocities (nv). */
@@ -212,17 +223,19 @@ typedef enum baum_quantity {
   BAUM_PHI_RATE = 6,  /**< Its rate J v - nu. */
   BAUM_ENERGY = 7,    /**< Kinetic and potential energy [J] (2). */
   BAUM_BODY_POSE = 8, /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
-  BAUM_BODY_VELOCITY = 9,    /**< Likewise velocities. */
-  BAUM_JOINT_REACTION = 10,  /**< Force and moment on body_b (3); user constraint: -J^T lambda. */
-  BAUM_JOINT_COORDINATE = 11 /**< Coordinate and rate of a revolute or translational joint (2). */
+  BAUM_BODY_VELOCITY = 9,      /**< Likewise velocities. */
+  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3); user constraint: -J^T lambda. */
+  BAUM_JOINT_COORDINATE = 11,  /**< Coordinate and rate of a revolute or translational joint (2). */
+  BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_POSE: x'', y'' and angular acceleration. */
+  BAUM_DRIVE_EFFORT = 13       /**< Effort of the driver `joint` (1). */
 } baum_quantity;
 
 /** One group of columns. */
 typedef struct baum_channel {
   baum_quantity quantity; /**< What. */
   baum_body_id body;      /**< For BAUM_BODY_*. */
-  baum_joint_id joint; /**< For BAUM_JOINT_*; optional for BAUM_LAMBDA, BAUM_PHI, BAUM_PHI_RATE. */
-  double point[2];     /**< [m] body axes, for BAUM_BODY_* of a planar body; 0: centre of mass. */
+  baum_joint_id joint;    /**< For JOINT_*, DRIVE_EFFORT; optional for LAMBDA, PHI, PHI_RATE. */
+  double point[2]; /**< [m] body axes, for BAUM_BODY_* of a planar body; 0: centre of mass. */
 } baum_channel;
 
 /** Number of columns of some channels together.

@@ -233,6 +233,7 @@ struct baum_i_joint_type {
   int parameter_count;
   bool planar;      /* two planar bodies: reaction is force and moment */
   bool scleronomic; /* Phi never depends on t */
+  bool drives;      /* one row: the coordinate of another joint minus a function of time */
   int (*rows)(const void *def);
   /* Fills body_count; and bodies if not NULL. */
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);

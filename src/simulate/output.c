@@ -21,7 +21,7 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
   int body = baum_i_body_index(m, c->body);
   if (body <= 0) {
-    return fail_channel(k, body == 0 ? "ground has no pose or velocity"
+    return fail_channel(k, body == 0 ? "ground has no pose, velocity or acceleration"
                                      : "body is none or not of this mechanism");
   }
   bool rigid = m->bodies[body]->type->frame == BAUM_I_FRAME_BODY;
@@ -55,6 +55,9 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
   if (c->quantity == BAUM_JOINT_REACTION) {
     return baum_i_reaction_width(m, joint);
   }
+  if (c->quantity == BAUM_DRIVE_EFFORT) {
+    return m->joints[joint]->type->drives ? 1 : fail_channel(k, "only drivers have an effort");
+  }
   return m->joints[joint]->type->coordinate
            ? 2
            : fail_channel(k, "only revolute and translational joints have a coordinate");
@@ -71,9 +74,11 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
   case BAUM_PHI_RATE: return rows_width(m, c, k);
   case BAUM_ENERGY: return 2;
   case BAUM_BODY_POSE:
-  case BAUM_BODY_VELOCITY: return body_width(m, c, k);
+  case BAUM_BODY_VELOCITY:
+  case BAUM_BODY_ACCELERATION: return body_width(m, c, k);
   case BAUM_JOINT_REACTION:
-  case BAUM_JOINT_COORDINATE: return joint_width(m, c, k);
+  case BAUM_JOINT_COORDINATE:
+  case BAUM_DRIVE_EFFORT: return joint_width(m, c, k);
   default: return fail_channel(k, "quantity is no baum_quantity");
   }
 }
@@ -117,7 +122,9 @@ static depth depth_of(baum_quantity quantity)
   switch (quantity) {
   case BAUM_A:
   case BAUM_LAMBDA:
-  case BAUM_JOINT_REACTION: return DEPTH_SOLUTION;
+  case BAUM_JOINT_REACTION:
+  case BAUM_BODY_ACCELERATION:
+  case BAUM_DRIVE_EFFORT: return DEPTH_SOLUTION;
   case BAUM_PHI:
   case BAUM_PHI_RATE: return DEPTH_VIOLATION;
   case BAUM_Q:
@@ -165,16 +172,41 @@ static int put_rows(const baum_mechanism *m, const baum_channel *c, const double
   return put(rows + joint->row, joint->rows, out);
 }
 
+/* Coordinates of a body without axes: its part of q, v or a. */
+static const double *part_of(const baum_workspace *w, const baum_i_state *state,
+                             baum_quantity quantity, const baum_i_body *body)
+{
+  switch ((int)quantity) {
+  case BAUM_BODY_POSE: return state->q + body->q;
+  case BAUM_BODY_VELOCITY: return state->v + body->v;
+  default: return w->a + body->v;
+  }
+}
+
+/* r'' = a + alpha p' - w^2 p (mechanism/planar.h) */
+static void put_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
+{
+  const double *p = marker->arm;
+  double w2 = marker->w * marker->w;
+  out[0] = a[0] - a[2] * p[1] - w2 * p[0];
+  out[1] = a[1] + a[2] * p[0] - w2 * p[1];
+  out[2] = a[2];
+}
+
 static int put_body(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
                     double *out)
 {
   int index = baum_i_body_index(w->mechanism, c->body);
   const baum_i_body *body = w->mechanism->bodies[index];
-  bool pose = c->quantity == BAUM_BODY_POSE;
   if (body->type->frame != BAUM_I_FRAME_BODY) {
-    return put(pose ? state->q + body->q : state->v + body->v, body->nv, out);
+    return put(part_of(w, state, c->quantity, body), body->nv, out);
   }
   baum_i_marker marker = baum_i_marker_at(&w->point, index, c->point);
+  if (c->quantity == BAUM_BODY_ACCELERATION) {
+    put_acceleration(&marker, w->a + body->v, out);
+    return 3;
+  }
+  bool pose = c->quantity == BAUM_BODY_POSE;
   out[0] = pose ? marker.r[0] : marker.dr[0];
   out[1] = pose ? marker.r[1] : marker.dr[1];
   out[2] = pose ? w->point.frames[index].angle : marker.w;
@@ -189,6 +221,10 @@ static int put_joint(const baum_workspace *w, const baum_channel *c, double *out
     return baum_i_reaction_width(w->mechanism, index);
   }
   const baum_i_joint *joint = w->mechanism->joints[index];
+  if (c->quantity == BAUM_DRIVE_EFFORT) {
+    out[0] = -w->lambda[joint->row]; /* its row of J is the coordinate's gradient */
+    return 1;
+  }
   baum_i_coordinate coordinate;
   joint->type->coordinate(joint, &w->point, &coordinate);
   out[0] = coordinate.value;
@@ -208,9 +244,11 @@ static int put_channel(const baum_workspace *w, const baum_i_state *state, const
   case BAUM_PHI: return put_rows(m, c, w->phi, out);
   case BAUM_PHI_RATE: return put_rows(m, c, w->phi_rate, out);
   case BAUM_BODY_POSE:
-  case BAUM_BODY_VELOCITY: return put_body(w, state, c, out);
+  case BAUM_BODY_VELOCITY:
+  case BAUM_BODY_ACCELERATION: return put_body(w, state, c, out);
   case BAUM_JOINT_REACTION:
-  case BAUM_JOINT_COORDINATE: return put_joint(w, c, out);
+  case BAUM_JOINT_COORDINATE:
+  case BAUM_DRIVE_EFFORT: return put_joint(w, c, out);
   case BAUM_ENERGY:
   default: return 2; /* filled afterwards: it needs an evaluation of its own */
   }

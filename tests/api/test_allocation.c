@@ -18,17 +18,26 @@
 
 /* ---- what is run ---- */
 
-enum { CHANNELS = 11, WIDTH_MAX = 100, SAMPLES = 7 };
+enum { CHANNELS = 13, WIDTH_MAX = 100, SAMPLES = 7 };
 
+static bool is_of_a_body(baum_quantity quantity)
+{
+  return quantity == BAUM_BODY_POSE || quantity == BAUM_BODY_VELOCITY ||
+         quantity == BAUM_BODY_ACCELERATION;
+}
+
+/* One of every quantity. */
 static int make_channels(const every_element *parts, baum_channel channels[CHANNELS])
 {
   for (int k = 0; k < CHANNELS; k++) {
-    channels[k] = (baum_channel){.quantity = (baum_quantity)(k + 1),
-                                 .body = k + 1 == BAUM_BODY_POSE || k + 1 == BAUM_BODY_VELOCITY
-                                           ? parts->tool
-                                           : (baum_body_id){0, 0}};
-    if (k + 1 == BAUM_JOINT_REACTION || k + 1 == BAUM_JOINT_COORDINATE) {
+    baum_quantity quantity = (baum_quantity)(k + 1);
+    channels[k] = (baum_channel){.quantity = quantity};
+    if (is_of_a_body(quantity)) {
+      channels[k].body = parts->tool;
+    } else if (quantity == BAUM_JOINT_REACTION || quantity == BAUM_JOINT_COORDINATE) {
       channels[k].joint = parts->pin;
+    } else if (quantity == BAUM_DRIVE_EFFORT) {
+      channels[k].joint = parts->motor;
     }
   }
   int width = baum_channels_width(parts->mechanism, channels, CHANNELS);

@@ -463,7 +463,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
     const char *sentence;
   } bad[] = {
     {{.quantity = (baum_quantity)0}, "channel 1: quantity is no baum_quantity"},
-    {{.quantity = (baum_quantity)12}, "channel 1: quantity is no baum_quantity"},
+    {{.quantity = (baum_quantity)14}, "channel 1: quantity is no baum_quantity"},
     {{.quantity = BAUM_BODY_POSE}, "channel 1: body is none or not of this mechanism"},
     {{.quantity = BAUM_BODY_POSE, .body = others.crank}, "channel 1: body is none or not of"},
     {{.quantity = BAUM_BODY_VELOCITY, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
@@ -473,6 +473,9 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {{.quantity = BAUM_JOINT_REACTION}, "channel 1: joint is none or not of this mechanism"},
     {{.quantity = BAUM_JOINT_COORDINATE, .joint = parts.rod},
      "channel 1: only revolute and translational joints have a coordinate"},
+    {{.quantity = BAUM_DRIVE_EFFORT, .joint = parts.pin}, "channel 1: only drivers have an effort"},
+    {{.quantity = BAUM_DRIVE_EFFORT}, "channel 1: joint is none or not of this mechanism"},
+    {{.quantity = BAUM_BODY_ACCELERATION, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     check_channel(run, &parts, bad[k].channel, bad[k].sentence);

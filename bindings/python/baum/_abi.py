@@ -372,6 +372,8 @@ class baum_quantity(enum.IntEnum):
     BAUM_BODY_VELOCITY = 9
     BAUM_JOINT_REACTION = 10
     BAUM_JOINT_COORDINATE = 11
+    BAUM_BODY_ACCELERATION = 12
+    BAUM_DRIVE_EFFORT = 13
 
 
 class baum_channel(Structure):
@@ -611,6 +613,7 @@ PROTOTYPES = {
     "baum_cvode_adams": (c_void_p, []),
     "baum_cvode_bdf": (c_void_p, []),
     "baum_ida": (c_void_p, []),
+    "baum_kinematics": (c_void_p, []),
     "baum_integrator_at": (c_void_p, [c_int32]),
     "baum_integrator_name": (c_char_p, [c_void_p]),
     "baum_integrator_order": (c_int32, [c_void_p]),

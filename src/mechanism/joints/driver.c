@@ -214,6 +214,7 @@ static const baum_i_joint_type type = {
   .parameter_count = PARAMETER_COUNT,
   .planar = true,
   .scleronomic = false,
+  .drives = true,
   .rows = rows,
   .bodies = bodies,
   .lower = lower,

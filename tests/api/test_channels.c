@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What channels hold, and what they cost. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "every_element.h"
+#include "models.h"
+
+static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
+                               double step)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = integrator;
+  if (baum_integrator_has_fixed_step(integrator)) {
+    o.step = step;
+  } else {
+    o.rtol = 1e-8;
+  }
+  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  return run;
+}
+
+static int64_t evaluations(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters.evaluations;
+}
+
+/* ---- acceleration ---- */
+
+enum { AROUND = 5, WIDTH = 8 };
+
+/* At -2 to 2 times d from t: velocities and accelerations of the rod's end and of the slider. */
+static void accelerations_are_the_slopes_of_velocities(void **state)
+{
+  (void)state;
+  const double d = 1e-5;
+  model m;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &m), BAUM_OK);
+  const baum_channel channels[] = {
+    {.quantity = BAUM_BODY_VELOCITY, .body = m.bodies[MODEL_ROD], .point = {0.1, 0.07}},
+    {.quantity = BAUM_BODY_ACCELERATION, .body = m.bodies[MODEL_ROD], .point = {0.1, 0.07}},
+    {.quantity = BAUM_PHI, .joint = m.joints[MODEL_PIN_GROUND]},
+  };
+  double times[AROUND];
+  double rows[AROUND][WIDTH];
+  baum_simulation *run = run_of(m.mechanism, baum_rk4(), d);
+  for (int k = 0; k < AROUND; k++) {
+    times[k] = (200 + k) * d;
+  }
+  assert_int_equal(baum_channels_width(m.mechanism, channels, 3), WIDTH);
+  assert_int_equal(baum_simulation_sample(run, times, AROUND, channels, 3, rows[0], NULL), BAUM_OK);
+  for (int i = 0; i < 3; i++) {
+    double slope = (8.0 * (rows[3][i] - rows[1][i]) - (rows[4][i] - rows[0][i])) / (12.0 * d);
+    /* Fourth order: (150 d)^4 / 30 = 2e-13; rounding of v: 1e-16 / (150 d) = 1e-13. */
+    ASSERT_NEAR(rows[2][3 + i], slope, 1e-9, 0.0);
+  }
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+static void bodies_without_axes_give_their_part_of_a(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
+  const baum_channel channels[] = {
+    {.quantity = BAUM_A},
+    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.bob},
+    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.masses},
+    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.tool},
+  };
+  double row[EVERY_NV + 2 + 2 + 3];
+  int32_t first[3];
+  const baum_body_id bodies[3] = {parts.bob, parts.masses, parts.tool};
+  assert_int_equal(baum_channels_width(parts.mechanism, channels, 4), EVERY_NV + 7);
+  assert_int_equal(baum_simulation_get(run, channels, 4, row), BAUM_OK);
+  for (int k = 0; k < 3; k++) {
+    assert_int_equal(baum_mechanism_columns(parts.mechanism, bodies[k], NULL, &first[k]), BAUM_OK);
+  }
+  const double *given = row + EVERY_NV;
+  assert_memory_equal(given, row + first[0], 2 * sizeof *row);
+  assert_memory_equal(given + 2, row + first[1], 2 * sizeof *row);
+  assert_memory_equal(given + 4, row + first[2], 3 * sizeof *row);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* ---- effort ---- */
+
+enum { INTERVALS = 200 };
+
+/* Simpson's rule over the power effort times rate is the change of energy: nothing else does
+ * work on a driven slider-crank without dampers. */
+static void the_power_of_a_driver_is_the_change_of_energy(void **state)
+{
+  (void)state;
+  const double h = 5e-5;
+  model m;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
+  const baum_channel channels[] = {
+    {.quantity = BAUM_ENERGY},
+    {.quantity = BAUM_DRIVE_EFFORT, .joint = m.joints[MODEL_MOTOR]},
+    {.quantity = BAUM_JOINT_COORDINATE, .joint = m.joints[MODEL_PIN_GROUND]},
+  };
+  enum { COUNT = sizeof channels / sizeof *channels, COLUMNS = 5 };
+  static double times[INTERVALS + 1];
+  static double rows[INTERVALS + 1][COLUMNS];
+  baum_simulation *run = run_of(m.mechanism, baum_rk4(), h);
+  for (int k = 0; k <= INTERVALS; k++) {
+    times[k] = k * h;
+  }
+  assert_int_equal(baum_channels_width(m.mechanism, channels, COUNT), COLUMNS);
+  assert_int_equal(
+    baum_simulation_sample(run, times, INTERVALS + 1, channels, COUNT, rows[0], NULL), BAUM_OK);
+  double work = 0.0;
+  double largest = 0.0;
+  for (int k = 0; k <= INTERVALS; k++) {
+    double weight = k == 0 || k == INTERVALS ? 1.0 : k % 2 == 1 ? 4.0 : 2.0;
+    double energy = rows[k][0] + rows[k][1] - rows[0][0] - rows[0][1];
+    work += weight * h / 3.0 * rows[k][2] * rows[k][4];
+    largest = fmax(largest, fabs(energy));
+  }
+  /* The power has harmonics up to about ten times the 150 rad/s: Simpson's error is near
+   * (1500 h)^4 / 180 = 2e-7 of the work going to and fro. */
+  double change = rows[INTERVALS][0] + rows[INTERVALS][1] - rows[0][0] - rows[0][1];
+  assert_true(fabs(change) > 0.1 * largest);
+  ASSERT_NEAR(work, change, 0.0, 2e-7 * largest);
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+/* ---- cost ---- */
+
+/* All that needs no solution of (5). */
+static int cheap_channels(const every_element *parts, baum_channel channels[8])
+{
+  int count = 0;
+  channels[count++] = (baum_channel){.quantity = BAUM_Q};
+  channels[count++] = (baum_channel){.quantity = BAUM_V};
+  channels[count++] = (baum_channel){.quantity = BAUM_BODY_POSE, .body = parts->tool};
+  channels[count++] = (baum_channel){.quantity = BAUM_BODY_VELOCITY, .body = parts->tool};
+  channels[count++] = (baum_channel){.quantity = BAUM_JOINT_COORDINATE, .joint = parts->pin};
+  channels[count++] = (baum_channel){.quantity = BAUM_PHI};
+  channels[count++] = (baum_channel){.quantity = BAUM_PHI_RATE};
+  channels[count++] = (baum_channel){.quantity = BAUM_ENERGY};
+  return count;
+}
+
+enum { SAMPLES = 12, ROW = 200 };
+
+/* Evaluations of a run that records count channels, from 0.05 s on at every step. */
+static int64_t cost_of(const every_element *parts, const baum_integrator *integrator,
+                       const baum_channel *channels, int count)
+{
+  static double rows[SAMPLES * ROW];
+  double times[SAMPLES];
+  assert_in_range(baum_channels_width(parts->mechanism, channels, count), 0, ROW);
+  for (int k = 0; k < SAMPLES; k++) {
+    times[k] = (5 + k) * 0.01;
+  }
+  baum_simulation *run = run_of(parts->mechanism, integrator, 0.01);
+  assert_int_equal(baum_simulation_sample(run, times, SAMPLES, channels, count, rows, NULL),
+                   BAUM_OK);
+  int64_t sum = evaluations(run);
+  baum_simulation_destroy(run);
+  return sum;
+}
+
+static void a_sample_costs_a_solution_only_when_it_asks_for_one(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  const baum_channel effort[2] = {{.quantity = BAUM_DRIVE_EFFORT, .joint = parts.motor},
+                                  {.quantity = BAUM_BODY_ACCELERATION, .body = parts.bob}};
+  baum_channel cheap[8];
+  int count = cheap_channels(&parts, cheap);
+  for (int k = 0; k < 2 && (k == 0 || baum_has("sundials")); k++) {
+    const baum_integrator *integrator = k == 0 ? baum_rk4() : baum_cvode_adams();
+    int64_t without = cost_of(&parts, integrator, NULL, 0);
+    assert_int_equal(cost_of(&parts, integrator, cheap, count), without);
+    assert_int_equal(cost_of(&parts, integrator, effort, 2), without + SAMPLES);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* Not even the functions of the user are called for what follows from q and v alone. */
+static void what_follows_from_the_state_calls_nothing(void **state)
+{
+  (void)state;
+  every_fault fault = {0};
+  every_element parts = every_element_make(&fault);
+  baum_channel cheap[8];
+  double row[ROW];
+  (void)cheap_channels(&parts, cheap);
+  baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
+  int64_t calls = fault.calls;
+  assert_int_equal(baum_simulation_get(run, cheap, 5, row), BAUM_OK);
+  assert_int_equal(fault.calls, calls);
+  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel phi = {.quantity = BAUM_PHI};
+  int64_t solutions = evaluations(run);
+  calls = fault.calls;
+  assert_int_equal(baum_simulation_get(run, &phi, 1, row), BAUM_OK);
+  assert_int_equal(baum_simulation_get(run, &energy, 1, row), BAUM_OK);
+  assert_true(fault.calls > calls);
+  assert_int_equal(evaluations(run), solutions);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(accelerations_are_the_slopes_of_velocities),
+    cmocka_unit_test(bodies_without_axes_give_their_part_of_a),
+    cmocka_unit_test(the_power_of_a_driver_is_the_change_of_energy),
+    cmocka_unit_test(a_sample_costs_a_solution_only_when_it_asks_for_one),
+    cmocka_unit_test(what_follows_from_the_state_calls_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
