@@ -59,6 +59,7 @@ typedef struct model_slider_crank {
   bool rough;   /* rod and slider are drawn on one line and out of place, the crank in place */
   bool centric; /* no eccentricity */
   bool doubled_guide;       /* a second guide on the same line: two redundant rows */
+  bool moving;              /* velocities of all bodies are given, not of the crank alone */
   double angle;             /* [rad] of the crank at start */
   double rod;               /* [m] its length; 0: that of the source */
   double rod_mass;          /* [kg] 0: that of the source */

@@ -28,6 +28,7 @@ typedef struct pose {
   double eccentricity;
   double crank_angle;
   double rod_angle;
+  double rod_rate;
 } pose;
 
 static pose find_pose(const model_slider_crank *options)
@@ -37,10 +38,11 @@ static pose find_pose(const model_slider_crank *options)
               .crank_angle = options->angle};
   double rise = out.eccentricity - CRANK * sin(out.crank_angle);
   out.rod_angle = options->rough ? 0.0 : asin(rise / out.rod);
+  out.rod_rate = -CRANK * cos(out.crank_angle) * SPEED / (out.rod * cos(out.rod_angle));
   return out;
 }
 
-static void add_crank(builder *build, const pose *at, bodies *out)
+static void add_crank(builder *build, const pose *at, bool moving, bodies *out)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
   def.name = "crank";
@@ -51,6 +53,10 @@ static void add_crank(builder *build, const pose *at, bodies *out)
   def.angle = at->crank_angle;
   def.angular_velocity = SPEED;
   def.held = true;
+  if (moving) {
+    def.velocity[0] = -CRANK / 2 * sin(at->crank_angle) * SPEED;
+    def.velocity[1] = CRANK / 2 * cos(at->crank_angle) * SPEED;
+  }
   out->crank = build_body(build, &def);
 }
 
@@ -59,7 +65,7 @@ static bodies add_bodies(builder *build, const model_slider_crank *options, cons
   bodies out;
   bool rough = options->rough;
   double tip[2] = {CRANK * cos(at->crank_angle), CRANK * sin(at->crank_angle)};
-  add_crank(build, at, &out);
+  add_crank(build, at, options->moving, &out);
 
   baum_planar_body_def def = baum_planar_body_def_default();
   def.name = "rod";
@@ -68,6 +74,11 @@ static bodies add_bodies(builder *build, const model_slider_crank *options, cons
   def.position[0] = tip[0] + at->rod / 2 * cos(at->rod_angle);
   def.position[1] = tip[1] + at->rod / 2 * sin(at->rod_angle);
   def.angle = at->rod_angle;
+  if (options->moving) {
+    def.velocity[0] = -tip[1] * SPEED - at->rod / 2 * sin(at->rod_angle) * at->rod_rate;
+    def.velocity[1] = tip[0] * SPEED + at->rod / 2 * cos(at->rod_angle) * at->rod_rate;
+    def.angular_velocity = at->rod_rate;
+  }
   out.rod = build_body(build, &def);
 
   def = baum_planar_body_def_default();
@@ -76,6 +87,10 @@ static bodies add_bodies(builder *build, const model_slider_crank *options, cons
   def.inertia = 2.7e-6;
   def.position[0] = tip[0] + at->rod * cos(at->rod_angle) + (rough ? 0.01 : 0.0);
   def.position[1] = at->eccentricity - (rough ? 0.02 : 0.0);
+  if (options->moving) {
+    def.velocity[0] = -tip[1] * SPEED - at->rod * sin(at->rod_angle) * at->rod_rate;
+    def.velocity[1] = def.angular_velocity = 0.0;
+  }
   out.slider = build_body(build, &def);
   return out;
 }

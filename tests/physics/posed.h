@@ -1,0 +1,76 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A model at a state, its accelerations and what quadruple precision makes of the same M, J, g and
+ * gamma. Include after cmocka.h.
+ */
+#ifndef BAUM_TEST_POSED_H
+#define BAUM_TEST_POSED_H
+
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+
+#include "models.h"
+#include "quad_saddle.h"
+
+typedef struct posed {
+  model m;
+  baum_workspace *workspace;
+  int32_t nv;
+  int32_t nc;
+  double *memory; /* of those below */
+  double *q;      /* (nv) */
+  double *v;      /* (nv) */
+  double *a;      /* (nv) of the library */
+  double *want_a; /* (nv) of the oracle */
+  double *lambda; /* (nc) */
+  double *want_lambda;
+} posed;
+
+static inline void must(baum_status status)
+{
+  if (status < BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+}
+
+/* Take over a model that was just built, in its drawn pose. */
+static inline posed pose_model(baum_status built, model m)
+{
+  must(built);
+  posed p = {.m = m};
+  must(baum_workspace_create(m.mechanism, &p.workspace));
+  must(baum_mechanism_sizes(m.mechanism, NULL, &p.nv, &p.nc));
+  size_t nv = (size_t)p.nv;
+  size_t nc = (size_t)p.nc;
+  p.memory = calloc(4 * nv + 2 * nc, sizeof *p.memory);
+  assert_non_null(p.memory);
+  p.q = p.memory;
+  p.v = p.q + nv;
+  p.a = p.v + nv;
+  p.want_a = p.a + nv;
+  p.lambda = p.want_a + nv;
+  p.want_lambda = p.lambda + nc;
+  must(baum_workspace_drawn(p.workspace, p.q, p.v));
+  return p;
+}
+
+static inline void unpose(posed *p)
+{
+  baum_workspace_destroy(p->workspace);
+  free(p->memory);
+  model_destroy(&p->m);
+}
+
+/* Deterministic, uniform. */
+static inline double draw(uint64_t *seed, double low, double high)
+{
+  *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+  return low + (high - low) * (double)(*seed >> 11) * 0x1p-53;
+}
+
+static inline void accelerate(posed *p)
+{
+  must(baum_workspace_acceleration(p->workspace, 0.0, p->q, p->v, 0.0, 0.0, p->a, p->lambda));
+}
+
+#endif
