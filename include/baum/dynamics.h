@@ -43,6 +43,16 @@ BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
  */
 BAUM_API baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v);
 
+/** Change an input, which has its initial value before.
+ *  @param value  finite
+ *  @return       BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id input,
+                                              double value);
+
+/** Present value of an input; NaN for NULL and for ids of others. */
+BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
+
 /** Constraint residual Phi(q, t) (1).
  *  @param[in]  q    (nq)
  *  @param[out] phi  (nc) [m], [rad] or the unit of a user constraint

@@ -56,6 +56,12 @@ typedef struct baum_force_id {
   uint32_t tag;   /**< Private: which mechanism. */
 } baum_force_id;
 
+/** Names one input, by value. All-zero: "none". */
+typedef struct baum_input_id {
+  int32_t index1; /**< Private: 1 + position in the mechanism. */
+  uint32_t tag;   /**< Private: which mechanism. */
+} baum_input_id;
+
 /** The body that does not move, in every mechanism. */
 static const baum_body_id BAUM_GROUND = {-1, 0};
 
@@ -72,7 +78,8 @@ typedef int baum_q_fn(double t, const double *q, double *out, void *user);
 typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, void *user);
 
 /** Generalized force, as baum_qv_fn.
- *  @param inputs  values of the mechanism's inputs; NULL while it has none
+ *  @param[in] inputs  present values of the mechanism's inputs in the order of adding; NULL while it
+ *                     has none
  */
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
@@ -306,6 +313,40 @@ BAUM_API baum_status baum_mechanism_get_user_force(const baum_mechanism *mechani
 BAUM_API baum_status baum_mechanism_set_user_force(baum_mechanism *mechanism, baum_force_id id,
                                                    const baum_user_force_def *def);
 
+/* ---- inputs ---------------------------------------------------------------------------------- */
+
+/** Add an input: a number that acts on the motion from outside, such as the torque of a motor. It
+ *  scales the loads that name it (planar.h), and all force functions receive it. Every run and
+ *  workspace begins with the initial value and holds it until it is changed there
+ *  (baum_simulation_set_input(), baum_workspace_set_input()).
+ *  @param      mechanism  not yet frozen
+ *  @param[in]  name       label in messages. Copied. NULL: "input<k>"
+ *  @param      initial    finite
+ *  @param[out] id         receives the input; left as it is on failure. May be NULL.
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
+ *              unchanged on failure
+ */
+BAUM_API baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name,
+                                              double initial, baum_input_id *id);
+
+/** Read an initial value.
+ *  @param[out] initial  not NULL
+ *  @return              BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
+                                              double *initial);
+
+/** Replace an initial value.
+ *  @param mechanism  not yet frozen
+ *  @param initial    finite
+ *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE
+ */
+BAUM_API baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id,
+                                              double initial);
+
+/** Number of inputs, frozen or not; 0 for NULL. */
+BAUM_API int32_t baum_mechanism_input_count(const baum_mechanism *mechanism);
+
 /* ---- the mechanism --------------------------------------------------------------------------- */
 
 /** Make an empty mechanism with gravity (0, -9.81, 0) m/s^2.
@@ -392,6 +433,10 @@ BAUM_API const char *baum_mechanism_body_name(const baum_mechanism *mechanism, b
 /** Name of a joint, owned by the mechanism; NULL when the id is not one of its joints. */
 BAUM_API const char *baum_mechanism_joint_name(const baum_mechanism *mechanism,
                                                baum_joint_id joint);
+
+/** Name of an input, owned by the mechanism; NULL when the id is not one of its inputs. */
+BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
+                                               baum_input_id input);
 
 /** What a mechanism can do at its assembled start pose. */
 typedef struct baum_mobility {

@@ -466,18 +466,20 @@ BAUM_API baum_status baum_mechanism_get_planar_torsion_spring(const baum_mechani
 BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
   baum_mechanism *mechanism, baum_force_id id, const baum_planar_torsion_spring_def *def);
 
-/* ---- constant load --------------------------------------------------------------------------- */
+/* ---- load ------------------------------------------------------------------------------------ */
 
-/** A force at a point of a body and a torque. A load without torque and in ground axes has a
- *  potential, and its energy is counted as such. */
+/** A force at a point of a body and a torque, constant or times an input. The force keeps its
+ *  direction in ground axes or turns with the body; the point is always the body's. A load in ground
+ *  axes without torque and input has a potential, and its energy is counted as such. */
 typedef struct baum_planar_load_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
-  const char *name;   /**< Label in messages. Copied. Default: NULL, "force<k>". */
-  baum_body_id body;  /**< Default: none, must be set; not ground. */
-  double point[2];    /**< [m] on the body, its axes, where the force acts. Default: (0, 0). */
-  double force[2];    /**< [N] Default: (0, 0). */
-  double torque;      /**< [N m] about the normal of the plane. Default: 0. */
-  bool follows_body;  /**< The force turns with the body. Default: false, ground axes. */
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
+  baum_body_id body;   /**< Default: none, must be set; not ground. */
+  double point[2];     /**< [m] on the body, its axes, where the force acts. Default: (0, 0). */
+  double force[2];     /**< [N] Default: (0, 0). */
+  double torque;       /**< [N m] about the normal of the plane. Default: 0. */
+  bool follows_body;   /**< The force turns with the body. Default: false, ground axes. */
+  baum_input_id input; /**< Its value multiplies force and torque. Default: none, 1. */
 } baum_planar_load_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -486,7 +488,7 @@ typedef struct baum_planar_load_def {
  */
 BAUM_API void baum_planar_load_def_init(baum_planar_load_def *def, size_t caller_size);
 
-/** The default definition of a constant load. */
+/** The default definition of a load. */
 static inline baum_planar_load_def baum_planar_load_def_default(void)
 {
   baum_planar_load_def def;
@@ -494,7 +496,7 @@ static inline baum_planar_load_def baum_planar_load_def_default(void)
   return def;
 }
 
-/** Add a constant load.
+/** Add a load.
  *  @param      mechanism  not yet frozen
  *  @param[in]  def        copied
  *  @param[out] id         receives the force; left as it is on failure. May be NULL.

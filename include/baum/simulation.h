@@ -200,6 +200,19 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
 
+/** Change an input from the present time on; it is held until it is changed again, also by
+ *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts; a
+ *  value that is the present one changes nothing.
+ *  @param value  finite
+ *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ *                BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
+ */
+BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id input,
+                                               double value);
+
+/** Present value of an input; NaN for NULL and for ids of others. */
+BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
+
 /** Present time [s]; NaN for NULL. */
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions (nq), owned by the run and changed by it; NULL for NULL. */

@@ -51,6 +51,7 @@ struct baum_workspace {
   double *work_v;   /* (2 nv) */
   double *work_c;   /* (nc) */
   double *shift;    /* (nc) regularization of assembly */
+  double *inputs;   /* (input_count) present values */
 
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory for evaluating one mechanism: made once, then nothing is allocated. */
+#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -12,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 24 };
+enum { ARRAY_COUNT = 25 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -42,6 +43,7 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->force_q, m->force_square_size},
     {&w->force_v, m->force_square_size},
     {&w->point.scratch, m->scratch_size},
+    {&w->inputs, m->input_count},
   };
   memcpy(list, all, sizeof all);
 }
@@ -91,12 +93,23 @@ static baum_status make_structure(baum_workspace *w)
   return BAUM_OK;
 }
 
+/* The initial values. */
+static void hold_inputs(baum_workspace *w)
+{
+  const double *initial = baum_i_initial_inputs(w->mechanism);
+  if (initial) {
+    memcpy(w->inputs, initial, (size_t)w->mechanism->input_count * sizeof *initial);
+    w->point.inputs = w->inputs;
+  }
+}
+
 static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
 {
   w->point.mechanism = w->mechanism;
   w->point.parameters = w->mechanism->parameters;
   baum_status status = make_arrays(w);
   if (status == BAUM_OK) {
+    hold_inputs(w);
     status = make_structure(w);
   }
   if (status == BAUM_OK) {
@@ -142,4 +155,25 @@ void baum_workspace_destroy(baum_workspace *workspace)
   baum_i_free(workspace->structure.row_blocks);
   baum_mechanism_destroy(baum_i_mutable(workspace->mechanism));
   baum_i_free(workspace);
+}
+
+/* ---- inputs ---- */
+
+baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id id, double value)
+{
+  const char *call = "baum_workspace_set_input";
+  if (!workspace) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the workspace is NULL", call);
+  }
+  baum_status status = baum_i_check_input_value(workspace->mechanism, id, call, value);
+  if (status == BAUM_OK) {
+    workspace->inputs[id.index1 - 1] = value;
+  }
+  return status;
+}
+
+double baum_workspace_input(const baum_workspace *workspace, baum_input_id id)
+{
+  int index = workspace ? baum_i_input_index(workspace->mechanism, id) : -1;
+  return index < 0 ? (double)NAN : workspace->inputs[index];
 }

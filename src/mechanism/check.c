@@ -238,7 +238,9 @@ static void release_place(place *p)
 
 static baum_status make_place(const baum_mechanism *mechanism, place *p)
 {
-  *p = (place){.point = {.mechanism = mechanism, .parameters = mechanism->parameters}};
+  *p = (place){.point = {.mechanism = mechanism,
+                         .parameters = mechanism->parameters,
+                         .inputs = baum_i_initial_inputs(mechanism)}};
   p->point.frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
   p->point.scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof(double));
   p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));

@@ -98,6 +98,7 @@ void baum_mechanism_destroy(baum_mechanism *mechanism)
   }
   baum_i_mechanism_thaw(mechanism);
   free_elements(mechanism);
+  baum_i_free_inputs(mechanism);
   baum_i_free(mechanism);
 }
 
@@ -164,7 +165,10 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   copy->tag = mechanism->tag;
   copy->given_scale = mechanism->given_scale;
   memcpy(copy->gravity, mechanism->gravity, sizeof copy->gravity);
-  status = copy_elements(copy, mechanism);
+  status = baum_i_copy_inputs(copy, mechanism);
+  if (status == BAUM_OK) {
+    status = copy_elements(copy, mechanism);
+  }
   if (status != BAUM_OK) {
     baum_mechanism_destroy(copy);
     return status;
@@ -281,7 +285,7 @@ const char *baum_mechanism_joint_name(const baum_mechanism *mechanism, baum_join
 
 /* ---- the whole ---- */
 
-static baum_status check_open(const baum_mechanism *mechanism, const char *call)
+baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
 {
   if (!mechanism) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
@@ -294,7 +298,7 @@ static baum_status check_open(const baum_mechanism *mechanism, const char *call)
 
 baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
 {
-  baum_status status = check_open(mechanism, "baum_mechanism_set_gravity");
+  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_gravity");
   if (status != BAUM_OK) {
     return status;
   }
@@ -319,7 +323,7 @@ baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double g
 
 baum_status baum_mechanism_set_scale(baum_mechanism *mechanism, double length)
 {
-  baum_status status = check_open(mechanism, "baum_mechanism_set_scale");
+  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_scale");
   if (status == BAUM_OK) {
     status = baum_i_check_positive("mechanism", "length scale", "m", length);
   }

@@ -143,6 +143,7 @@ typedef struct baum_i_point {
   const double *q;
   const double *v;      /* NULL at position level */
   baum_i_frame *frames; /* (body_count + 1), ground first */
+  const double *inputs; /* (input_count) present values; NULL while there are none */
   double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
   bool retry;           /* set when the last failure may vanish with a smaller step */
 } baum_i_point;
@@ -290,6 +291,9 @@ struct baum_mechanism {
   baum_i_joint **joints;
   int force_count;
   baum_i_force **forces;
+  int input_count;
+  char **input_names;
+  double *inputs; /* (input_count) initial values */
 
   /* Set at freeze. */
   int nq, nv, nc;
@@ -335,6 +339,7 @@ void baum_i_force_free(baum_i_force *force);
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* from 0 */
+int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
 
 /* Check an id used in a definition. The sentence says whether it is none, or of another
  * mechanism. */
@@ -344,6 +349,23 @@ baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id
                                const char *field);
 baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
                                const char *field);
+
+baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
+                               const char *field);
+/* An id and the value it shall have. */
+baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
+                                     const char *call, double value);
+
+/* ---- input.c ---- */
+
+/* (input_count), or NULL while there are none. */
+const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
+baum_status baum_i_copy_inputs(baum_mechanism *to, const baum_mechanism *from);
+void baum_i_free_inputs(baum_mechanism *mechanism);
+
+/* Check that a call got a mechanism that is not yet frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL),
+ * BAUM_ERR_STATE. */
+baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call);
 
 /* Check that a call got a frozen mechanism: BAUM_OK, BAUM_ERR_ARGUMENT (NULL), BAUM_ERR_STATE. */
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);

@@ -274,6 +274,7 @@ GOOD(planar_load)
   def.point[0] = 0.01;
   def.force[0] = -0.5;
   def.torque = 0.1;
+  def.input = parts->throttle;
   return def;
 }
 
@@ -334,6 +335,9 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
 static baum_status add_all(every_element *parts)
 {
   baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);
+  if (status == BAUM_OK) {
+    status = baum_mechanism_add_input(parts->mechanism, "throttle", 1.0, &parts->throttle);
+  }
   for (int k = 0; k < ELEMENT_KINDS && status == BAUM_OK; k++) {
     status = add_kind(parts, &element_kinds[k]);
     if (k == 0 && status == BAUM_OK) {

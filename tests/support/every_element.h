@@ -45,6 +45,7 @@ typedef struct every_element {
   baum_force_id load;
   baum_force_id drag;
   baum_force_id twist;
+  baum_input_id throttle; /* of the load, 1 at first */
   every_fault *fault;            /* `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* of the definitions */
   baum_body_id drag_bodies[1];

@@ -129,7 +129,7 @@ static const element_field planar_load_fields[] = {
   FIELD(baum_planar_load_def, struct_size, SIZE),  FIELD(baum_planar_load_def, name, NAME),
   FIELD(baum_planar_load_def, body, ID),           FIELD(baum_planar_load_def, point, NUMBERS),
   FIELD(baum_planar_load_def, force, NUMBERS),     FIELD(baum_planar_load_def, torque, NUMBERS),
-  FIELD(baum_planar_load_def, follows_body, FLAG),
+  FIELD(baum_planar_load_def, follows_body, FLAG), FIELD(baum_planar_load_def, input, ID),
 };
 
 static const element_field user_force_fields[] = {

@@ -20,6 +20,7 @@ void test_point_open(test_point *p, baum_mechanism *mechanism)
   assert_true(p->nv <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
   p->point.mechanism = mechanism;
   p->point.parameters = mechanism->parameters;
+  p->point.inputs = baum_i_initial_inputs(mechanism);
   p->point.frames = calloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
   p->point.scratch = calloc((size_t)mechanism->scratch_size + 1, sizeof(double));
   assert_non_null(p->point.frames);

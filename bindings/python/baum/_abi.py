@@ -53,6 +53,13 @@ class baum_force_id(Structure):
     ]
 
 
+class baum_input_id(Structure):
+    _fields_ = [
+        ("index1", c_int32),
+        ("tag", c_uint32),
+    ]
+
+
 BAUM_GROUND = baum_body_id(-1, 0)
 baum_q_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p)
 baum_qv_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p)
@@ -277,6 +284,7 @@ class baum_planar_load_def(Structure):
         ("force", c_double * 2),
         ("torque", c_double),
         ("follows_body", c_bool),
+        ("input", baum_input_id),
     ]
 
 
@@ -455,6 +463,10 @@ PROTOTYPES = {
     "baum_mechanism_set_user_force": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_user_force_def),
     ]),
+    "baum_mechanism_add_input": (c_int, [c_void_p, c_char_p, c_double, POINTER(baum_input_id)]),
+    "baum_mechanism_get_input": (c_int, [c_void_p, baum_input_id, c_void_p]),
+    "baum_mechanism_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
+    "baum_mechanism_input_count": (c_int32, [c_void_p]),
     "baum_mechanism_create": (c_int, [POINTER(c_void_p)]),
     "baum_mechanism_copy": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_mechanism_destroy": (None, [c_void_p]),
@@ -471,11 +483,14 @@ PROTOTYPES = {
     "baum_mechanism_columns": (c_int, [c_void_p, baum_body_id, POINTER(c_int32), POINTER(c_int32)]),
     "baum_mechanism_body_name": (c_char_p, [c_void_p, baum_body_id]),
     "baum_mechanism_joint_name": (c_char_p, [c_void_p, baum_joint_id]),
+    "baum_mechanism_input_name": (c_char_p, [c_void_p, baum_input_id]),
     "baum_mechanism_mobility": (c_int, [c_void_p, POINTER(baum_mobility), c_size_t]),
     "baum_mechanism_check_derivatives": (c_int, [c_void_p]),
     "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_workspace_destroy": (None, [c_void_p]),
     "baum_workspace_drawn": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
+    "baum_workspace_input": (c_double, [c_void_p, baum_input_id]),
     "baum_workspace_phi": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_workspace_jacobian": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_workspace_nu": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
@@ -629,6 +644,8 @@ PROTOTYPES = {
     "baum_simulation_step": (c_int, [c_void_p, c_int64]),
     "baum_simulation_cancel": (None, [c_void_p]),
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
+    "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),
     "baum_simulation_time": (c_double, [c_void_p]),
     "baum_simulation_q": (c_void_p, [c_void_p]),
     "baum_simulation_v": (c_void_p, [c_void_p]),
@@ -667,6 +684,7 @@ STRUCTS = [
     baum_body_id,
     baum_joint_id,
     baum_force_id,
+    baum_input_id,
     baum_coordinates_def,
     baum_user_constraint_def,
     baum_driver_def,

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constant load on one body, planar: force f at the point s, and torque t.
- * With p = A s, over x, y, angle:
+/* Load on one body, planar: force f at the point s, and torque t, both times the input u if there
+ * is one. With p = A s, over x, y, angle, and u in f and t already:
  *
  *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
  *                  V = -f . (r + p) when t = 0
  *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
  *
  * where x x y = x_1 y_2 - x_2 y_1. A load in ground axes with a torque counts as having no
- * potential, because a torque's work depends on the turns.
+ * potential, because a torque's work depends on the turns; nor has one with an input, whose changes
+ * would make the potential jump where no work is done.
  */
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -17,6 +18,12 @@
 enum { POINT = 0, FORCE = 2, TORQUE = 4, PARAMETER_COUNT };
 
 static const baum_planar_load_def defaults = {.struct_size = sizeof(baum_planar_load_def)};
+
+/* `input` lies in what was padding after `follows_body`. */
+static const size_t former[] = {
+  offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
+  0,
+};
 
 /* ---- definition ---- */
 
@@ -72,9 +79,18 @@ static baum_status check_numbers(const baum_planar_load_def *def, const char *la
   return status;
 }
 
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+static bool has_input(const baum_planar_load_def *def)
 {
+  return def->input.index1 != 0 || def->input.tag != 0;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_load_def *def = given;
   baum_status status = check_numbers(def, label);
+  if (status == BAUM_OK && has_input(def)) {
+    status = baum_i_check_input(mechanism, def->input, label, "input");
+  }
   return status == BAUM_OK ? check_body(mechanism, def, label) : status;
 }
 
@@ -107,6 +123,7 @@ typedef struct load {
   double force[2]; /* ground axes */
   double torque;
   bool follows_body;
+  bool has_potential;
 } load;
 
 static load load_at(const baum_i_force *element, const baum_i_point *point)
@@ -114,12 +131,14 @@ static load load_at(const baum_i_force *element, const baum_i_point *point)
   const baum_planar_load_def *def = element->element.def;
   const double *numbers = point->parameters + element->element.parameter;
   const baum_i_frame *frame = &point->frames[element->span.bodies[0]];
-  const double *f = numbers + FORCE;
+  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  const double f[2] = {scale * numbers[FORCE], scale * numbers[FORCE + 1]};
   load l = {
     .at = baum_i_marker_on(frame, numbers + POINT),
     .force = {f[0], f[1]},
-    .torque = numbers[TORQUE],
+    .torque = scale * numbers[TORQUE],
     .follows_body = def->follows_body,
+    .has_potential = !def->follows_body && numbers[TORQUE] == 0.0 && !has_input(def),
   };
   if (l.follows_body) {
     l.force[0] = frame->c * f[0] - frame->s * f[1];
@@ -156,7 +175,7 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
 {
   for (int i = 0; i < group->count; i++) {
     load l = load_at(group->forces[i], point);
-    if (!l.follows_body && l.torque == 0.0) {
+    if (l.has_potential) {
       *sum -= l.force[0] * l.at.r[0] + l.force[1] * l.at.r[1];
     }
   }
@@ -182,6 +201,7 @@ static const baum_i_force_type type = {
   .definition = {.kind = "planar load",
                  .size = sizeof(baum_planar_load_def),
                  .defaults = &defaults,
+                 .former = former,
                  .check = check},
   .parameter_count = PARAMETER_COUNT,
   .bodies = bodies,

@@ -1,0 +1,157 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Inputs of a mechanism: names and initial values. Present values belong to runs and workspaces. */
+#include <math.h>
+#include <stdio.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "mechanism/mechanism.h"
+
+/* ---- ids ---- */
+
+int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id)
+{
+  bool ours =
+    mechanism && id.tag == mechanism->tag && id.index1 >= 1 && id.index1 <= mechanism->input_count;
+  return ours ? id.index1 - 1 : -1;
+}
+
+baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
+                               const char *field)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", label);
+  }
+  if (baum_i_input_index(mechanism, id) >= 0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s", label, field,
+                     id.index1 == 0 ? "none, must be given" : "not of this mechanism");
+}
+
+static baum_status check_value(const char *call, int number, const char *name, double value)
+{
+  return isfinite(value)
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: input %d \"%.80s\" is %g, must be finite", call,
+                         number, name, value);
+}
+
+baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
+                                     const char *call, double value)
+{
+  baum_status status = baum_i_check_input(mechanism, id, call, "input");
+  return status == BAUM_OK
+           ? check_value(call, id.index1, mechanism->input_names[id.index1 - 1], value)
+           : status;
+}
+
+/* ---- the list ---- */
+
+const double *baum_i_initial_inputs(const baum_mechanism *mechanism)
+{
+  return mechanism->input_count > 0 ? mechanism->inputs : NULL;
+}
+
+void baum_i_free_inputs(baum_mechanism *mechanism)
+{
+  for (int i = 0; i < mechanism->input_count; i++) {
+    baum_i_free(mechanism->input_names[i]);
+  }
+  baum_i_free(mechanism->input_names);
+  baum_i_free(mechanism->inputs);
+}
+
+static baum_status append(baum_mechanism *mechanism, const char *name, double initial)
+{
+  size_t count = (size_t)mechanism->input_count + 1;
+  char **names = baum_i_grow(mechanism->input_names, count, sizeof *names);
+  if (!names) {
+    return baum_i_fail_memory();
+  }
+  mechanism->input_names = names;
+  double *values = baum_i_grow(mechanism->inputs, count, sizeof *values);
+  if (!values) {
+    return baum_i_fail_memory();
+  }
+  mechanism->inputs = values;
+  names[count - 1] = baum_i_copy_text(name);
+  if (!names[count - 1]) {
+    return baum_i_fail_memory();
+  }
+  values[count - 1] = initial;
+  mechanism->input_count++;
+  return BAUM_OK;
+}
+
+baum_status baum_i_copy_inputs(baum_mechanism *to, const baum_mechanism *from)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < from->input_count && status == BAUM_OK; i++) {
+    status = append(to, from->input_names[i], from->inputs[i]);
+  }
+  return status;
+}
+
+/* ---- public ---- */
+
+baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name, double initial,
+                                     baum_input_id *id)
+{
+  const char *call = "baum_mechanism_add_input";
+  char default_name[BAUM_I_LABEL_SIZE];
+  baum_status status = baum_i_check_open(mechanism, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int number = mechanism->input_count + 1;
+  (void)snprintf(default_name, sizeof default_name, "input%d", number);
+  const char *given = name ? name : default_name;
+  status = check_value(call, number, given, initial);
+  if (status == BAUM_OK) {
+    status = append(mechanism, given, initial);
+  }
+  if (status == BAUM_OK && id) {
+    *id = (baum_input_id){number, mechanism->tag};
+  }
+  return status;
+}
+
+baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
+                                     double *initial)
+{
+  const char *call = "baum_mechanism_get_input";
+  baum_status status = baum_i_check_input(mechanism, id, call, "id");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!initial) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: initial is NULL", call);
+  }
+  *initial = mechanism->inputs[id.index1 - 1];
+  return BAUM_OK;
+}
+
+baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id, double initial)
+{
+  const char *call = "baum_mechanism_set_input";
+  baum_status status = baum_i_check_open(mechanism, call);
+  if (status == BAUM_OK) {
+    status = baum_i_check_input_value(mechanism, id, call, initial);
+  }
+  if (status == BAUM_OK) {
+    mechanism->inputs[id.index1 - 1] = initial;
+  }
+  return status;
+}
+
+int32_t baum_mechanism_input_count(const baum_mechanism *mechanism)
+{
+  return mechanism ? mechanism->input_count : 0;
+}
+
+const char *baum_mechanism_input_name(const baum_mechanism *mechanism, baum_input_id id)
+{
+  int index = baum_i_input_index(mechanism, id);
+  return index < 0 ? NULL : mechanism->input_names[index];
+}
