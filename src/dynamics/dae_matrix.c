@@ -11,40 +11,35 @@
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
  * ones only add values to the slots found then. A dropped row reads 1 on its diagonal.
  */
-#include <limits.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/dynamics.h"
+#include "linear/compress.h"
 
 struct baum_i_residual_matrix {
   baum_residual index;
   int size;
-  int nonzeros; /* different places among the entries of a walk */
-  int *slot;    /* (entries) */
-  int32_t *columns;
-  int32_t *rows;
+  int32_t *slot;    /* (entries of a walk) */
+  int32_t *columns; /* (size + 1) */
+  int32_t *rows;    /* (columns[size]) */
 };
 
 /* Where a walk sends its entries. */
 typedef struct sink {
-  int count;
-  int *row; /* learning */
-  int *col;
-  const int *slot; /* filling: NULL while learning */
+  baum_i_places *places; /* learning, else NULL */
+  const int32_t *slot;   /* filling: of the next entry */
   double *values;
 } sink;
 
 static void emit(sink *s, int row, int col, double value)
 {
-  if (s->slot) {
-    s->values[s->slot[s->count]] += value;
-  } else if (s->row) {
-    s->row[s->count] = row;
-    s->col[s->count] = col;
+  if (s->places) {
+    baum_i_places_add(s->places, row, col);
+  } else {
+    s->values[*s->slot++] += value;
   }
-  s->count++;
 }
 
 /* What a walk multiplies the blocks with. */
@@ -155,60 +150,6 @@ static void walk(const factors *f, sink *s)
 
 /* ---- the pattern ---- */
 
-/* Entries into buckets by column: start (size + 1), order (entries). */
-static void bucket(const sink *s, int size, int *start, int *order)
-{
-  memset(start, 0, (size_t)(size + 1) * sizeof *start);
-  for (int k = 0; k < s->count; k++) {
-    start[s->col[k] + 1]++;
-  }
-  for (int j = 0; j < size; j++) {
-    start[j + 1] += start[j];
-  }
-  for (int k = 0; k < s->count; k++) {
-    order[start[s->col[k]]++] = k;
-  }
-  for (int j = size; j > 0; j--) {
-    start[j] = start[j - 1];
-  }
-  start[0] = 0;
-}
-
-/* Sort one bucket by row; columns are short. */
-static void sort_by_row(const int *row, int *order, int count)
-{
-  for (int i = 1; i < count; i++) {
-    int item = order[i];
-    int j = i;
-    while (j > 0 && row[order[j - 1]] > row[item]) {
-      order[j] = order[j - 1];
-      j--;
-    }
-    order[j] = item;
-  }
-}
-
-static void compress(baum_i_residual_matrix *matrix, const sink *s, int *start, int *order)
-{
-  bucket(s, matrix->size, start, order);
-  int slots = 0;
-  for (int j = 0; j < matrix->size; j++) {
-    int first = start[j];
-    int count = start[j + 1] - first;
-    matrix->columns[j] = slots;
-    sort_by_row(s->row, order + first, count);
-    for (int k = 0; k < count; k++) {
-      int entry = order[first + k];
-      if (k == 0 || s->row[entry] != matrix->rows[slots - 1]) {
-        matrix->rows[slots++] = s->row[entry];
-      }
-      matrix->slot[entry] = slots - 1;
-    }
-  }
-  matrix->columns[matrix->size] = slots;
-  matrix->nonzeros = slots;
-}
-
 /* Entries that one walk emits. */
 static size_t count_entries(const baum_mechanism *m, baum_residual index)
 {
@@ -217,31 +158,28 @@ static size_t count_entries(const baum_mechanism *m, baum_residual index)
          (size_t)m->joint_square_size + jacobians * (size_t)m->jacobian_size + (size_t)m->nc;
 }
 
+static baum_status compress(baum_i_residual_matrix *matrix, const baum_i_places *places)
+{
+  matrix->slot = baum_i_alloc(places->count, sizeof *matrix->slot);
+  matrix->rows = baum_i_alloc(places->count, sizeof *matrix->rows);
+  matrix->columns = baum_i_alloc((size_t)matrix->size + 1, sizeof *matrix->columns);
+  if (!matrix->slot || !matrix->rows || !matrix->columns) {
+    return BAUM_ERR_MEMORY;
+  }
+  return baum_i_compress(places, matrix->size, matrix->columns, matrix->rows, matrix->slot);
+}
+
 static baum_status learn(baum_i_residual_matrix *matrix, const factors *f)
 {
-  size_t entries = count_entries(f->w->mechanism, matrix->index);
-  if (entries > INT_MAX) {
-    return baum_i_fail_memory();
-  }
-  sink s = {0};
-  matrix->slot = baum_i_alloc(entries, sizeof(int));
-  matrix->rows = baum_i_alloc(entries, sizeof(int32_t));
-  matrix->columns = baum_i_alloc((size_t)matrix->size + 1, sizeof(int32_t));
-  s.row = baum_i_alloc(entries, sizeof(int));
-  s.col = baum_i_alloc(entries, sizeof(int));
-  int *start = baum_i_alloc((size_t)matrix->size + 1, sizeof(int));
-  int *order = baum_i_alloc(entries, sizeof(int));
-  bool complete =
-    matrix->slot && matrix->rows && matrix->columns && s.row && s.col && start && order;
-  if (complete) {
+  baum_i_places places;
+  baum_status status = baum_i_places_create(count_entries(f->w->mechanism, matrix->index), &places);
+  if (status == BAUM_OK) {
+    sink s = {.places = &places};
     walk(f, &s);
-    compress(matrix, &s, start, order);
+    status = compress(matrix, &places);
   }
-  baum_i_free(s.row);
-  baum_i_free(s.col);
-  baum_i_free(start);
-  baum_i_free(order);
-  return complete ? BAUM_OK : baum_i_fail_memory();
+  baum_i_places_clear(&places);
+  return status == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
 }
 
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
@@ -277,7 +215,7 @@ void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix)
 
 int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix)
 {
-  return matrix->nonzeros;
+  return matrix->columns[matrix->size];
 }
 
 const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix)
@@ -327,7 +265,7 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
   if (status != BAUM_OK) {
     return status;
   }
-  memset(values, 0, (size_t)matrix->nonzeros * sizeof *values);
+  memset(values, 0, (size_t)matrix->columns[matrix->size] * sizeof *values);
   const factors f = {.w = workspace, .dae = dae, .c = c};
   sink s = {.slot = matrix->slot, .values = values};
   walk(&f, &s);

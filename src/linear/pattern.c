@@ -1,21 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pattern of the saddle-point matrix in compressed columns.
- *
- * All entries are first listed as (row, column) pairs. They are then thrown into buckets by column,
- * and the buckets, read in order, into lists by row, which thereby ascend. As the pattern is
- * symmetric, the list of a row is the list of the column, and repeated pairs stand side by side.
- */
+/* Pattern of the saddle-point matrix in compressed columns: all entries are listed, and the list is
+ * compressed. */
 #include "linear/pattern.h"
 
 #include <string.h>
 
 #include "base/alloc.h"
-
-typedef struct pair_list {
-  size_t count;
-  int32_t *row;
-  int32_t *column;
-} pair_list;
+#include "linear/compress.h"
 
 static size_t count_mass_values(const baum_i_kkt_structure *structure)
 {
@@ -37,26 +28,20 @@ static size_t count_row_values(const baum_i_kkt_structure *structure)
   return count;
 }
 
-static void add_pair(pair_list *pairs, int row, int column)
-{
-  pairs->row[pairs->count] = row;
-  pairs->column[pairs->count] = column;
-  pairs->count++;
-}
-
-static void list_mass(const baum_i_kkt_structure *structure, pair_list *pairs)
+static void list_mass(const baum_i_kkt_structure *structure, baum_i_places *places)
 {
   for (int b = 0; b < structure->mass_block_count; b++) {
     const baum_i_mass_block *block = &structure->mass_blocks[b];
     for (int i = 0; i < block->size; i++) {
       for (int j = 0; j < block->size; j++) {
-        add_pair(pairs, block->first + i, block->first + j);
+        baum_i_places_add(places, block->first + i, block->first + j);
       }
     }
   }
 }
 
-static void list_jacobian(const baum_i_kkt_structure *structure, bool transposed, pair_list *pairs)
+static void list_jacobian(const baum_i_kkt_structure *structure, bool transposed,
+                          baum_i_places *places)
 {
   for (int b = 0; b < structure->row_block_count; b++) {
     const baum_i_row_block *block = &structure->row_blocks[b];
@@ -64,119 +49,34 @@ static void list_jacobian(const baum_i_kkt_structure *structure, bool transposed
       int row = structure->nv + block->row + i;
       for (int k = 0; k < block->cols; k++) {
         if (transposed) {
-          add_pair(pairs, block->col[k], row);
+          baum_i_places_add(places, block->col[k], row);
         } else {
-          add_pair(pairs, row, block->col[k]);
+          baum_i_places_add(places, row, block->col[k]);
         }
       }
     }
   }
 }
 
-static void list_all(const baum_i_kkt_structure *structure, pair_list *pairs)
+static void list_all(const baum_i_kkt_structure *structure, baum_i_places *places)
 {
-  list_mass(structure, pairs);
-  list_jacobian(structure, false, pairs);
-  list_jacobian(structure, true, pairs);
+  list_mass(structure, places);
+  list_jacobian(structure, false, places);
+  list_jacobian(structure, true, places);
   for (int i = 0; i < structure->nv + structure->nc; i++) {
-    add_pair(pairs, i, i);
+    baum_i_places_add(places, i, i);
   }
 }
 
-/* start (n + 1): where the list of each key begins when pairs are gathered by key. */
-static void count_by_key(const int32_t *key, size_t count, int32_t n, int32_t *start)
+static baum_status compress(const baum_i_places *places, baum_i_pattern *pattern)
 {
-  for (size_t k = 0; k < count; k++) {
-    start[key[k] + 1]++;
-  }
-  for (int32_t i = 0; i < n; i++) {
-    start[i + 1] += start[i];
-  }
-}
-
-/* Rows of the pairs, gathered by column and ascending within it.
- * `next` (n) and `bucket` (count) are scratch. */
-static void gather(const pair_list *pairs, int32_t n, const int32_t *start, int32_t *next,
-                   int32_t *bucket, int32_t *gathered)
-{
-  memcpy(next, start, (size_t)n * sizeof *next);
-  for (size_t k = 0; k < pairs->count; k++) {
-    bucket[next[pairs->column[k]]++] = pairs->row[k];
-  }
-  memcpy(next, start, (size_t)n * sizeof *next);
-  for (int32_t j = 0; j < n; j++) {
-    for (int32_t k = start[j]; k < start[j + 1]; k++) {
-      gathered[next[bucket[k]]++] = j;
-    }
-  }
-}
-
-/* Take repeated rows out, in place. */
-static void remove_repeated(int32_t n, int32_t *start, int32_t *row)
-{
-  int32_t kept = 0;
-  int32_t begin = 0;
-  for (int32_t j = 0; j < n; j++) {
-    int32_t end = start[j + 1];
-    start[j] = kept;
-    for (int32_t k = begin; k < end; k++) {
-      if (kept == start[j] || row[kept - 1] != row[k]) {
-        row[kept++] = row[k];
-      }
-    }
-    begin = end;
-  }
-  start[n] = kept;
-}
-
-static int32_t find_slot(const baum_i_pattern *pattern, int32_t row, int32_t column)
-{
-  int32_t low = pattern->column_start[column];
-  int32_t high = pattern->column_start[column + 1] - 1;
-  while (low < high) {
-    int32_t middle = low + (high - low) / 2;
-    if (pattern->row[middle] < row) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
-static baum_status compress(const pair_list *pairs, baum_i_pattern *pattern)
-{
-  size_t n = (size_t)pattern->n;
-  int32_t *next = baum_i_alloc(n, sizeof *next);
-  int32_t *bucket = baum_i_alloc(pairs->count, sizeof *bucket);
-  pattern->column_start = baum_i_alloc(n + 1, sizeof *pattern->column_start);
-  pattern->row = baum_i_alloc(pairs->count, sizeof *pattern->row);
-  bool ok = next && bucket && pattern->column_start && pattern->row;
-  if (ok) {
-    count_by_key(pairs->column, pairs->count, pattern->n, pattern->column_start);
-    gather(pairs, pattern->n, pattern->column_start, next, bucket, pattern->row);
-    remove_repeated(pattern->n, pattern->column_start, pattern->row);
-  }
-  baum_i_free(next);
-  baum_i_free(bucket);
-  return ok ? BAUM_OK : BAUM_ERR_MEMORY;
-}
-
-static baum_status find_slots(const pair_list *pairs, size_t mass, size_t jacobian,
-                              baum_i_pattern *pattern)
-{
-  pattern->slot = baum_i_alloc(pairs->count, sizeof *pattern->slot);
-  if (!pattern->slot) {
+  pattern->column_start = baum_i_alloc((size_t)pattern->n + 1, sizeof *pattern->column_start);
+  pattern->row = baum_i_alloc(places->count, sizeof *pattern->row);
+  pattern->slot = baum_i_alloc(places->count, sizeof *pattern->slot);
+  if (!pattern->column_start || !pattern->row || !pattern->slot) {
     return BAUM_ERR_MEMORY;
   }
-  for (size_t k = 0; k < pairs->count; k++) {
-    pattern->slot[k] = find_slot(pattern, pairs->row[k], pairs->column[k]);
-  }
-  pattern->mass = pattern->slot;
-  pattern->jacobian = pattern->mass + mass;
-  pattern->transposed = pattern->jacobian + jacobian;
-  pattern->diagonal = pattern->transposed + jacobian;
-  return BAUM_OK;
+  return baum_i_compress(places, pattern->n, pattern->column_start, pattern->row, pattern->slot);
 }
 
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern)
@@ -184,29 +84,23 @@ baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_
   size_t mass = count_mass_values(structure);
   size_t jacobian = count_row_values(structure);
   size_t n = (size_t)structure->nv + (size_t)structure->nc;
-  size_t count = mass + 2 * jacobian + n;
   *pattern = (baum_i_pattern){.structure = structure, .n = (int32_t)n};
-  if (count > INT32_MAX) {
-    return BAUM_ERR_MEMORY;
-  }
-  pair_list pairs = {
-    .row = baum_i_alloc(count, sizeof *pairs.row),
-    .column = baum_i_alloc(count, sizeof *pairs.column),
-  };
-  baum_status status = BAUM_ERR_MEMORY;
-  if (pairs.row && pairs.column) {
-    list_all(structure, &pairs);
-    status = compress(&pairs, pattern);
-  }
+  baum_i_places places;
+  baum_status status = baum_i_places_create(mass + 2 * jacobian + n, &places);
   if (status == BAUM_OK) {
-    status = find_slots(&pairs, mass, jacobian, pattern);
+    list_all(structure, &places);
+    status = compress(&places, pattern);
   }
-  baum_i_free(pairs.row);
-  baum_i_free(pairs.column);
+  baum_i_places_clear(&places);
   if (status != BAUM_OK) {
     baum_i_pattern_clear(pattern);
+    return status;
   }
-  return status;
+  pattern->mass = pattern->slot;
+  pattern->jacobian = pattern->mass + mass;
+  pattern->transposed = pattern->jacobian + jacobian;
+  pattern->diagonal = pattern->transposed + jacobian;
+  return BAUM_OK;
 }
 
 void baum_i_pattern_clear(baum_i_pattern *pattern)
