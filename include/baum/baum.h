@@ -8,6 +8,7 @@
 #include <baum/dynamics.h>
 #include <baum/mechanism.h>
 #include <baum/planar.h>
+#include <baum/planar_joints.h>
 #include <baum/simulation.h>
 #include <baum/stabilization.h>
 #include <baum/status.h>

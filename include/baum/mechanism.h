@@ -260,6 +260,66 @@ BAUM_API baum_status baum_mechanism_get_driver(const baum_mechanism *mechanism, 
 BAUM_API baum_status baum_mechanism_set_driver(baum_mechanism *mechanism, baum_joint_id id,
                                                const baum_driver_def *def);
 
+/* ---- couplings ------------------------------------------------------------------------------- */
+
+/** Law of a coupling: f[0] value, f[1] slope df/dx, f[2] curvature d2f/dx2 at coordinate x of
+ *  joint_a [rad or m]; angles go on over turns. f is zeroed before the call; return as baum_q_fn.
+ *  Third derivatives, where a method needs them, are differences of f[2]. It is also called beside
+ *  the motion, by the check of derivatives. */
+typedef int baum_coupling_fn(double x, double f[3], void *user);
+
+/** One row that ties the coordinates of two joints: coordinate_b - f(coordinate_a) = 0, with
+ *  f(x) = ratio x + offset, or a user law: that is a cam whose follower is a joint. Coordinates are
+ *  those that drivers prescribe. The joints may share bodies, as a crank and a slider on the ground
+ *  do. Reaction: the generalized force -J^T lambda over the velocities of the bodies of joint_a,
+ *  then of those of joint_b, each body once, those of ground left out. */
+typedef struct baum_coupling_def {
+  size_t struct_size;    /**< Set by the default. Do not write. */
+  const char *name;      /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_joint_id joint_a; /**< With a coordinate. Default: none, must be set. */
+  baum_joint_id joint_b; /**< With a coordinate; not joint_a. Default: none, must be set. */
+  double ratio;          /**< [unit b / unit a] Default: 1. */
+  double offset;         /**< [rad or m] of coordinate_b. Default: NaN, that of the drawn pose. */
+  baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
+  void *user;            /**< Passed to law, not owned. Default: NULL. */
+} baum_coupling_def;
+
+/** Set the defaults of a definition; writes at most caller_size bytes.
+ *  @param[out] def          NULL is ignored
+ *  @param      caller_size  sizeof *def
+ */
+BAUM_API void baum_coupling_def_init(baum_coupling_def *def, size_t caller_size);
+
+/** The default definition of a coupling of two joints. */
+static inline baum_coupling_def baum_coupling_def_default(void)
+{
+  baum_coupling_def def;
+  baum_coupling_def_init(&def, sizeof def);
+  return def;
+}
+
+/** Add a coupling of two joints.
+ *  @param      mechanism  not yet frozen
+ *  @param[in]  def        copied
+ *  @param[out] id         receives the joint; left as it is on failure. May be NULL.
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the
+ *              mechanism is unchanged on failure
+ */
+BAUM_API baum_status baum_mechanism_add_coupling(baum_mechanism *mechanism,
+                                                 const baum_coupling_def *def, baum_joint_id *id);
+
+/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+ *  @return BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_mechanism_get_coupling(const baum_mechanism *mechanism, baum_joint_id id,
+                                                 baum_coupling_def *out, size_t caller_size);
+
+/** Replace a definition; the joints must stay.
+ *  @return as baum_mechanism_add_coupling()
+ */
+BAUM_API baum_status baum_mechanism_set_coupling(baum_mechanism *mechanism, baum_joint_id id,
+                                                 const baum_coupling_def *def);
+
 /* ---- forces given by functions --------------------------------------------------------------- */
 
 /** Generalized force on the named bodies. nv below is the number of their velocities together. */

@@ -47,6 +47,16 @@ baum_status baum_i_check_not_negative(const char *label, const char *field, cons
                      value, unit);
 }
 
+baum_status baum_i_check_not_zero(const char *label, const char *field, const char *unit,
+                                  double value)
+{
+  if (isfinite(value) && value != 0.0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and not 0", label, field,
+                     value, unit);
+}
+
 baum_status baum_i_check_optional(const char *label, const char *field, const char *unit,
                                   double value)
 {

@@ -72,6 +72,8 @@ baum_status baum_i_check_positive(const char *label, const char *field, const ch
                                   double value);
 baum_status baum_i_check_not_negative(const char *label, const char *field, const char *unit,
                                       double value);
+baum_status baum_i_check_not_zero(const char *label, const char *field, const char *unit,
+                                  double value);
 /* Finite, or NaN for "not given". */
 baum_status baum_i_check_optional(const char *label, const char *field, const char *unit,
                                   double value);

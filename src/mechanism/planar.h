@@ -11,6 +11,7 @@
 #define BAUM_I_MECHANISM_PLANAR_H
 
 #include <baum/planar.h>
+#include <baum/planar_joints.h>
 
 #include "mechanism/mechanism.h"
 

@@ -114,6 +114,22 @@ class baum_driver_def(Structure):
     ]
 
 
+baum_coupling_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p)
+
+
+class baum_coupling_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint_a", baum_joint_id),
+        ("joint_b", baum_joint_id),
+        ("ratio", c_double),
+        ("offset", c_double),
+        ("law", baum_coupling_fn),
+        ("user", c_void_p),
+    ]
+
+
 class baum_user_force_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -288,6 +304,64 @@ class baum_planar_load_def(Structure):
     ]
 
 
+class baum_planar_pin_in_slot_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("axis", c_double * 2),
+    ]
+
+
+class baum_planar_rack_and_pinion_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("axis", c_double * 2),
+        ("radius", c_double),
+        ("offset", c_double),
+    ]
+
+
+class baum_planar_gear_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("carrier", baum_body_id),
+        ("radius_a", c_double),
+        ("radius_b", c_double),
+        ("offset", c_double),
+    ]
+
+
+baum_curve_fn = CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p)
+
+
+class baum_planar_curve_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 2),
+        ("point_a", c_double * 2),
+        ("point_b", c_double * 2),
+        ("curve", baum_curve_fn),
+        ("user", c_void_p),
+    ]
+
+
 class baum_gain_rule(enum.IntEnum):
     BAUM_GAINS_DEFAULT = 0
     BAUM_GAINS_FIXED = 1
@@ -453,6 +527,14 @@ PROTOTYPES = {
         c_void_p, baum_joint_id, POINTER(baum_driver_def), c_size_t,
     ]),
     "baum_mechanism_set_driver": (c_int, [c_void_p, baum_joint_id, POINTER(baum_driver_def)]),
+    "baum_coupling_def_init": (None, [POINTER(baum_coupling_def), c_size_t]),
+    "baum_mechanism_add_coupling": (c_int, [
+        c_void_p, POINTER(baum_coupling_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_coupling": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_coupling_def), c_size_t,
+    ]),
+    "baum_mechanism_set_coupling": (c_int, [c_void_p, baum_joint_id, POINTER(baum_coupling_def)]),
     "baum_user_force_def_init": (None, [POINTER(baum_user_force_def), c_size_t]),
     "baum_mechanism_add_user_force": (c_int, [
         c_void_p, POINTER(baum_user_force_def), POINTER(baum_force_id),
@@ -608,6 +690,48 @@ PROTOTYPES = {
     "baum_mechanism_set_planar_load": (c_int, [
         c_void_p, baum_force_id, POINTER(baum_planar_load_def),
     ]),
+    "baum_planar_pin_in_slot_def_init": (None, [POINTER(baum_planar_pin_in_slot_def), c_size_t]),
+    "baum_mechanism_add_planar_pin_in_slot": (c_int, [
+        c_void_p, POINTER(baum_planar_pin_in_slot_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_pin_in_slot": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_pin_in_slot_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_pin_in_slot": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_pin_in_slot_def),
+    ]),
+    "baum_planar_rack_and_pinion_def_init": (None, [
+        POINTER(baum_planar_rack_and_pinion_def), c_size_t,
+    ]),
+    "baum_mechanism_add_planar_rack_and_pinion": (c_int, [
+        c_void_p, POINTER(baum_planar_rack_and_pinion_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_rack_and_pinion": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_rack_and_pinion_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_rack_and_pinion": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_rack_and_pinion_def),
+    ]),
+    "baum_planar_gear_def_init": (None, [POINTER(baum_planar_gear_def), c_size_t]),
+    "baum_mechanism_add_planar_gear": (c_int, [
+        c_void_p, POINTER(baum_planar_gear_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_gear": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_gear_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_gear": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_gear_def),
+    ]),
+    "baum_planar_curve_def_init": (None, [POINTER(baum_planar_curve_def), c_size_t]),
+    "baum_mechanism_add_planar_curve": (c_int, [
+        c_void_p, POINTER(baum_planar_curve_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_planar_curve": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_curve_def), c_size_t,
+    ]),
+    "baum_mechanism_set_planar_curve": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_planar_curve_def),
+    ]),
     "baum_gains_fixed": (baum_gains, [c_double, c_double]),
     "baum_gains_scaled": (baum_gains, [c_double, c_double]),
     "baum_gains_taylor": (baum_gains, []),
@@ -667,6 +791,7 @@ DEFAULTS = {
     baum_coordinates_def: "baum_coordinates_def_init",
     baum_user_constraint_def: "baum_user_constraint_def_init",
     baum_driver_def: "baum_driver_def_init",
+    baum_coupling_def: "baum_coupling_def_init",
     baum_user_force_def: "baum_user_force_def_init",
     baum_planar_body_def: "baum_planar_body_def_init",
     baum_planar_particle_def: "baum_planar_particle_def_init",
@@ -677,6 +802,10 @@ DEFAULTS = {
     baum_planar_spring_def: "baum_planar_spring_def_init",
     baum_planar_torsion_spring_def: "baum_planar_torsion_spring_def_init",
     baum_planar_load_def: "baum_planar_load_def_init",
+    baum_planar_pin_in_slot_def: "baum_planar_pin_in_slot_def_init",
+    baum_planar_rack_and_pinion_def: "baum_planar_rack_and_pinion_def_init",
+    baum_planar_gear_def: "baum_planar_gear_def_init",
+    baum_planar_curve_def: "baum_planar_curve_def_init",
     baum_simulation_options: "baum_simulation_options_init",
 }
 
@@ -688,6 +817,7 @@ STRUCTS = [
     baum_coordinates_def,
     baum_user_constraint_def,
     baum_driver_def,
+    baum_coupling_def,
     baum_user_force_def,
     baum_mobility,
     baum_dae,
@@ -701,6 +831,10 @@ STRUCTS = [
     baum_planar_spring_def,
     baum_planar_torsion_spring_def,
     baum_planar_load_def,
+    baum_planar_pin_in_slot_def,
+    baum_planar_rack_and_pinion_def,
+    baum_planar_gear_def,
+    baum_planar_curve_def,
     baum_gains,
     baum_amplification,
     baum_simulation_options,

@@ -18,6 +18,7 @@
 #include "mechanism/joints/axis_row.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -50,8 +51,10 @@ void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i
   bool on_ground = !isnan(point[0]);
   along[0] = on_ground ? a->c * x + a->s * y : x;
   along[1] = on_ground ? -a->s * x + a->c * y : y;
-  normal[0] = -along[1];
-  normal[1] = along[0];
+  if (normal) {
+    normal[0] = -along[1];
+    normal[1] = along[0];
+  }
 }
 
 /* ---- the row ---- */
@@ -117,6 +120,20 @@ double baum_i_axis_gamma(const baum_i_planar_pair *pair, const double direction[
   return w_a * w_a * x.u_span - 2.0 * w_a * dot(x.n, relative) + w_b * w_b * x.u_arm;
 }
 
+void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double direction[2],
+                            baum_i_coordinate *out)
+{
+  double v[6];
+  baum_i_planar_velocities(pair->frame_a, pair->frame_b, v);
+  out->value = baum_i_axis_value(pair, direction);
+  out->gamma = baum_i_axis_gamma(pair, direction);
+  baum_i_axis_gradient(pair, direction, out->gradient);
+  out->rate = 0.0;
+  for (int i = 0; i < 6; i++) {
+    out->rate += out->gradient[i] * v[i];
+  }
+}
+
 /* H y */
 static void times_hessian(const baum_i_axis *x, const double y[6], double out[6])
 {
@@ -161,4 +178,15 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
     out->gamma_v[i] *= -2.0;
   }
   set_gamma_q(&x, v, out->gamma_q);
+}
+
+void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
+                               const double w[6], double lambda, baum_i_planar_blocks *out)
+{
+  baum_i_coordinate_blocks row;
+  baum_i_axis_linearize(pair, direction, w, lambda, &row);
+  memcpy(out->jw_q, row.jw_q, sizeof row.jw_q);
+  memcpy(out->jtl_q, row.jtl_q, sizeof row.jtl_q);
+  memcpy(out->gamma_q, row.gamma_q, sizeof row.gamma_q);
+  memcpy(out->gamma_v, row.gamma_v, sizeof row.gamma_v);
 }

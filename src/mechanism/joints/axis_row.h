@@ -13,7 +13,7 @@
 /* Finite, with a direction. */
 baum_status baum_i_axis_check(const double axis[2], const char *label);
 
-/* The unit axis and its normal k x axis, in the axes of body_a, drawn at `a`. The axis has those
+/* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`. The axis has those
  * axes that the points have: with `point` (given or NaN) it is drawn on the ground. */
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2]);
@@ -28,8 +28,16 @@ void baum_i_axis_gradient(const baum_i_planar_pair *pair, const double direction
 /* So that gradient . a = value'' + gamma. */
 double baum_i_axis_gamma(const baum_i_planar_pair *pair, const double direction[2]);
 
+/* All of the above. */
+void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double direction[2],
+                            baum_i_coordinate *out);
+
 /* Sets every entry. */
 void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double direction[2],
                            const double w[6], double lambda, baum_i_coordinate_blocks *out);
+
+/* The same as the first row of a joint. */
+void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
+                               const double w[6], double lambda, baum_i_planar_blocks *out);
 
 #endif

@@ -43,21 +43,27 @@ typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
 typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
                                          const double *lambda, baum_i_planar_blocks *out);
 
-static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint,
-                                                       const baum_i_point *point)
+/* From the joint's parameters and the frames of its bodies. */
+static inline baum_i_planar_pair baum_i_planar_pair_of(const double *numbers, const baum_i_frame *a,
+                                                       const baum_i_frame *b)
 {
-  const double *numbers = point->parameters + joint->element.parameter;
-  int a = joint->span.bodies[0];
-  int b = joint->span.bodies[1];
   return (baum_i_planar_pair){
     .s_a = numbers,
     .s_b = numbers + 2,
     .numbers = numbers + BAUM_I_PLANAR_NUMBERS,
-    .frame_a = &point->frames[a],
-    .frame_b = &point->frames[b],
-    .a = baum_i_marker_at(point, a, numbers),
-    .b = baum_i_marker_at(point, b, numbers + 2),
+    .frame_a = a,
+    .frame_b = b,
+    .a = baum_i_marker_on(a, numbers),
+    .b = baum_i_marker_on(b, numbers + 2),
   };
+}
+
+static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint,
+                                                       const baum_i_point *point)
+{
+  return baum_i_planar_pair_of(point->parameters + joint->element.parameter,
+                               &point->frames[joint->span.bodies[0]],
+                               &point->frames[joint->span.bodies[1]]);
 }
 
 /* Angle of body_b as seen from body_a, continuous over turns. */

@@ -69,6 +69,7 @@ static const baum_i_joint_type type = {
   .parameter_count = BAUM_I_PLANAR_NUMBERS,
   .planar = true,
   .scleronomic = true,
+  .is_pin = true,
   .rows = rows,
   .bodies = baum_i_planar_bodies,
   .lower = baum_i_planar_lower_points,

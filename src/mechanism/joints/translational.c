@@ -9,7 +9,6 @@
  *   coordinate = A_a e . d, again of axis_row.c
  */
 #include <math.h>
-#include <string.h>
 
 #include "mechanism/definition.h"
 #include "mechanism/joints/axis_row.h"
@@ -84,16 +83,11 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
   out[1] = 0.0;
 }
 
+/* The row of the angle is linear. */
 static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
                           baum_i_planar_blocks *out)
 {
-  /* The row of the angle is linear. */
-  baum_i_coordinate_blocks row;
-  baum_i_axis_linearize(pair, pair->numbers + NORMAL, w, lambda[0], &row);
-  memcpy(out->jw_q, row.jw_q, sizeof row.jw_q);
-  memcpy(out->jtl_q, row.jtl_q, sizeof row.jtl_q);
-  memcpy(out->gamma_q, row.gamma_q, sizeof row.gamma_q);
-  memcpy(out->gamma_v, row.gamma_v, sizeof row.gamma_v);
+  baum_i_axis_row_linearize(pair, pair->numbers + NORMAL, w, lambda[0], out);
 }
 
 /* ---- type ---- */
@@ -114,16 +108,7 @@ static baum_status linearize(const baum_i_joint_group *group, baum_i_point *poin
 static void coordinate(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out)
 {
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-  const double *axis = pair.numbers + AXIS;
-  double v[6];
-  baum_i_planar_velocities(pair.frame_a, pair.frame_b, v);
-  out->value = baum_i_axis_value(&pair, axis);
-  out->gamma = baum_i_axis_gamma(&pair, axis);
-  baum_i_axis_gradient(&pair, axis, out->gradient);
-  out->rate = 0.0;
-  for (int i = 0; i < 6; i++) {
-    out->rate += out->gradient[i] * v[i];
-  }
+  baum_i_axis_coordinate(&pair, pair.numbers + AXIS, out);
 }
 
 static void coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
