@@ -138,7 +138,8 @@ typedef enum model_parallelogram {
   MODEL_THIRD_BY_A_ROD /* the middle one held parallel by a massless rod of 1 m: 11 rows */
 } model_parallelogram;
 
-/* q = (x, y, angle) of first and last crank, coupler, middle crank. Starts at 1 rad with 2 rad/s. */
-baum_status model_parallelogram_build(model_parallelogram which, model *out);
+/* q = (x, y, angle) of first and last crank, coupler, middle crank. Cranks start at `angle` [rad] with
+ * 2 rad/s. */
+baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out);
 
 #endif

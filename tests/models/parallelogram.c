@@ -9,7 +9,6 @@
 
 #include <math.h>
 
-static const double ANGLE = 1.0;
 static const double RATE = 2.0;
 
 static baum_planar_body_def rod(const char *name, double mass, double length)
@@ -21,27 +20,27 @@ static baum_planar_body_def rod(const char *name, double mass, double length)
   return def;
 }
 
-static baum_body_id add_crank(builder *build, const char *name, double x)
+static baum_body_id add_crank(builder *build, const char *name, double x, double angle)
 {
   baum_planar_body_def def = rod(name, 1.0, 1.0);
-  def.position[0] = x + cos(ANGLE) / 2;
-  def.position[1] = sin(ANGLE) / 2;
-  def.angle = ANGLE;
-  def.velocity[0] = -sin(ANGLE) / 2 * RATE;
-  def.velocity[1] = cos(ANGLE) / 2 * RATE;
+  def.position[0] = x + cos(angle) / 2;
+  def.position[1] = sin(angle) / 2;
+  def.angle = angle;
+  def.velocity[0] = -sin(angle) / 2 * RATE;
+  def.velocity[1] = cos(angle) / 2 * RATE;
   def.angular_velocity = RATE;
   baum_body_id crank = build_body(build, &def);
   build_pin(build, NULL, (place){BAUM_GROUND, {x, 0.0}}, (place){crank, {-0.5, 0.0}});
   return crank;
 }
 
-static baum_body_id add_coupler(builder *build)
+static baum_body_id add_coupler(builder *build, double angle)
 {
   baum_planar_body_def def = rod("coupler", 2.0, 2.0);
-  def.position[0] = 1.0 + cos(ANGLE);
-  def.position[1] = sin(ANGLE);
-  def.velocity[0] = -sin(ANGLE) * RATE;
-  def.velocity[1] = cos(ANGLE) * RATE;
+  def.position[0] = 1.0 + cos(angle);
+  def.position[1] = sin(angle);
+  def.velocity[0] = -sin(angle) * RATE;
+  def.velocity[1] = cos(angle) * RATE;
   def.angular_velocity = 0.0;
   return build_body(build, &def);
 }
@@ -70,17 +69,17 @@ static void add_rod(builder *build, baum_body_id crank, baum_body_id coupler)
   build_joint(build, status, id);
 }
 
-baum_status model_parallelogram_build(model_parallelogram which, model *out)
+baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out)
 {
   builder build = build_begin(out);
   build_gravity(&build, 9.81);
-  baum_body_id first = add_crank(&build, "first crank", 0.0);
-  baum_body_id last = add_crank(&build, "last crank", 2.0);
-  baum_body_id coupler = add_coupler(&build);
+  baum_body_id first = add_crank(&build, "first crank", 0.0, angle);
+  baum_body_id last = add_crank(&build, "last crank", 2.0, angle);
+  baum_body_id coupler = add_coupler(&build, angle);
   pin_tip(&build, first, coupler, -1.0);
   pin_tip(&build, last, coupler, 1.0);
   if (which != MODEL_TWO_CRANKS) {
-    baum_body_id middle = add_crank(&build, "middle crank", 1.0);
+    baum_body_id middle = add_crank(&build, "middle crank", 1.0, angle);
     if (which == MODEL_THREE_CRANKS) {
       pin_tip(&build, middle, coupler, 0.0);
     } else {

@@ -95,7 +95,7 @@ static bodies add_bodies(builder *build, const model_slider_crank *options, cons
   return out;
 }
 
-static void add_motor(builder *build, baum_joint_id pin)
+static void add_motor(builder *build, baum_joint_id pin, double angle)
 {
   if (!build_fine(build)) {
     return;
@@ -103,6 +103,7 @@ static void add_motor(builder *build, baum_joint_id pin)
   baum_driver_def def = baum_driver_def_default();
   def.name = "motor";
   def.joint = pin;
+  def.value = angle;
   def.rate = SPEED * build_unit(build, 0, 0, -1);
   baum_joint_id id = {0};
   baum_status status = baum_mechanism_add_driver(build->out->mechanism, &def, &id);
@@ -125,7 +126,7 @@ baum_status model_slider_crank_build(model_slider_crank options, model *out)
     build_guide(&build, "second guide", body.slider, at.eccentricity, CRANK / 2);
   }
   if (options.driven) {
-    add_motor(&build, pin);
+    add_motor(&build, pin, options.angle);
   }
   return build_finish(&build);
 }

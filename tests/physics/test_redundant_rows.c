@@ -1,0 +1,164 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows that say nothing new change nothing: a third parallel crank, a second guide on the same line,
+ * against the same bodies without them.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "posed.h"
+
+enum { POSES = 8 };
+
+/* Two paths to the same numbers, both of an ordinary pose's accuracy; the redundant rows are fulfilled
+ * to rounding only, as the pose is. */
+static const double LIMIT = 1e-10;
+
+/* ---- the pairs ---- */
+
+/* Pose number k of a mechanism with redundant rows, or of the same without. */
+typedef posed pair_fn(int k, bool redundant);
+
+static posed cranks(int k, bool redundant)
+{
+  model m;
+  model_parallelogram which = redundant ? MODEL_THREE_CRANKS : MODEL_THIRD_BY_A_ROD;
+  /* Between 0.3 and 2.4 rad: away from flat, where the cranks may cross. */
+  baum_status status = model_parallelogram_build(which, 0.3 + 0.3 * k, &m);
+  return pose_model(status, m);
+}
+
+static posed slider(int k, bool redundant, bool driven)
+{
+  model m;
+  model_slider_crank options = {
+    .driven = driven, .doubled_guide = redundant, .angle = 0.7 * k, .moving = true};
+  baum_status status = model_slider_crank_build(options, &m);
+  return pose_model(status, m);
+}
+
+static posed free_slider(int k, bool redundant)
+{
+  return slider(k, redundant, false);
+}
+
+static posed driven_slider(int k, bool redundant)
+{
+  return slider(k, redundant, true);
+}
+
+static const struct {
+  const char *name;
+  pair_fn *pose;
+  int more_rows;
+  int redundant_rows;
+  double step; /* [s] of runs */
+} PAIRS[] = {
+  {"three parallel cranks", cranks, 1, 1, 1e-3},
+  {"slider-crank, two guides", free_slider, 2, 2, 1e-5},
+  {"slider-crank, two guides, driven", driven_slider, 2, 2, 1e-5},
+};
+enum { PAIR_COUNT = sizeof PAIRS / sizeof PAIRS[0] };
+
+/* ---- accelerations ---- */
+
+static double compare_pose(int pair, int k)
+{
+  posed with = PAIRS[pair].pose(k, true);
+  posed without = PAIRS[pair].pose(k, false);
+  assert_int_equal(with.nv, without.nv);
+  assert_int_equal(with.nc - without.nc, PAIRS[pair].more_rows);
+  assert_int_equal(with.workspace->redundancy.count, PAIRS[pair].redundant_rows);
+  accelerate(&with);
+  accelerate(&without);
+  double apart = quad_error(with.nv, with.a, without.a);
+  unpose(&with);
+  unpose(&without);
+  return apart;
+}
+
+static void accelerations_are_those_without_redundant_rows(void **state)
+{
+  (void)state;
+  double worst_of_all = 0.0;
+  for (int pair = 0; pair < PAIR_COUNT; pair++) {
+    double worst = 0.0;
+    for (int k = 0; k < POSES; k++) {
+      double apart = compare_pose(pair, k);
+      worst = isnan(apart) || apart > worst ? apart : worst;
+    }
+    printf("%-34s a differs by %.1e\n", PAIRS[pair].name, worst);
+    worst_of_all = isnan(worst) || worst > worst_of_all ? worst : worst_of_all;
+  }
+  assert_true(worst_of_all <= LIMIT);
+}
+
+/* The oracle agrees, with the rows left out that the workspace leaves out. */
+static void accelerations_are_those_of_quadruple_precision(void **state)
+{
+  (void)state;
+  for (int pair = 0; pair < PAIR_COUNT; pair++) {
+    posed p = PAIRS[pair].pose(1, true);
+    accelerate(&p);
+    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->redundancy.dropped,
+                                  p.want_a, p.want_lambda));
+    double error = quad_error(p.nv, p.a, p.want_a);
+    printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
+    assert_true(error <= 1e-12); /* an ordinary pose, see test_acceleration_accuracy.c */
+    unpose(&p);
+  }
+}
+
+/* ---- runs ---- */
+
+static double compare_runs(int pair, const baum_simulation_options *options)
+{
+  double worst = 0.0;
+  posed with = PAIRS[pair].pose(1, true);
+  posed without = PAIRS[pair].pose(1, false);
+  baum_simulation *runs[2] = {NULL, NULL};
+  must(baum_simulation_create(with.m.mechanism, options, &runs[0]));
+  must(baum_simulation_create(without.m.mechanism, options, &runs[1]));
+  for (int i = 0; i < 2; i++) {
+    must(baum_simulation_step(runs[i], 200));
+  }
+  for (int i = 0; i < with.nv; i++) {
+    double apart = fabs(baum_simulation_q(runs[0])[i] - baum_simulation_q(runs[1])[i]);
+    worst = isnan(apart) || apart > worst ? apart : worst;
+  }
+  baum_simulation_destroy(runs[0]);
+  baum_simulation_destroy(runs[1]);
+  unpose(&with);
+  unpose(&without);
+  return worst;
+}
+
+static void motions_are_those_without_redundant_rows(void **state)
+{
+  (void)state;
+  const baum_integrator *methods[] = {baum_semi_implicit_euler(), baum_rk4()};
+  for (int k = 0; k < 2 * PAIR_COUNT; k++) {
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = methods[k % 2];
+    options.formulation = BAUM_FORMULATION_PROJECTION;
+    options.step = PAIRS[k / 2].step;
+    double apart = compare_runs(k / 2, &options);
+    printf("%-34s %-20s 200 steps: %.1e\n", PAIRS[k / 2].name,
+           baum_integrator_name(options.integrator), apart);
+    assert_true(apart <= LIMIT); /* rounding of 200 steps; lengths are in m, angles in rad */
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(accelerations_are_those_without_redundant_rows),
+    cmocka_unit_test(accelerations_are_those_of_quadruple_precision),
+    cmocka_unit_test(motions_are_those_without_redundant_rows),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

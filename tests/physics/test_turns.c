@@ -1,0 +1,171 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Angles that have gone round 10000 times: a body does not know how often it has turned, but what an
+ * angle of 6e4 rad can hold: 7e-12 rad.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "posed.h"
+
+static const double TURNS = 1e4;
+/* A turn in two parts, so that TURNS of them can be taken away to the last digit. */
+static const double TURN = 6.283185307179586;
+static const double TURN_REST = 2.4492935982947064e-16;
+
+/* As poses nearby: see test_acceleration_accuracy.c. */
+static const double ORDINARY = 1e-12;
+
+enum { CASES = 5, STEPS = 200, LINKS = 10 };
+
+static const char *const NAMES[CASES] = {"slider-crank", "slider-crank, driven", "four-bar",
+                                         "four-bar N = 10", "chain N = 10"};
+
+static baum_status build_chain(double shift, model *m)
+{
+  double angle[LINKS];
+  for (int k = 0; k < LINKS; k++) {
+    angle[k] = 0.3 * k + shift;
+  }
+  model_chain data = {.links = LINKS, .angle = angle};
+  return model_chain_build(&data, m);
+}
+
+/* In slider-cranks only the crank can turn. */
+static posed pose_case(int which, double shift)
+{
+  model m;
+  model_slider_crank crank = {.driven = which == 1, .angle = 1.0 + shift, .moving = true};
+  model_n_four_bar bars = model_n_four_bar_a02(which == 2 ? 1 : 10);
+  bars.angle = 1.0 + shift;
+  baum_status status = BAUM_OK;
+  switch (which) {
+  case 0:
+  case 1: status = model_slider_crank_build(crank, &m); break;
+  case 4: status = build_chain(shift, &m); break;
+  default: status = model_n_four_bar_build(&bars, &m); break;
+  }
+  return pose_model(status, m);
+}
+
+/* Take the turns out of all angles that are above half of them. */
+static void turn_back(int count, double *q)
+{
+  for (int i = 2; i < count; i += 3) {
+    if (q[i] > TURNS * TURN / 2) {
+      q[i] = fma(-TURNS, TURN, q[i]) - TURNS * TURN_REST;
+    }
+  }
+}
+
+static void turned_poses_keep_twelve_digits(void **state)
+{
+  (void)state;
+  int failures = 0;
+  printf("\n%-24s %10s %10s %20s\n", "after 10000 turns", "a", "lambda", "a without the turns");
+  for (int which = 0; which < CASES; which++) {
+    posed p = pose_case(which, TURNS * TURN);
+    accelerate(&p);
+    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, NULL, p.want_a, p.want_lambda));
+    double a = quad_error(p.nv, p.a, p.want_a);
+    double lambda = quad_error(p.nc, p.lambda, p.want_lambda);
+    turn_back(p.nv, p.q);
+    accelerate(&p);
+    double apart = quad_error(p.nv, p.a, p.want_a);
+    printf("%-24s %10.1e %10.1e %20.1e\n", NAMES[which], a, lambda, apart);
+    failures += a <= ORDINARY && lambda <= ORDINARY && apart <= ORDINARY ? 0 : 1;
+    unpose(&p);
+  }
+  assert_int_equal(failures, 0);
+}
+
+/* ---- runs ---- */
+
+static baum_simulation *start_run(const posed *p, const baum_simulation_options *options)
+{
+  baum_simulation *run = NULL;
+  must(baum_simulation_create(p->m.mechanism, options, &run));
+  must(baum_simulation_set_state(run, 0.0, p->q, p->v));
+  return run;
+}
+
+/* Largest difference, lengths by the scale of the mechanism, after the same time with and without the
+ * turns. */
+static double compare_runs(int which, const baum_simulation_options *options, double end)
+{
+  posed p = pose_case(which, TURNS * TURN);
+  double scale = (double)NAN;
+  must(baum_mechanism_get_scale(p.m.mechanism, &scale));
+  baum_simulation *turned = start_run(&p, options);
+  /* A mechanism of its own, so that nothing is measured from a turned pose: a driver's start. */
+  posed other = pose_case(which, 0.0);
+  turn_back(p.nv, p.q);
+  (void)memcpy(other.q, p.q, (size_t)p.nv * sizeof *p.q);
+  baum_simulation *plain = start_run(&other, options);
+  must(baum_simulation_advance_to(turned, end));
+  must(baum_simulation_advance_to(plain, end));
+  (void)memcpy(p.q, baum_simulation_q(turned), (size_t)p.nv * sizeof *p.q);
+  turn_back(p.nv, p.q);
+  double worst = 0.0;
+  for (int i = 0; i < p.nv; i++) {
+    double apart = fabs(p.q[i] - baum_simulation_q(plain)[i]) / (i % 3 < 2 ? scale : 1.0);
+    worst = isnan(apart) || apart > worst ? apart : worst;
+  }
+  baum_simulation_destroy(turned);
+  baum_simulation_destroy(plain);
+  unpose(&p);
+  unpose(&other);
+  return worst;
+}
+
+static void fixed_steps_differ_by_the_rounding_of_angles(void **state)
+{
+  (void)state;
+  /* Each of the 200 steps rounds an angle by 3.6e-12 at most: 7.3e-10 in all; and what is off by
+   * that at the start of a second or less grows tenfold at most. */
+  const double limit = 7.3e-9;
+  int failures = 0;
+  printf("\n%-24s %10s\n", "200 steps of RK4", "apart");
+  for (int which = 0; which < CASES; which++) {
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = baum_rk4();
+    options.step = which < 2 ? 1e-5 : 1e-3;
+    double worst = compare_runs(which, &options, STEPS * options.step);
+    printf("%-24s %10.1e\n", NAMES[which], worst);
+    failures += worst <= limit ? 0 : 1;
+  }
+  assert_int_equal(failures, 0);
+}
+
+static void variable_steps_differ_by_their_tolerance(void **state)
+{
+  (void)state;
+  if (!BAUM_HAVE_SUNDIALS) {
+    skip();
+  }
+  int failures = 0;
+  printf("\n%-24s %10s\n", "CVODE, rtol 1e-8", "apart");
+  for (int which = 0; which < CASES; which++) {
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = baum_cvode_adams();
+    options.rtol = 1e-8;
+    double worst = compare_runs(which, &options, which < 2 ? 2e-3 : 0.2);
+    printf("%-24s %10.1e\n", NAMES[which], worst);
+    failures += worst <= 10.0 * options.rtol ? 0 : 1;
+  }
+  assert_int_equal(failures, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(turned_poses_keep_twelve_digits),
+    cmocka_unit_test(fixed_steps_differ_by_the_rounding_of_angles),
+    cmocka_unit_test(variable_steps_differ_by_their_tolerance),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The same mechanism in metres, kilograms, seconds and in millimetres, grams, milliseconds: the same
+ * motion, by the same steps.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "posed.h"
+
+enum { CASES = 6, LINKS = 10 };
+
+static const char *const NAMES[CASES] = {"slider-crank", "slider-crank, driven", "four-bar",
+                                         "Andrews",      "four-bar N = 10",      "chain N = 10"};
+/* [s] Some turns of slider-crank and Andrews, swings of the others: short enough that differences of
+ * rounding do not grow into others. */
+static const double END[CASES] = {0.02, 0.02, 0.5, 0.005, 0.5, 0.5};
+
+static baum_status build_chain(const model_units *units, model *m)
+{
+  double angle[LINKS];
+  for (int k = 0; k < LINKS; k++) {
+    angle[k] = 0.1 * k;
+  }
+  model_chain data = {.links = LINKS, .angle = angle, .units = units};
+  return model_chain_build(&data, m);
+}
+
+static baum_status build_case(int which, const model_units *units, model *m)
+{
+  model_slider_crank crank = {.driven = which == 1, .units = units};
+  model_n_four_bar bars = model_n_four_bar_a02(10);
+  bars.units = units;
+  switch (which) {
+  case 0:
+  case 1: return model_slider_crank_build(crank, m);
+  case 2: return model_four_bar_in(units, m);
+  case 3: return model_andrews_bodies_in(units, m);
+  case 4: return model_n_four_bar_build(&bars, m);
+  default: return build_chain(units, m);
+  }
+}
+
+typedef struct pair {
+  double apart; /* largest difference of positions, lengths by the scale */
+  int64_t steps[2];
+} pair;
+
+/* Run up to time `end` of the units; options in SI units. */
+static baum_simulation *run_in(const model *m, const model_units *units,
+                               const baum_simulation_options *options, double end, int64_t *steps)
+{
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  baum_simulation_options scaled = *options;
+  scaled.step *= units ? units->time : 1.0;
+  must(baum_simulation_create(m->mechanism, &scaled, &run));
+  must(baum_simulation_advance_to(run, end * (units ? units->time : 1.0)));
+  must(baum_simulation_counters(run, &counters, sizeof counters));
+  *steps = counters.steps;
+  return run;
+}
+
+static pair compare_units(int which, const baum_simulation_options *options)
+{
+  pair out = {0};
+  model m[2];
+  int32_t nq = 0;
+  double scale = (double)NAN;
+  must(build_case(which, NULL, &m[0]));
+  must(build_case(which, &MODEL_MILLI, &m[1]));
+  must(baum_mechanism_sizes(m[0].mechanism, &nq, NULL, NULL));
+  must(baum_mechanism_get_scale(m[0].mechanism, &scale));
+  baum_simulation *si = run_in(&m[0], NULL, options, END[which], &out.steps[0]);
+  baum_simulation *milli = run_in(&m[1], &MODEL_MILLI, options, END[which], &out.steps[1]);
+  for (int i = 0; i < nq; i++) {
+    double unit = i % 3 < 2 ? MODEL_MILLI.length : 1.0;
+    double apart = fabs(baum_simulation_q(milli)[i] / unit - baum_simulation_q(si)[i]);
+    apart /= i % 3 < 2 ? scale : 1.0;
+    out.apart = isnan(apart) || apart > out.apart ? apart : out.apart;
+  }
+  baum_simulation_destroy(si);
+  baum_simulation_destroy(milli);
+  model_destroy(&m[0]);
+  model_destroy(&m[1]);
+  return out;
+}
+
+static void print_pair(int which, const baum_simulation_options *options, const pair *found)
+{
+  printf("%-22s %-20s %-12s %10.1e %6lld %6lld\n", NAMES[which],
+         baum_integrator_name(options->integrator), baum_formulation_name(options->formulation),
+         found->apart, (long long)found->steps[0], (long long)found->steps[1]);
+  (void)fflush(stdout);
+}
+
+static void fixed_steps_lead_to_the_same_place(void **state)
+{
+  (void)state;
+  /* Rounding of some hundred steps. */
+  const double limit = 1e-10;
+  const baum_integrator *methods[] = {baum_semi_implicit_euler(), baum_rk4()};
+  const baum_formulation formulations[] = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_PROJECTION,
+                                           BAUM_FORMULATION_UNSTABILIZED};
+  int failures = 0;
+  printf("\n%-22s %-20s %-12s %10s %6s %6s\n", "fixed step", "", "", "apart", "SI", "milli");
+  for (int k = 0; k < 6 * CASES; k++) {
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = methods[k % 2];
+    options.formulation = formulations[k / 2 % 3];
+    options.step = END[k / 6] / 256;
+    pair found = compare_units(k / 6, &options);
+    print_pair(k / 6, &options, &found);
+    failures += found.apart <= limit && found.steps[0] == found.steps[1] ? 0 : 1;
+  }
+  assert_int_equal(failures, 0);
+}
+
+static void variable_steps_are_the_same_within_two_percent(void **state)
+{
+  (void)state;
+  if (!BAUM_HAVE_SUNDIALS) {
+    skip();
+  }
+  const baum_integrator *methods[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
+  int failures = 0;
+  printf("\n%-22s %-20s %-12s %10s %6s %6s\n", "rtol 1e-6", "", "", "apart", "SI", "milli");
+  for (int k = 0; k < 3 * CASES; k++) {
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = methods[k % 3];
+    options.formulation = BAUM_FORMULATION_BAUMGARTE;
+    options.rtol = 1e-6;
+    pair found = compare_units(k / 3, &options);
+    print_pair(k / 3, &options, &found);
+    /* A choice of step hangs on comparisons that rounding may turn. */
+    double more = fabs((double)(found.steps[1] - found.steps[0]));
+    bool same = more <= 0.02 * (double)found.steps[0];
+    failures += same && found.apart <= 10.0 * options.rtol ? 0 : 1;
+  }
+  assert_int_equal(failures, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(fixed_steps_lead_to_the_same_place),
+    cmocka_unit_test(variable_steps_are_the_same_within_two_percent),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
