@@ -44,7 +44,9 @@ static void say_mechanism(baum_simulation *run)
         r->count == 1 ? "row" : "rows");
   }
   if (m->nv == rank) {
-    say(run, "              no freedom is left: the motion follows from the drivers alone\n");
+    say(run, "              no freedom is left: the motion follows from the drivers alone%s\n",
+        run->integrator->without_freedom ? ""
+                                         : "; kinematics gives it exactly, without integration");
   }
   say(run, "scale         %.6g m, and 1 rad\n", m->length);
 }
@@ -52,6 +54,11 @@ static void say_mechanism(baum_simulation *run)
 static void say_integrator(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
+  if (run->integrator->without_freedom) {
+    say(run, "integrator    %s: Phi(q, t) = 0 is solved to rounding at every time asked for\n",
+        run->integrator->name);
+    return;
+  }
   if (run->integrator->step) {
     say(run, "integrator    %s, order %d, fixed step %.6g s\n", run->integrator->name,
         run->integrator->order, o->step);
@@ -71,8 +78,10 @@ void baum_i_run_explain(baum_simulation *run)
 {
   run->explain[0] = '\0';
   say_mechanism(run);
-  say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
-      formulation_text(run->options.formulation));
+  if (!run->integrator->without_freedom) {
+    say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
+        formulation_text(run->options.formulation));
+  }
   say_integrator(run);
   if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {
     say(run, "gains         alpha %.6g 1/s, beta %.6g 1/s\n              %s\n", run->problem.alpha,

@@ -57,6 +57,28 @@ static baum_status check_step(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
+static baum_status check_max_step(const baum_simulation_options *o)
+{
+  bool is_fine = isnan(o->max_step) || o->max_step > 0.0;
+  return is_fine ? BAUM_OK : refuse("max_step", "s", o->max_step, "must be > 0");
+}
+
+/* Kinematics takes neither step nor tolerance. */
+static baum_status check_neither(const baum_simulation_options *o)
+{
+  const char *const fields[3] = {"step", "rtol", "atol"};
+  const double values[3] = {o->step, o->rtol, o->atol};
+  for (int k = 0; k < 3; k++) {
+    if (!isnan(values[k])) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "simulation options: %s is %g, but %s solves Phi(q, t) = 0 to rounding at "
+                         "the times asked for; give neither step nor tolerance",
+                         fields[k], values[k], o->integrator->name);
+    }
+  }
+  return check_max_step(o);
+}
+
 static baum_status check_tolerance(const baum_simulation_options *o)
 {
   const char *name = o->integrator->name;
@@ -76,10 +98,15 @@ static baum_status check_tolerance(const baum_simulation_options *o)
   if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
     return refuse("atol", "", o->atol, "must be finite and >= 0");
   }
-  if (!isnan(o->max_step) && !(o->max_step > 0.0)) {
-    return refuse("max_step", "s", o->max_step, "must be > 0");
+  return check_max_step(o);
+}
+
+static baum_status check_steps(const baum_simulation_options *o)
+{
+  if (o->integrator->without_freedom) {
+    return check_neither(o);
   }
-  return BAUM_OK;
+  return baum_integrator_has_fixed_step(o->integrator) ? check_step(o) : check_tolerance(o);
 }
 
 static baum_status check_choices(const baum_simulation_options *o)
@@ -121,15 +148,17 @@ static baum_status check_pair(baum_simulation_options *o)
   const char *name = baum_formulation_name(o->formulation);
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                      "simulation options: %s does not offer the formulation %s; it offers %s",
-                     o->integrator->name, name ? name : "of that number", list);
+                     o->integrator->name, name ? name : "of that number",
+                     list[0] ? list : "none, for no freedom is left");
 }
 
 static baum_status check_gains(const baum_simulation_options *o)
 {
   if (o->gains.rule != BAUM_GAINS_DEFAULT && o->formulation != BAUM_FORMULATION_BAUMGARTE) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "simulation options: gains are given, but the formulation %s has none",
-                       baum_formulation_name(o->formulation));
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: gains are given, but %s %s has none",
+                       o->integrator->without_freedom ? "the integrator" : "the formulation",
+                       o->integrator->without_freedom ? o->integrator->name
+                                                      : baum_formulation_name(o->formulation));
   }
   return BAUM_OK;
 }
@@ -140,11 +169,9 @@ baum_status baum_i_options_check(baum_simulation_options *options)
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "simulation options: integrator is NULL; there is no default, choose one of "
                        "baum_euler, baum_semi_implicit_euler, baum_rk2, baum_rk3, baum_rk4, "
-                       "baum_cvode_adams, baum_cvode_bdf, baum_ida");
+                       "baum_cvode_adams, baum_cvode_bdf, baum_ida, baum_kinematics");
   }
-  baum_status status = baum_integrator_has_fixed_step(options->integrator)
-                         ? check_step(options)
-                         : check_tolerance(options);
+  baum_status status = check_steps(options);
   if (status == BAUM_OK) {
     status = check_choices(options);
   }

@@ -1,0 +1,414 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One guarded step along the path q(t) of Phi(q, t) = 0, nc = nv independent rows, J square.
+ *
+ * Newton from a guess:       J dq = -Phi
+ * then                       J v = nu,  J a = gamma
+ *
+ * The pose found must lie on the branch on which the step began. Newton alone cannot tell: where two branches come
+ * near each other, a long step lands next to the wrong one and converges there at once. What tells them apart is J:
+ * along a path without singular poses det J keeps its sign, and on the other side of a fold or of a crossing it has
+ * the other. With J0 at the beginning and J1 at the end,
+ *
+ *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
+ *
+ * is positive as long as no real eigenvalue of D reaches 1, for which |D| < 1 is enough, at the end and, D growing
+ * about as the step, on the way (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for Nonlinear
+ * Problems, 2004, chapters 2 and 5). D is probed: with z of one part of every scale in every coordinate,
+ *
+ *   turning = max_k (|D^k z| / |z|)^(1/k),  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
+ *
+ * grows to the largest eigenvalue, and one that is near singular is in every z. A probe costs a solution with the
+ * factors that v and a need anyway.
+ *
+ * All solutions are those of the saddle-point system: with no freedom left its a is J^-1 of the lower right side
+ * whatever M is, and with a zero lower right side lambda is J^-T of the upper one.
+ */
+#include "integrate/continuation.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+
+enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
+/* Newton's first correction, of the scales, and the second one over it. A guess further off is not one of this pose. */
+static const double FARTHEST = 0.25;
+static const double CONTRACTION = 0.25;
+/* Later corrections; below it rounding may have been reached. */
+static const double STAGNATION = 0.5;
+/* Of |D|; 1 would do if it were known exactly, and on the whole of the step. */
+static const double TURNING = 0.7;
+/* Violation as a displacement: that of coordinates of the size of the scales, and of larger ones for each scale. */
+static const double ROUNDING = 4.0 * DBL_EPSILON;
+static const double NOISE = 64.0 * DBL_EPSILON;
+/* Likewise of rows that were left out: above it they do not depend on the others here. */
+static const double NEGLIGIBLE = 1e-6;
+/* A probe is over when it has decayed to this share; weight of the direction in which the last one did. */
+static const double DECAYED = 0.01;
+static const double KEPT = 3.0;
+
+/* ---- life ---- */
+
+baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace)
+{
+  size_t nv = (size_t)workspace->mechanism->nv;
+  size_t nc = (size_t)workspace->mechanism->nc;
+  path->workspace = workspace;
+  path->memory = baum_i_alloc(3 * nv + 2 * nc, sizeof *path->memory);
+  if (!path->memory) {
+    return baum_i_fail_memory();
+  }
+  path->zero = path->memory;
+  path->probe = path->zero + nv;
+  path->image = path->probe + nv;
+  path->distance = path->image + nv;
+  path->left = path->distance + nc;
+  return BAUM_OK;
+}
+
+void baum_i_continuation_close(baum_i_continuation *path)
+{
+  baum_i_free(path->memory);
+}
+
+/* ---- linear algebra ---- */
+
+static bool is_kept(const baum_workspace *w, int row)
+{
+  return w->redundancy.count == 0 || !w->redundancy.dropped[row];
+}
+
+/* Refusals are no failures: BAUM_OK, and the reason in the verdict. */
+static baum_status refuse(baum_i_verdict *verdict, baum_i_refusal refusal)
+{
+  verdict->refusal = refusal;
+  return BAUM_OK;
+}
+
+/* What an evaluation answered: may a shorter step help? */
+static baum_status sort_out(const baum_workspace *w, baum_status status, baum_i_verdict *verdict)
+{
+  bool may_retry = (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) && w->point.retry;
+  if (!may_retry) {
+    return status;
+  }
+  verdict->evaluation = status;
+  return refuse(verdict, BAUM_I_REFUSAL_EVALUATION);
+}
+
+static baum_status sort_out_solution(baum_status status, baum_i_verdict *verdict)
+{
+  switch ((int)status) {
+  case BAUM_ERR_SINGULAR: return refuse(verdict, BAUM_I_REFUSAL_SINGULAR);
+  case BAUM_ERR_NOT_FINITE:
+    verdict->evaluation =
+      baum_i_fail(status, "a constraint, its Jacobian or a mass has a value that is nan or inf");
+    return refuse(verdict, BAUM_I_REFUSAL_EVALUATION);
+  default: return status;
+  }
+}
+
+/* J at the present point; its values must stay in place. */
+static baum_status factor(baum_workspace *w)
+{
+  const baum_i_kkt_values values = {.mass = w->mass,
+                                    .jacobian = w->jacobian,
+                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+  w->evaluations++;
+  return baum_i_kkt_factor(w->kkt, &values);
+}
+
+/* x = J^-1 rows; leaves J^-T in w->lambda. */
+static baum_status solve(const baum_i_continuation *path, const double *rows, double *x)
+{
+  baum_workspace *w = path->workspace;
+  return baum_i_kkt_solve(w->kkt, path->zero, rows, x, w->lambda);
+}
+
+/* ---- Newton ---- */
+
+/* Largest violation as a displacement, of the rows that are kept or of the others; its row. */
+static double violation(const baum_i_continuation *path, bool kept, int *row)
+{
+  const baum_workspace *w = path->workspace;
+  double worst = 0.0;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    double size = fabs(w->phi[i]) / path->distance[i];
+    if (is_kept(w, i) == kept && !(size <= worst)) {
+      worst = size;
+      *row = i;
+    }
+  }
+  return worst;
+}
+
+/* The position stage, and its violation. */
+static baum_status look(const baum_i_continuation *path, const baum_i_pose *pose, double *worst)
+{
+  baum_workspace *w = path->workspace;
+  int row = 0;
+  baum_status status = baum_i_position_stage(w, pose->t, pose->q);
+  if (status == BAUM_OK) {
+    baum_i_row_displacements(w, path->distance);
+    *worst = violation(path, true, &row);
+  }
+  return status;
+}
+
+/* dq into path->image. */
+static baum_status correct(const baum_i_continuation *path)
+{
+  baum_workspace *w = path->workspace;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -w->phi[i];
+  }
+  baum_status status = factor(w);
+  return status == BAUM_OK ? solve(path, w->rhs, path->image) : status;
+}
+
+/* Is a correction of this size on its way to zero? */
+static bool converges(int k, double size, double last)
+{
+  return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
+}
+
+/* To the pose, at which the workspace is then left with its position stage. */
+static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
+                          baum_i_verdict *verdict)
+{
+  const baum_mechanism *m = path->workspace->mechanism;
+  double last = 0.0;
+  for (int k = 0; k < ITERATIONS; k++) {
+    double worst = 0.0;
+    baum_status status = look(path, pose, &worst);
+    if (status != BAUM_OK) {
+      return sort_out(path->workspace, status, verdict);
+    }
+    if (worst <= ROUNDING) {
+      return BAUM_OK;
+    }
+    status = correct(path);
+    if (status != BAUM_OK) {
+      return sort_out_solution(status, verdict);
+    }
+    verdict->iterations++;
+    double size = baum_i_scaled_size(m, path->image);
+    if (k == 1) {
+      verdict->contraction = size / last;
+    }
+    if (!converges(k, size, last)) {
+      bool is_noise = worst <= NOISE * fmax(1.0, baum_i_scaled_size(m, pose->q));
+      return is_noise ? BAUM_OK : refuse(verdict, BAUM_I_REFUSAL_FAR);
+    }
+    for (int i = 0; i < m->nv; i++) {
+      pose->q[i] += path->image[i];
+    }
+    last = size;
+  }
+  return refuse(verdict, BAUM_I_REFUSAL_FAR);
+}
+
+/* ---- guards ---- */
+
+/* Rows that were left out must follow from the others. */
+static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
+{
+  return path->workspace->redundancy.count == 0 ||
+         violation(path, false, &verdict->row) <= NEGLIGIBLE;
+}
+
+/* Deterministic numbers of size 1/2 to 1 and either sign: the fractional parts of multiples of the golden ratio. */
+static double scatter(int k)
+{
+  double x = 0.6180339887498949 * (double)(k + 1);
+  x = 2.0 * (x - floor(x)) - 1.0;
+  return x < 0.0 ? 0.5 * x - 0.5 : 0.5 * x + 0.5;
+}
+
+/* probe = D probe, D = I - J^-1 J_from */
+static baum_status apply_turning(const baum_i_continuation *path, const double *from)
+{
+  baum_workspace *w = path->workspace;
+  memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
+  baum_i_jacobian_times(&w->structure, from, path->probe, w->rhs);
+  baum_status status = solve(path, w->rhs, path->image);
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    path->probe[i] -= path->image[i];
+  }
+  return status;
+}
+
+/* One part of every scale in every coordinate, and the direction that the last probe ended in, where branches have
+ * come near each other. */
+static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from)
+{
+  const baum_mechanism *m = path->workspace->mechanism;
+  double size = baum_i_scaled_size(m, from->turn);
+  double weight = size > 0.0 ? KEPT / size : 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    path->probe[i] = scatter(i) * m->scale[i] + weight * from->turn[i];
+  }
+}
+
+static baum_status measure_turning(const baum_i_continuation *path, const baum_i_pose *from,
+                                   baum_i_pose *pose, baum_i_verdict *verdict)
+{
+  const baum_mechanism *m = path->workspace->mechanism;
+  begin_probe(path, from);
+  double enough = DECAYED * baum_i_scaled_size(m, path->probe);
+  double last = baum_i_scaled_size(m, path->probe);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < PROBES && last > enough && status == BAUM_OK; k++) {
+    status = apply_turning(path, from->jacobian);
+    double size = baum_i_scaled_size(m, path->probe);
+    verdict->turning = fmax(verdict->turning, size / last);
+    last = size;
+  }
+  if (status != BAUM_OK) {
+    return sort_out_solution(status, verdict);
+  }
+  memcpy(pose->turn, path->probe, (size_t)m->nv * sizeof *pose->turn);
+  return verdict->turning <= TURNING ? BAUM_OK : refuse(verdict, BAUM_I_REFUSAL_TURNED);
+}
+
+/* ---- velocities and accelerations ---- */
+
+/* At the pose in the workspace, whose J is factored. */
+static baum_status differentiate(const baum_i_continuation *path, baum_i_pose *pose,
+                                 baum_i_verdict *verdict)
+{
+  baum_workspace *w = path->workspace;
+  baum_status status = solve(path, w->nu, pose->v);
+  if (status == BAUM_OK) {
+    baum_i_point_set(&w->point, pose->t, pose->q, pose->v);
+    status = baum_i_mechanism_gamma(&w->point, w->gamma);
+    if (status != BAUM_OK) {
+      return sort_out(w, status, verdict);
+    }
+    status = solve(path, w->gamma, pose->a);
+  }
+  return sort_out_solution(status, verdict);
+}
+
+/* ---- the step ---- */
+
+static bool goes_on(baum_status status, const baum_i_verdict *verdict)
+{
+  return status == BAUM_OK && verdict->refusal == BAUM_I_REFUSAL_NONE;
+}
+
+baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
+                                      baum_i_pose *pose, baum_i_verdict *verdict)
+{
+  baum_workspace *w = path->workspace;
+  *verdict = (baum_i_verdict){.refusal = BAUM_I_REFUSAL_NONE};
+  baum_status status = newton(path, pose, verdict);
+  if (goes_on(status, verdict) && !all_follow(path, verdict)) {
+    status = refuse(verdict, BAUM_I_REFUSAL_LEFT_OUT);
+  }
+  if (goes_on(status, verdict)) {
+    status = sort_out_solution(factor(w), verdict);
+  }
+  if (goes_on(status, verdict) && from) {
+    status = measure_turning(path, from, pose, verdict);
+  }
+  if (goes_on(status, verdict)) {
+    status = differentiate(path, pose, verdict);
+  }
+  if (goes_on(status, verdict)) {
+    memcpy(pose->jacobian, w->jacobian,
+           (size_t)w->mechanism->jacobian_size * sizeof *pose->jacobian);
+  }
+  return status;
+}
+
+/* ---- impasse ---- */
+
+/* u_i d_i <= 1: a force in the rows that hardly anything resists, and its rows. */
+static void normalize_left(const baum_i_continuation *path)
+{
+  double largest = 0.0;
+  int nc = path->workspace->mechanism->nc;
+  for (int i = 0; i < nc; i++) {
+    largest = fmax(largest, fabs(path->left[i]) * path->distance[i]);
+  }
+  for (int i = 0; i < nc && largest > 0.0; i++) {
+    path->left[i] /= largest;
+  }
+}
+
+/* One inverse iteration: probe = J^-1 d^2 u, u = J^-T s^-2 probe normalized. */
+static baum_status iterate(const baum_i_continuation *path)
+{
+  baum_workspace *w = path->workspace;
+  const baum_mechanism *m = w->mechanism;
+  double size = baum_i_scaled_size(m, path->probe);
+  for (int i = 0; i < m->nv; i++) {
+    path->image[i] = path->probe[i] / (size * m->scale[i] * m->scale[i]);
+  }
+  memset(w->rhs, 0, (size_t)m->nc * sizeof *w->rhs);
+  baum_status status = baum_i_kkt_solve(w->kkt, path->image, w->rhs, path->probe, path->left);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  normalize_left(path);
+  for (int i = 0; i < m->nc; i++) {
+    w->rhs[i] = path->left[i] * path->distance[i] * path->distance[i];
+  }
+  return solve(path, w->rhs, path->probe);
+}
+
+/* Left singular vector of the smallest singular value into path->left, rows as displacements, coordinates in scales. */
+static baum_status find_critical(const baum_i_continuation *path)
+{
+  baum_workspace *w = path->workspace;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = is_kept(w, i) ? scatter(i) * path->distance[i] : 0.0;
+  }
+  baum_status status = solve(path, w->rhs, path->probe);
+  for (int k = 0; k < INVERSE_ITERATIONS && status == BAUM_OK; k++) {
+    status = iterate(path);
+  }
+  return status;
+}
+
+static void name_joints(const baum_i_continuation *path, baum_i_impasse *out)
+{
+  const baum_workspace *w = path->workspace;
+  double most = -1.0;
+  out->pull = 0.0;
+  out->driver = -1;
+  out->resister = -1;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    double share = fabs(path->left[i]) * path->distance[i];
+    if (w->nu[i] != 0.0 && share > out->pull) {
+      out->pull = share;
+      out->driver = baum_i_row_joint(w->mechanism, i);
+    }
+    if (w->nu[i] == 0.0 && share > most) {
+      most = share;
+      out->resister = baum_i_row_joint(w->mechanism, i);
+    }
+  }
+}
+
+baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
+                                        baum_i_impasse *impasse)
+{
+  double worst = 0.0;
+  *impasse = (baum_i_impasse){.gain = (double)INFINITY, .driver = -1, .resister = -1};
+  baum_status status = look(path, pose, &worst);
+  if (status == BAUM_OK) {
+    status = factor(path->workspace);
+  }
+  if (status == BAUM_OK) {
+    status = find_critical(path);
+  }
+  if (status == BAUM_OK) {
+    impasse->gain = baum_i_scaled_size(path->workspace->mechanism, path->probe);
+    name_joints(path, impasse);
+  }
+  return status;
+}

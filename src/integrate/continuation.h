@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Poses on the path q(t) of Phi(q, t) = 0 where no freedom is left, and one guarded step from one to the next. */
+#ifndef BAUM_I_INTEGRATE_CONTINUATION_H
+#define BAUM_I_INTEGRATE_CONTINUATION_H
+
+#include "dynamics/dynamics.h"
+
+/* A pose that fulfils the constraints, and what follows from it. */
+typedef struct baum_i_pose {
+  double t;
+  double *q;    /* (nv) */
+  double *v;    /* (nv) J v = nu */
+  double *a;    /* (nv) J a = gamma */
+  double *turn; /* (nv) direction in which J has turned most since the pose before; 0 for none */
+  double *jacobian; /* (jacobian_size) */
+} baum_i_pose;
+
+/* Why a pose was not taken. */
+typedef enum baum_i_refusal {
+  BAUM_I_REFUSAL_NONE,
+  BAUM_I_REFUSAL_FAR,        /* Newton's first correction is large, or the next hardly smaller */
+  BAUM_I_REFUSAL_TURNED,     /* J has changed so much that a singular pose may lie between */
+  BAUM_I_REFUSAL_SINGULAR,   /* J cannot be factored */
+  BAUM_I_REFUSAL_LEFT_OUT,   /* a row that was left out as redundant is violated */
+  BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
+} baum_i_refusal;
+
+/* How a pose was found, or why it was not. */
+typedef struct baum_i_verdict {
+  baum_i_refusal refusal;
+  baum_status evaluation; /* the status of BAUM_I_REFUSAL_EVALUATION */
+  int iterations;         /* of Newton */
+  double contraction;     /* second correction over the first; 0 where one was enough */
+  double turning;         /* |I - J^-1 J_from| as far as probed */
+  int row;                /* of BAUM_I_REFUSAL_LEFT_OUT */
+} baum_i_verdict;
+
+/* What is used on the way. */
+typedef struct baum_i_continuation {
+  baum_workspace *workspace;
+  double *memory;
+  double *distance; /* (nc) row of J over a displacement */
+  double *zero;     /* (nv) */
+  double *probe;    /* (nv) */
+  double *image;    /* (nv) */
+  double *left;     /* (nc) */
+} baum_i_continuation;
+
+/* Where a singular pose is singular. */
+typedef struct baum_i_impasse {
+  double
+    gain; /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot be factored */
+  double
+    pull; /* 0 to 1: share of rows that depend on time in the forces that hardly anything resists */
+  int driver;   /* their joint with the largest share, or -1 */
+  int resister; /* the joint with the largest share beside those, or -1 */
+} baum_i_impasse;
+
+baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
+void baum_i_continuation_close(baum_i_continuation *path);
+
+/* From the guess pose->q at pose->t to the pose: Newton, then v and a, guarded against the pose `from` (NULL: not
+ * guarded). BAUM_OK, and then verdict->refusal tells whether the pose is good; or what a function that stops the run
+ * returned, BAUM_ERR_MEMORY. */
+baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
+                                      baum_i_pose *pose, baum_i_verdict *verdict);
+
+/* Look at a good pose next to which none was found. */
+baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
+                                        baum_i_impasse *impasse);
+
+#endif

@@ -1,0 +1,457 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kinematics: mechanisms without freedom, whose every coordinate follows from Phi(q, t) = 0. Continuation in time:
+ *
+ *   guess at t + h        q + h v + h^2 a / 2
+ *   then                  the pose there, its v and a (continuation.c)
+ *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends
+ *
+ * The step follows what the last one has shown: the contraction of Newton's iteration grows with the error of the
+ * guess, as h^3, the turning of J as h. Nothing is integrated and no error accumulates: a pose asked for is solved to
+ * rounding, at whatever steps. Steps are for the branch alone, so that the run never jumps: a step that may have
+ * passed a singular pose is refused and shortened, and where no step is short enough the run has come to an end, at a
+ * lock-up (a fold of the path: no pose beyond) or where branches cross.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "integrate/continuation.h"
+#include "integrate/integrator.h"
+
+/* What the next step aims at, below what would be refused. */
+static const double WANTED_TURNING = 0.4;
+static const double WANTED_CONTRACTION = 0.05;
+static const double GROWTH = 2.5;
+static const double SHRINKAGE = 0.5; /* at least, after a refusal */
+static const double COLLAPSE = 0.1;  /* at most */
+/* A first step turns nothing by much more than this [rad]. */
+static const double FIRST_TURN = 0.1;
+/* The shortest step in turns of the rate of the motion, and in roundings of the time. */
+static const double SHORTEST = 1e-10;
+static const double TIME_ROUNDINGS = 64.0;
+/* |J^-1| from which on a pose counts as singular; at a fold it is about 1e5 when steps end. */
+static const double SINGULAR_GAIN = 1e3;
+/* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 / gain. */
+static const double FOLD_PULL = 1e-3;
+
+enum { POSES = 4 };
+
+typedef struct kinematics_run {
+  baum_i_continuation path;
+  double *memory;
+  baum_i_pose poses[POSES];
+  baum_i_pose *left;  /* beginning of the last step */
+  baum_i_pose *right; /* its end: the last good pose */
+  baum_i_pose *trial;
+  baum_i_pose *spare;
+  double h; /* [s] > 0, what the next step tries */
+  baum_i_statistics statistics;
+  baum_i_sentence evaluation; /* of the last refused evaluation */
+} kinematics_run;
+
+/* ---- poses ---- */
+
+static void copy_pose(const baum_mechanism *m, const baum_i_pose *from, baum_i_pose *to)
+{
+  size_t size = (size_t)m->nv * sizeof(double);
+  to->t = from->t;
+  memcpy(to->q, from->q, size);
+  memcpy(to->v, from->v, size);
+  memcpy(to->a, from->a, size);
+  memcpy(to->turn, from->turn, size);
+  memcpy(to->jacobian, from->jacobian, (size_t)m->jacobian_size * sizeof(double));
+}
+
+static void swap(baum_i_pose **a, baum_i_pose **b)
+{
+  baum_i_pose *kept = *a;
+  *a = *b;
+  *b = kept;
+}
+
+static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double t, double *q)
+{
+  double h = t - from->t;
+  for (int i = 0; i < m->nv; i++) {
+    q[i] = from->q[i] + h * (from->v[i] + 0.5 * h * from->a[i]);
+  }
+}
+
+/* Hermite's polynomial through both ends. */
+static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m, double t,
+                              double *q)
+{
+  const baum_i_pose *l = run->left;
+  const baum_i_pose *r = run->right;
+  double h = r->t - l->t;
+  double s = (t - l->t) / h;
+  double u = 1.0 - s;
+  double l0 = u * u * u * (1.0 + s * (3.0 + 6.0 * s));
+  double l1 = h * u * u * u * s * (1.0 + 3.0 * s);
+  double l2 = 0.5 * h * h * u * u * u * s * s;
+  double r1 = -h * s * s * s * u * (1.0 + 3.0 * u);
+  double r2 = 0.5 * h * h * s * s * s * u * u;
+  for (int i = 0; i < m->nv; i++) {
+    q[i] = r->q[i] + l0 * (l->q[i] - r->q[i]) + l1 * l->v[i] + l2 * l->a[i] + r1 * r->v[i] +
+           r2 * r->a[i];
+  }
+}
+
+/* ---- steps ---- */
+
+/* A guess in pose becomes a pose; counted. */
+static baum_status solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
+                         baum_i_verdict *verdict)
+{
+  baum_status status = baum_i_continuation_solve(&run->path, from, pose, verdict);
+  run->statistics.nonlinear_iterations += verdict->iterations;
+  if (status == BAUM_OK && verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
+    baum_i_message_keep(&run->evaluation);
+  }
+  return status;
+}
+
+/* What a function answers knows nothing of time. */
+static baum_status say_when(const baum_i_pose *from, baum_status status)
+{
+  if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
+    return status;
+  }
+  baum_i_sentence reason;
+  baum_i_message_keep(&reason);
+  return baum_i_fail(status, "t = %.9g s: kinematics: in a step from here: %.800s", from->t,
+                     reason.text);
+}
+
+/* By how much the step that gave this verdict may change. */
+static double change(const baum_i_verdict *verdict)
+{
+  bool refused = verdict->refusal != BAUM_I_REFUSAL_NONE;
+  double factor = refused ? SHRINKAGE : GROWTH;
+  if (verdict->turning > 0.0) {
+    factor = fmin(factor, WANTED_TURNING / verdict->turning);
+  }
+  if (verdict->contraction > 0.0) {
+    factor = fmin(factor, cbrt(WANTED_CONTRACTION / verdict->contraction));
+  }
+  return fmax(factor, COLLAPSE);
+}
+
+static double shortest_step(const baum_i_problem *problem, double t)
+{
+  return SHORTEST / problem->rate + TIME_ROUNDINGS * DBL_EPSILON * fabs(t);
+}
+
+static const char *label_of(const baum_mechanism *m, int joint, char text[BAUM_I_LABEL_SIZE])
+{
+  memcpy(text, "no joint", sizeof "no joint");
+  return joint >= 0 ? baum_i_joint_label(m, joint, text) : text;
+}
+
+static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i_impasse *at)
+{
+  char driver[BAUM_I_LABEL_SIZE];
+  char resister[BAUM_I_LABEL_SIZE];
+  (void)label_of(m, at->driver, driver);
+  (void)label_of(m, at->resister, resister);
+  if (at->driver >= 0 && at->pull > FOLD_PULL) {
+    return baum_i_fail(
+      BAUM_ERR_SINGULAR,
+      "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than "
+      "the other constraints allow, the first of them %s; beyond this time no pose "
+      "fulfils them all",
+      t, driver, resister);
+  }
+  return baum_i_fail(
+    BAUM_ERR_SINGULAR,
+    "t = %.9g s: kinematics: the pose is singular here and the motion may go on in "
+    "more than one way, which shows most in %s; what is driven does not tell which",
+    t, resister);
+}
+
+/* No step was short enough. */
+static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
+                        const baum_i_verdict *verdict, double h)
+{
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double t = run->right->t;
+  baum_i_impasse at;
+  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
+    return baum_i_fail(verdict->evaluation, "t = %.9g s: kinematics: in a step of %.3g s: %.800s",
+                       t, h, run->evaluation.text);
+  }
+  baum_status status = baum_i_continuation_explain(&run->path, run->right, &at);
+  if (status != BAUM_OK && status != BAUM_ERR_SINGULAR) {
+    return say_when(run->right, status);
+  }
+  if (!(at.gain < SINGULAR_GAIN)) {
+    return fail_singular(m, t, &at);
+  }
+  char label[BAUM_I_LABEL_SIZE];
+  if (verdict->refusal == BAUM_I_REFUSAL_LEFT_OUT) {
+    return baum_i_fail(
+      BAUM_ERR_CONVERGENCE,
+      "t = %.9g s: kinematics: a row of %s that was left out as redundant does not "
+      "follow from the others any longer",
+      t, label_of(m, baum_i_row_joint(m, verdict->row), label));
+  }
+  return baum_i_fail(BAUM_ERR_CONVERGENCE,
+                     "t = %.9g s: kinematics: no pose is found close by, however small the step "
+                     "(%.3g s); the law of %s may jump here",
+                     t, h, label_of(m, at.driver, label));
+}
+
+/* From *from towards t by one step, shortened as often as it is refused, into *to; h is what is tried, and then what
+ * the next may try. */
+static baum_status step(kinematics_run *run, const baum_i_problem *problem, const baum_i_pose *from,
+                        baum_i_pose *to, double t_end, double *h)
+{
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double shortest = shortest_step(problem, from->t);
+  double longest = 1.0;
+  for (;;) {
+    baum_i_verdict verdict;
+    bool last = *h >= fabs(t_end - from->t);
+    to->t = last ? t_end : from->t + problem->direction * *h;
+    extrapolate(m, from, to->t, to->q);
+    baum_status status = solve(run, from, to, &verdict);
+    if (status != BAUM_OK) {
+      return say_when(from, status);
+    }
+    double tried = fabs(to->t - from->t);
+    double factor = change(&verdict);
+    *h = tried * (verdict.refusal == BAUM_I_REFUSAL_NONE ? fmin(factor, longest * GROWTH) : factor);
+    if (verdict.refusal == BAUM_I_REFUSAL_NONE) {
+      return BAUM_OK;
+    }
+    run->statistics.rejected++;
+    longest = 1.0 / GROWTH;
+    if (*h < shortest) {
+      return fail(run, problem, &verdict, tried);
+    }
+  }
+}
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  kinematics_run *run = self;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double h = fmax(fmin(run->h, problem->max_step), 2.0 * shortest_step(problem, run->right->t));
+  double end = run->right->t + problem->direction * h;
+  baum_status status = step(run, problem, run->right, run->trial, end, &h);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  run->h = h;
+  swap(&run->left, &run->right);
+  swap(&run->right, &run->trial);
+  state->t = run->right->t;
+  memcpy(state->q, run->right->q, (size_t)m->nq * sizeof *state->q);
+  memcpy(state->v, run->right->v, (size_t)m->nv * sizeof *state->v);
+  return BAUM_OK;
+}
+
+/* ---- inside the last step ---- */
+
+/* By short steps from the left end, where the guess inside was no good. */
+static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
+{
+  copy_pose(problem->workspace->mechanism, run->left, run->trial);
+  double h = 0.5 * fabs(t - run->left->t);
+  while (run->trial->t != t) {
+    baum_status status = step(run, problem, run->trial, run->spare, t, &h);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    swap(&run->trial, &run->spare);
+  }
+  return BAUM_OK;
+}
+
+static baum_status solve_inside(kinematics_run *run, const baum_i_problem *problem, double t)
+{
+  const baum_mechanism *m = problem->workspace->mechanism;
+  baum_i_verdict verdict;
+  run->trial->t = t;
+  interpolate_guess(run, m, t, run->trial->q);
+  baum_status status = solve(run, run->left, run->trial, &verdict);
+  if (status != BAUM_OK) {
+    return say_when(run->left, status);
+  }
+  return verdict.refusal == BAUM_I_REFUSAL_NONE ? BAUM_OK : walk(run, problem, t);
+}
+
+static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
+                               double *v)
+{
+  kinematics_run *run = self;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  if (!((t - run->left->t) * (t - run->right->t) <= 0.0)) {
+    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of kinematics",
+                       t);
+  }
+  const baum_i_pose *pose = t == run->right->t ? run->right : run->left;
+  if (t != pose->t) {
+    baum_status status = solve_inside(run, problem, t);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    pose = run->trial;
+  }
+  memcpy(q, pose->q, (size_t)m->nq * sizeof *q);
+  memcpy(v, pose->v, (size_t)m->nv * sizeof *v);
+  return BAUM_OK;
+}
+
+/* ---- start ---- */
+
+static baum_status fail_to_start(kinematics_run *run, double t, const baum_i_verdict *verdict)
+{
+  switch (verdict->refusal) {
+  case BAUM_I_REFUSAL_EVALUATION:
+    return baum_i_fail(verdict->evaluation, "t = %.9g s: kinematics: at the start: %.800s", t,
+                       run->evaluation.text);
+  case BAUM_I_REFUSAL_SINGULAR:
+    return baum_i_fail(BAUM_ERR_SINGULAR,
+                       "t = %.9g s: kinematics: the start pose is singular, and the motion may go "
+                       "on from it in more than one way; start at another time or pose",
+                       t);
+  case BAUM_I_REFUSAL_NONE:
+  case BAUM_I_REFUSAL_FAR:
+  case BAUM_I_REFUSAL_TURNED:
+  case BAUM_I_REFUSAL_LEFT_OUT:
+  default:
+    return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                       "t = %.9g s: kinematics: the start is too far from a pose that fulfils the "
+                       "constraints; let it be assembled",
+                       t);
+  }
+}
+
+/* The pose at a state, which then is both ends of the last step. */
+static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  kinematics_run *run = self;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  baum_i_verdict verdict;
+  run->trial->t = state->t;
+  memcpy(run->trial->q, state->q, (size_t)m->nq * sizeof *state->q);
+  memset(run->trial->turn, 0, (size_t)m->nv * sizeof *run->trial->turn);
+  baum_status status = solve(run, NULL, run->trial, &verdict);
+  if (status != BAUM_OK) {
+    return say_when(run->trial, status);
+  }
+  if (verdict.refusal != BAUM_I_REFUSAL_NONE) {
+    return fail_to_start(run, state->t, &verdict);
+  }
+  swap(&run->right, &run->trial);
+  copy_pose(m, run->right, run->left);
+  double rate = baum_i_state_rate(m, run->right->v, run->right->a);
+  run->h = FIRST_TURN / fmax(rate, problem->rate);
+  return BAUM_OK;
+}
+
+static void count(const void *self, baum_i_statistics *out)
+{
+  const kinematics_run *run = self;
+  *out = run->statistics;
+}
+
+static void destroy(void *self)
+{
+  kinematics_run *run = self;
+  if (!run) {
+    return;
+  }
+  baum_i_continuation_close(&run->path);
+  baum_i_free(run->memory);
+  baum_i_free(run);
+}
+
+static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
+{
+  size_t nv = (size_t)m->nv;
+  size_t size = 4 * nv + (size_t)m->jacobian_size;
+  run->memory = baum_i_alloc(POSES * size, sizeof *run->memory);
+  if (!run->memory) {
+    return baum_i_fail_memory();
+  }
+  for (size_t k = 0; k < POSES; k++) {
+    double *at = run->memory + k * size;
+    run->poses[k] = (baum_i_pose){
+      .q = at, .v = at + nv, .a = at + 2 * nv, .turn = at + 3 * nv, .jacobian = at + 4 * nv};
+  }
+  run->left = &run->poses[0];
+  run->right = &run->poses[1];
+  run->trial = &run->poses[2];
+  run->spare = &run->poses[3];
+  return BAUM_OK;
+}
+
+static baum_status check_freedom(const baum_workspace *w)
+{
+  int freedoms = w->mechanism->nv - (w->mechanism->nc > 0 ? w->redundancy.rank : 0);
+  if (freedoms == 0) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(
+    BAUM_ERR_UNSUPPORTED,
+    "kinematics: %d %s left, so that the motion does not follow from Phi(q, t) = 0 "
+    "alone; add a driver for each, or name an integrator of the equations of "
+    "motion, such as baum_rk4 or baum_cvode_adams",
+    freedoms, freedoms == 1 ? "freedom is" : "freedoms are");
+}
+
+static baum_status set_up(kinematics_run *run, const baum_i_problem *problem,
+                          const baum_i_state *start)
+{
+  baum_status status = baum_i_continuation_open(&run->path, problem->workspace);
+  if (status == BAUM_OK) {
+    status = make_poses(run, problem->workspace->mechanism);
+  }
+  return status == BAUM_OK ? restart(run, problem, start) : status;
+}
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  *out = NULL;
+  baum_status status = check_freedom(problem->workspace);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  kinematics_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  status = set_up(run, problem, start);
+  if (status != BAUM_OK) {
+    destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+/* ---- the integrator ---- */
+
+static const baum_formulation FORMULATIONS[] = {BAUM_FORMULATION_DEFAULT};
+
+static const baum_integrator KINEMATICS = {
+  .name = "kinematics",
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_DEFAULT,
+  .without_freedom = true,
+  .create = create,
+  .destroy = destroy,
+  .advance = advance,
+  .interpolate = interpolate,
+  .restart = restart,
+  .statistics = count,
+};
+
+const baum_integrator *baum_kinematics(void)
+{
+  return &KINEMATICS;
+}
