@@ -4,6 +4,7 @@
 #define BAUM_TEST_PLANAR_SCENE_H
 
 #include <baum/planar.h>
+#include <baum/planar_joints.h>
 
 #include "point.h"
 

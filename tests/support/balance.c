@@ -1,0 +1,70 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The force of a row on body k is -lambda times its columns, so that
+ *
+ *   force x: J [1 0 0 ...],   force y: J [0 1 0 ...],   moment about the origin: J [-y x 1 ...]
+ *
+ * with the three (or, of a particle, two) columns of each body must be zero.
+ */
+#include "balance.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+
+enum { FORCE_X, FORCE_Y, MOMENT, SUMS, BLOCK = TEST_SIZE_MAX * TEST_SIZE_MAX };
+
+/* Rounding of sums of a dozen terms. */
+static const double TOLERANCE = 1e-13;
+
+static bool has_ground(const baum_i_joint *joint)
+{
+  for (int k = 0; k < joint->span.body_count; k++) {
+    if (joint->span.bodies[k] == 0) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Adds the share of one column, and its size. */
+static void add_column(const baum_i_frame *frame, int coordinate, double value, double sums[SUMS],
+                       double *size)
+{
+  const double shares[3][SUMS] = {{1.0, 0.0, -frame->y}, {0.0, 1.0, frame->x}, {0.0, 0.0, 1.0}};
+  for (int i = 0; i < SUMS; i++) {
+    sums[i] += value * shares[coordinate][i];
+    *size += fabs(value * shares[coordinate][i]);
+  }
+}
+
+static void check_row(const test_point *p, const baum_i_joint *joint, const double *row)
+{
+  double sums[SUMS] = {0.0};
+  double size = 0.0;
+  for (int k = 0; k < joint->span.body_count; k++) {
+    int body = joint->span.bodies[k];
+    for (int i = 0; i < p->mechanism->bodies[body]->nv; i++) {
+      add_column(&p->point.frames[body], i, *row++, sums, &size);
+    }
+  }
+  assert_true(size > 0.0);
+  for (int i = 0; i < SUMS; i++) {
+    ASSERT_NEAR(sums[i], 0.0, 0.0, TOLERANCE * size);
+  }
+}
+
+void check_rows_balance(test_point *p)
+{
+  double blocks[BLOCK];
+  assert_int_equal(baum_i_mechanism_jacobian(&p->point, blocks), BAUM_OK);
+  for (int j = 0; j < p->mechanism->joint_count; j++) {
+    const baum_i_joint *joint = p->mechanism->joints[j];
+    for (int i = 0; i < joint->rows && !has_ground(joint); i++) {
+      check_row(p, joint, blocks + joint->jacobian + (ptrdiff_t)i * joint->span.nl);
+    }
+  }
+}
