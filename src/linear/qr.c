@@ -23,6 +23,7 @@
 #include "base/message.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"
+#include "linear/peel.h"
 #include "linear/scale.h"
 
 static const double weight_root = 0x1p-13; /* of w */
@@ -319,32 +320,43 @@ static size_t count_entries(const baum_i_kkt_structure *structure)
   return count;
 }
 
-/* J^T as a list of entries: column = constraint. Repeated entries are summed by CHOLMOD. */
-static void list_scaled(const baum_i_kkt_structure *structure, const double *jacobian,
-                        const double *column_scale, cholmod_triplet *list)
+/* J, scaled by columns, and which of its rows are left to be looked at. */
+typedef struct scaled_rows {
+  const baum_i_kkt_structure *structure;
+  const double *jacobian;
+  const double *column_scale;
+  int *place; /* (nc) among those left, or -1 */
+  int left;
+} scaled_rows;
+
+/* Those that are left, transposed, as a list of entries. */
+static void list_scaled(const scaled_rows *rows, cholmod_triplet *list)
 {
   SuiteSparse_long *velocity = list->i;
   SuiteSparse_long *constraint = list->j;
   double *x = list->x;
-  for (int b = 0; b < structure->row_block_count; b++) {
-    const baum_i_row_block *block = &structure->row_blocks[b];
-    const double *value = jacobian + block->value;
-    for (int i = 0; i < block->rows; i++) {
+  for (int b = 0; b < rows->structure->row_block_count; b++) {
+    const baum_i_row_block *block = &rows->structure->row_blocks[b];
+    const double *value = rows->jacobian + block->value;
+    for (int i = 0; i < block->rows && rows->place[block->row + i] >= 0; i++) {
       for (int k = 0; k < block->cols; k++) {
         velocity[list->nnz] = block->col[k];
-        constraint[list->nnz] = block->row + i;
-        x[list->nnz++] = *value++ * column_scale[block->col[k]];
+        constraint[list->nnz] = rows->place[block->row + i];
+        x[list->nnz++] = *value++ * rows->column_scale[block->col[k]];
       }
     }
   }
 }
 
-static bool entries_are_finite(const cholmod_triplet *list)
+static bool entries_are_finite(const scaled_rows *rows)
 {
-  const double *x = list->x;
-  for (size_t k = 0; k < list->nnz; k++) {
-    if (!isfinite(x[k])) {
-      return false;
+  for (int b = 0; b < rows->structure->row_block_count; b++) {
+    const baum_i_row_block *block = &rows->structure->row_blocks[b];
+    const double *value = rows->jacobian + block->value;
+    for (int k = 0; k < block->rows * block->cols; k++) {
+      if (!isfinite(value[k] * rows->column_scale[block->col[k % block->cols]])) {
+        return false;
+      }
     }
   }
   return true;
@@ -395,7 +407,7 @@ static void mark_independent(const cholmod_sparse *r, const SuiteSparse_long *or
   }
 }
 
-/* Columns are taken in their order, so that of dependent ones the later are given up. */
+/* Rank of the columns, taken in their order, so that of dependent ones the later are given up. */
 static baum_status reveal(cholmod_sparse *transposed, double tolerance, int *rank,
                           unsigned char *independent, cholmod_common *common)
 {
@@ -405,7 +417,6 @@ static baum_status reveal(cholmod_sparse *transposed, double tolerance, int *ran
                                            NULL, NULL, NULL, &r, &order, NULL, NULL, NULL, common);
   baum_status status = found < 0 || !r ? BAUM_ERR_MEMORY : BAUM_OK;
   if (status == BAUM_OK) {
-    memset(independent, 0, transposed->ncol);
     mark_independent(r, order, independent);
     *rank = (int)found;
   }
@@ -417,9 +428,6 @@ static baum_status reveal(cholmod_sparse *transposed, double tolerance, int *ran
 static baum_status rank_of_list(cholmod_triplet *list, double tolerance, int *rank,
                                 unsigned char *independent, cholmod_common *common)
 {
-  if (!entries_are_finite(list)) {
-    return BAUM_ERR_NOT_FINITE;
-  }
   cholmod_sparse *transposed = cholmod_l_triplet_to_sparse(list, 0, common);
   if (!transposed) {
     return BAUM_ERR_MEMORY;
@@ -430,8 +438,8 @@ static baum_status rank_of_list(cholmod_triplet *list, double tolerance, int *ra
   return status;
 }
 
-static baum_status rank_by_qr(const baum_i_kkt_structure *structure, const double *jacobian,
-                              const double *column_scale, double tolerance, int *rank,
+/* Of the rows that are left; independent (left) arrives zeroed. */
+static baum_status rank_by_qr(const scaled_rows *rows, double tolerance, int *rank,
                               unsigned char *independent)
 {
   cholmod_common common;
@@ -440,10 +448,10 @@ static baum_status rank_by_qr(const baum_i_kkt_structure *structure, const doubl
   }
   baum_status status = BAUM_ERR_MEMORY;
   cholmod_triplet *list =
-    cholmod_l_allocate_triplet((size_t)structure->nv, (size_t)structure->nc,
-                               count_entries(structure), 0, CHOLMOD_REAL, &common);
+    cholmod_l_allocate_triplet((size_t)rows->structure->nv, (size_t)rows->left,
+                               count_entries(rows->structure), 0, CHOLMOD_REAL, &common);
   if (list) {
-    list_scaled(structure, jacobian, column_scale, list);
+    list_scaled(rows, list);
     status = rank_of_list(list, tolerance, rank, independent, &common);
   }
   (void)cholmod_l_free_triplet(&list, &common);
@@ -451,15 +459,46 @@ static baum_status rank_by_qr(const baum_i_kkt_structure *structure, const doubl
   return status;
 }
 
+/* found (nc), zeroed, is scratch. */
+static baum_status find_rank(scaled_rows *rows, double tolerance, unsigned char *found, int *rank,
+                             unsigned char *independent)
+{
+  int nc = rows->structure->nc;
+  int rank_left = 0;
+  baum_status status =
+    baum_i_peel(rows->structure, rows->jacobian, rows->column_scale, rows->place, &rows->left);
+  if (status == BAUM_OK && rows->left > 0) {
+    status = rank_by_qr(rows, tolerance, &rank_left, found);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  *rank = nc - rows->left + rank_left;
+  for (int i = 0; i < nc; i++) {
+    independent[i] = rows->place[i] < 0 ? 1 : found[rows->place[i]];
+  }
+  return BAUM_OK;
+}
+
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent)
 {
-  if (structure->nv == 0 || structure->nc == 0) {
+  size_t nc = (size_t)structure->nc;
+  scaled_rows rows = {structure, jacobian, column_scale, NULL, 0};
+  if (structure->nv == 0 || nc == 0) {
     *rank = 0;
-    memset(independent, 0, (size_t)structure->nc);
+    memset(independent, 0, nc);
     return BAUM_OK;
   }
-  baum_status status = rank_by_qr(structure, jacobian, column_scale, tolerance, rank, independent);
+  if (!entries_are_finite(&rows)) {
+    return BAUM_ERR_NOT_FINITE;
+  }
+  rows.place = baum_i_alloc(nc, sizeof *rows.place);
+  unsigned char *found = baum_i_alloc(nc, 1);
+  baum_status status =
+    rows.place && found ? find_rank(&rows, tolerance, found, rank, independent) : BAUM_ERR_MEMORY;
+  baum_i_free(rows.place);
+  baum_i_free(found);
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
 }
