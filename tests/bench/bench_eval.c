@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What one acceleration costs, by which solver, and where the time goes.
+ *
+ * usage: bench_eval [--json] [--case NAME] [--largest N]
+ *
+ * All solvers run in this process on the same scene and after the same geometry; rounds of one and the
+ * other take turns. See parts/timing.h for what is taken as the time. --json prints one object a line.
+ */
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scenes.h"
+#include "solvers.h"
+#include "timing.h"
+#include "variants.h"
+
+enum { MOST_SOLVERS = 8, LARGEST_STEPPED = 10000 };
+
+typedef struct arguments {
+  bool json;
+  const char *only; /* NULL: all cases */
+  int largest;
+} arguments;
+
+static const struct {
+  scene_kind kind;
+  int n;
+} CASES[] = {
+  {SCENE_SLIDER_CRANK, 1}, {SCENE_ANDREWS, 1},    {SCENE_FOUR_BAR, 1},    {SCENE_FOUR_BAR, 10},
+  {SCENE_FOUR_BAR, 40},    {SCENE_FOUR_BAR, 100}, {SCENE_FOUR_BAR, 1000}, {SCENE_FOUR_BAR, 10000},
+  {SCENE_CHAIN, 10},       {SCENE_CHAIN, 100},    {SCENE_CHAIN, 1000},    {SCENE_CHAIN, 10000},
+  {SCENE_CHAIN, 100000},
+};
+enum { CASE_COUNT = sizeof CASES / sizeof CASES[0] };
+
+/* ---- one scene ---- */
+
+typedef struct measured {
+  const solver *way;
+  void *self;
+  double whole;             /* [s] */
+  double upto[PHASE_COUNT]; /* [s] from the start to the end of a phase */
+  double apart;             /* of a from that of the first solver, relative to its largest */
+} measured;
+
+static double smaller(double a, double b)
+{
+  return isnan(a) || a < b ? a : b;
+}
+
+static int create_all(scene *at, measured all[MOST_SOLVERS])
+{
+  int count = 0;
+  for (int k = 0; solver_at(k) && count < MOST_SOLVERS; k++) {
+    measured m = {.way = solver_at(k), .whole = (double)INFINITY, .apart = (double)NAN};
+    m.self = m.way->create(at);
+    for (int phase = 0; phase < PHASE_COUNT; phase++) {
+      m.upto[phase] = (double)INFINITY;
+    }
+    if (m.self) {
+      all[count++] = m;
+    }
+  }
+  return count;
+}
+
+static void time_round(measured *m)
+{
+  for (int phase = 0; phase < PHASE_SOLVE && m->way->has_phases; phase++) {
+    m->upto[phase] = smaller(timing_round(m->way->run, m->self, phase), m->upto[phase]);
+  }
+  m->whole = smaller(timing_round(m->way->run, m->self, PHASE_SOLVE), m->whole);
+  m->upto[PHASE_SOLVE] = m->whole;
+}
+
+/* Do they find the same? */
+static void compare_solutions(const scene *at, measured *all, int count)
+{
+  size_t nv = (size_t)at->workspace->mechanism->nv;
+  size_t nc = (size_t)at->workspace->mechanism->nc;
+  double *a = calloc(2 * nv + nc + 1, sizeof *a);
+  for (int k = 0; a && k < count; k++) {
+    double *mine = k == 0 ? a : a + nv;
+    double size = 0.0;
+    double apart = 0.0;
+    if (!all[k].way->run(all[k].self, PHASE_SOLVE)) {
+      continue;
+    }
+    all[k].way->read(all[k].self, mine, a + 2 * nv);
+    for (size_t i = 0; i < nv; i++) {
+      size = fmax(size, fabs(a[i]));
+      apart = fmax(apart, fabs(mine[i] - a[i]));
+    }
+    all[k].apart = size > 0.0 ? apart / size : apart;
+  }
+  free(a);
+}
+
+static void print_json(const scene *at, const char *solver_name, double seconds)
+{
+  printf("{\"case\": \"%s\", \"n\": %d, \"solver\": \"%s\", \"ns_per_eval\": %.1f}\n",
+         scene_name(at->kind), at->n, solver_name, 1e9 * seconds);
+  (void)fflush(stdout);
+}
+
+static void print_phases(const measured *m)
+{
+  double before = 0.0;
+  for (int phase = 0; phase < PHASE_COUNT; phase++) {
+    if (m->way->has_phases) {
+      printf(" %10.0f", 1e9 * (m->upto[phase] - before));
+      before = m->upto[phase];
+    } else {
+      printf(" %10s", "-");
+    }
+  }
+}
+
+static void print_cost(const measured *m, int bodies)
+{
+  solver_cost cost = m->way->cost ? m->way->cost(m->self) : (solver_cost){0};
+  if (cost.bytes > 0.0) {
+    printf(" %9.0f %9.0f %7.1f %7.2f", cost.bytes / bodies, cost.flops / bodies,
+           1e-9 * cost.bytes / m->whole, 1e-9 * cost.flops / m->whole);
+  } else {
+    printf(" %9s %9s %7s %7s", "-", "-", "-", "-");
+  }
+}
+
+static void print_row(const scene *at, const measured *m, double reference)
+{
+  printf("%-12s %6d %-8s %12.0f %9.1f %6.2f", scene_name(at->kind), at->n, m->way->name,
+         1e9 * m->whole, 1e9 * m->whole / at->bodies, m->whole / reference);
+  print_phases(m);
+  print_cost(m, at->bodies);
+  printf(" %8.0e\n", m->apart);
+  (void)fflush(stdout);
+}
+
+static void print_head(void)
+{
+  printf(
+    "\nns of CPU time per evaluation; `rel` is the time over that of the first solver; phases in "
+    "ns;\nbytes and flops per body, and what they come to in GB/s and Gflop/s; `apart`: largest "
+    "relative difference of a\n");
+  printf("%-12s %6s %-8s %12s %9s %6s %10s %10s %10s %10s %9s %9s %7s %7s %8s\n", "case", "n",
+         "solver", "ns", "per body", "rel", "geometry", "assembly", "factor", "solve", "B/body",
+         "flop/body", "GB/s", "Gflop/s", "apart");
+}
+
+/* False: something failed, or solvers disagree. */
+static bool bench_scene(scene_kind kind, int n, bool json)
+{
+  scene at;
+  measured all[MOST_SOLVERS];
+  if (!scene_make(kind, n, &at)) {
+    (void)fprintf(stderr, "%s %d: %s\n", scene_name(kind), n, baum_message());
+    return false;
+  }
+  int count = create_all(&at, all);
+  for (int round = 0; round < TIMING_ROUNDS; round++) {
+    for (int k = 0; k < count; k++) {
+      time_round(&all[k]);
+    }
+  }
+  compare_solutions(&at, all, count);
+  bool fine = count > 0;
+  for (int k = 0; k < count; k++) {
+    if (json) {
+      print_json(&at, all[k].way->name, all[k].whole);
+    } else {
+      print_row(&at, &all[k], all[0].whole);
+    }
+    fine = fine && all[k].apart < 1e-6 && all[k].whole > 0.0;
+    all[k].way->destroy(all[k].self);
+  }
+  scene_clear(&at);
+  return fine;
+}
+
+static bool is_wanted(const arguments *given, scene_kind kind, int n)
+{
+  bool named = !given->only || strcmp(given->only, scene_name(kind)) == 0;
+  return named && n <= given->largest;
+}
+
+static bool bench_solvers(const arguments *given)
+{
+  bool fine = true;
+  if (!given->json) {
+    print_head();
+  }
+  for (int k = 0; k < CASE_COUNT; k++) {
+    if (is_wanted(given, CASES[k].kind, CASES[k].n)) {
+      fine = bench_scene(CASES[k].kind, CASES[k].n, given->json) && fine;
+    }
+  }
+  return fine;
+}
+
+/* ---- steps of a run ---- */
+
+static bool step_once(void *self, int part)
+{
+  (void)part;
+  return baum_simulation_step(self, 16) == BAUM_OK;
+}
+
+/* Steps of 1e-9 s, so that the mechanism stays where it is. */
+static bool bench_steps_of(scene_kind kind, int n)
+{
+  scene at;
+  baum_simulation *run = NULL;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.step = 1e-9;
+  options.max_steps = INT64_MAX;
+  bool fine = scene_make(kind, n, &at);
+  if (fine) {
+    fine = baum_simulation_create(at.m.mechanism, &options, &run) >= BAUM_OK;
+  }
+  double step = fine ? timing_best(step_once, run, 0) / 16 : (double)NAN;
+  if (fine) {
+    printf("%-12s %6d %12.0f %12.0f %9.1f\n", scene_name(kind), n, 1.0 / step, 1e9 * step,
+           1e9 * step / at.bodies);
+    (void)fflush(stdout);
+  } else {
+    (void)fprintf(stderr, "%s %d: %s\n", scene_name(kind), n, baum_message());
+  }
+  baum_simulation_destroy(run);
+  scene_clear(&at);
+  return fine && step > 0.0;
+}
+
+static bool bench_steps(const arguments *given)
+{
+  bool fine = true;
+  printf("\nsemi-implicit Euler, Baumgarte, one step and all that comes with it\n");
+  printf("%-12s %6s %12s %12s %9s\n", "case", "n", "steps/s", "ns", "per body");
+  for (int k = 0; k < CASE_COUNT; k++) {
+    if (is_wanted(given, CASES[k].kind, CASES[k].n) && CASES[k].n <= LARGEST_STEPPED) {
+      fine = bench_steps_of(CASES[k].kind, CASES[k].n) && fine;
+    }
+  }
+  return fine;
+}
+
+/* ---- redundant rows ---- */
+
+/* [s] of the library's own way. */
+static double time_library(scene_kind kind)
+{
+  scene at;
+  double best = (double)NAN;
+  if (scene_make(kind, 1, &at)) {
+    void *self = solver_at(0)->create(&at);
+    best = self ? timing_best(solver_at(0)->run, self, PHASE_SOLVE) : best;
+    solver_at(0)->destroy(self);
+    scene_clear(&at);
+  }
+  return best;
+}
+
+static bool bench_redundancy(void)
+{
+  static const struct {
+    scene_kind with;
+    scene_kind without;
+  } pairs[] = {
+    {SCENE_TWO_GUIDES, SCENE_ONE_GUIDE},
+    {SCENE_THREE_CRANKS, SCENE_THIRD_BY_A_ROD},
+    {SCENE_THREE_CRANKS, SCENE_TWO_CRANKS}, /* one body less: the ratio per body is 3/4 of it */
+  };
+  bool fine = true;
+  printf("\nredundant rows, ns per evaluation\n%-26s %8s   %-26s %8s %6s\n", "with", "", "without",
+         "", "ratio");
+  for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++) {
+    double with = time_library(pairs[k].with);
+    double without = time_library(pairs[k].without);
+    printf("%-26s %8.0f   %-26s %8.0f %6.2f\n", scene_name(pairs[k].with), 1e9 * with,
+           scene_name(pairs[k].without), 1e9 * without, with / without);
+    fine = fine && with > 0.0 && without > 0.0;
+  }
+  return fine;
+}
+
+/* ---- variants ---- */
+
+static bool make_one_variant(void *self, int part)
+{
+  (void)part;
+  return variant_make(self, 0.1, NULL) == BAUM_OK;
+}
+
+static bool make_and_evaluate(void *self, int part)
+{
+  (void)part;
+  variant_result out;
+  return variant_make(self, 0.1, &out) == BAUM_OK;
+}
+
+static bool bench_variants(void)
+{
+  variant_plan plan;
+  if (variant_plan_make(&plan) != BAUM_OK) {
+    return false;
+  }
+  double made = timing_best(make_one_variant, &plan, 0);
+  double evaluated = timing_best(make_and_evaluate, &plan, 0);
+  printf("\nvariants of the slider-crank, us each\n");
+  printf("copy, set, freeze, destroy                 %8.2f\n", 1e6 * made);
+  printf("the same with a workspace and one solution %8.2f\n", 1e6 * evaluated);
+  variant_plan_clear(&plan);
+  return made > 0.0 && evaluated > 0.0;
+}
+
+/* ---- program ---- */
+
+static void print_machine(void)
+{
+  printf(
+    "%s, CPU time of one thread: windows of at least 0.25 ms, 10th percentile of %d, smallest of "
+    "%d rounds\n",
+    baum_version(), TIMING_WINDOWS, TIMING_ROUNDS);
+  printf("%12s %12s %12s\n", "memory", "read GB/s", "update GB/s");
+  for (long kib = 16; kib <= 65536; kib *= 8) {
+    timing_bandwidth found = timing_measure_bandwidth(1024 * kib);
+    printf("%8ld KiB %12.1f %12.1f\n", kib, 1e-9 * found.read, 1e-9 * found.update);
+  }
+}
+
+static bool parse(int count, char **words, arguments *out)
+{
+  *out = (arguments){.largest = 100000};
+  for (int k = 1; k < count; k++) {
+    if (strcmp(words[k], "--json") == 0) {
+      out->json = true;
+    } else if (strcmp(words[k], "--case") == 0 && k + 1 < count) {
+      out->only = words[++k];
+    } else if (strcmp(words[k], "--largest") == 0 && k + 1 < count) {
+      out->largest = (int)strtol(words[++k], NULL, 10);
+    } else {
+      return false;
+    }
+  }
+  return true;
+}
+
+int main(int count, char **words)
+{
+  arguments given;
+  if (!parse(count, words, &given)) {
+    (void)fprintf(stderr, "usage: bench_eval [--json] [--case NAME] [--largest N]\n");
+    return 2;
+  }
+  if (given.json) {
+    return bench_solvers(&given) ? 0 : 1;
+  }
+  print_machine();
+  bool fine = bench_solvers(&given);
+  fine = bench_steps(&given) && fine;
+  if (!given.only) {
+    fine = bench_redundancy() && fine;
+    fine = bench_variants() && fine;
+  }
+  return fine ? 0 : 1;
+}

@@ -1,0 +1,37 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is timed: mechanisms of tests/models at a state. */
+#ifndef BAUM_BENCH_SCENES_H
+#define BAUM_BENCH_SCENES_H
+
+#include "dynamics/dynamics.h"
+#include "models.h"
+
+typedef enum scene_kind {
+  SCENE_SLIDER_CRANK, /* driven: 9 rows */
+  SCENE_ANDREWS,
+  SCENE_FOUR_BAR,
+  SCENE_CHAIN,
+  SCENE_ONE_GUIDE,      /* undriven slider-crank: 8 rows */
+  SCENE_TWO_GUIDES,     /* 2 rows more, redundant */
+  SCENE_THIRD_BY_A_ROD, /* three parallel cranks, without and with a redundant row */
+  SCENE_THREE_CRANKS,
+  SCENE_TWO_CRANKS
+} scene_kind;
+
+typedef struct scene {
+  scene_kind kind;
+  int n; /* loops or links, else 1 */
+  model m;
+  int bodies;
+  baum_workspace *workspace;
+  double *q; /* (nv) */
+  double *v; /* (nv) */
+} scene;
+
+const char *scene_name(scene_kind kind);
+
+/* False, with the reason in baum_message(). */
+bool scene_make(scene_kind kind, int n, scene *out);
+void scene_clear(scene *out);
+
+#endif
