@@ -213,6 +213,23 @@ BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum
 /** Present value of an input; NaN for NULL and for ids of others. */
 BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
 
+/** Give a driver another law, for this run only: with the present time t0 the prescribed coordinate
+ *  is s + ds (t - t0) + dds (t - t0)^2 / 2, in place of the polynomial or the user law of its
+ *  definition, until it is set again. Variable-step methods begin anew, which counters.restarts
+ *  counts. The state stays: where s or ds differ from it, that is a violation, which the formulation
+ *  treats as any other. PROJECTION jumps at the end of the next step, BAUMGARTE goes there at the
+ *  rate of its gains (a jump in s with gains of 1/h asks for velocities of about s/h), UNSTABILIZED
+ *  keeps the difference. So lead on from where the coordinate is, and change dds, or ds.
+ *  @param driver  of the mechanism of the run
+ *  @param s       [rad or m] finite
+ *  @param ds      [rad/s or m/s] finite
+ *  @param dds     [rad/s^2 or m/s^2] finite
+ *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ *                 BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
+ */
+BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver,
+                                                double s, double ds, double dds);
+
 /** Present time [s]; NaN for NULL. */
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions (nq), owned by the run and changed by it; NULL for NULL. */

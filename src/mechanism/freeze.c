@@ -346,6 +346,7 @@ static double drawing_size(const baum_mechanism *mechanism)
 static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
 {
   size_t nv = (size_t)mechanism->nv;
+  mechanism->parameter_count = parameters;
   mechanism->parameters = baum_i_alloc((size_t)parameters, sizeof(double));
   mechanism->drawn_q = baum_i_alloc(nv, sizeof(double));
   mechanism->drawn_v = baum_i_alloc(nv, sizeof(double));

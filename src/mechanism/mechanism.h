@@ -234,7 +234,11 @@ struct baum_i_joint_type {
   int parameter_count;
   bool planar;      /* two planar bodies: reaction is force and moment */
   bool scleronomic; /* Phi never depends on t */
+  bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
   bool drives;      /* one row: the coordinate of another joint minus a function of time */
+  /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
+   * NULL: there is no law. */
+  void (*replace_law)(double *parameters, double t0, const double s[3]);
   int (*rows)(const void *def);
   /* Fills body_count; and bodies if not NULL. */
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
@@ -302,6 +306,7 @@ struct baum_mechanism {
   int joint_square_size;
   int force_square_size;
   int scratch_size;
+  int parameter_count;
   bool constant_mass;
   double length; /* scale L */
   double *parameters;

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run from outside: inputs.
+/* What acts on a run from outside: inputs, and drivers with a law given by the run.
  *
  * Both change the right side of the equations abruptly. A fixed-step method begins every step from
  * the state alone and takes the change as it is; a variable-step method carries its past along and
  * begins anew from the present state, which may be behind the end of its last step.
  */
+#include <assert.h>
 #include <math.h>
+#include <string.h>
 
+#include "base/alloc.h"
+#include "mechanism/definition.h"
 #include "simulate/run.h"
 
 /* A method that fails here begins anew at its next step, and from the same state. */
@@ -54,4 +58,80 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
 double baum_simulation_input(const baum_simulation *simulation, baum_input_id input)
 {
   return simulation ? baum_workspace_input(simulation->workspace, input) : (double)NAN;
+}
+
+/* ---- drivers ---- */
+
+static baum_status check_driver(const baum_simulation *run, const char *call, baum_joint_id driver,
+                                const double law[3])
+{
+  if (!run) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
+  }
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_status status = baum_i_check_joint(m, driver, call, "driver");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  char label[BAUM_I_LABEL_SIZE];
+  const baum_i_joint *joint = m->joints[baum_i_joint_index(m, driver)];
+  (void)baum_i_label(&joint->element, "joint", label);
+  if (!joint->type->replace_law) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is a %s, not a driver", call, label,
+                       joint->type->definition.kind);
+  }
+  static const char *const names[3] = {"s", "ds", "dds"};
+  static const char *const units[3] = {"rad or m", "rad/s or m/s", "rad/s^2 or m/s^2"};
+  for (int k = 0; k < 3 && status == BAUM_OK; k++) {
+    status = baum_i_check_finite(label, names[k], units[k], law[k]);
+  }
+  return status;
+}
+
+/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. */
+static baum_status own_parameters(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  if (run->parameters) {
+    return BAUM_OK;
+  }
+  run->parameters = baum_i_copy(m->parameters, (size_t)m->parameter_count, sizeof *run->parameters);
+  if (!run->parameters) {
+    return baum_i_fail_memory();
+  }
+  run->workspace->point.parameters = run->parameters;
+  return BAUM_OK;
+}
+
+enum { MOST_NUMBERS = 8 }; /* of a driver, among the parameters */
+
+static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, const double law[3])
+{
+  double before[MOST_NUMBERS];
+  double *numbers = run->parameters + joint->element.parameter;
+  size_t size = (size_t)joint->type->parameter_count * sizeof *numbers;
+  assert(size <= sizeof before);
+  memcpy(before, numbers, size);
+  joint->type->replace_law(numbers, run->state.t, law);
+  baum_status status = begin_anew(run);
+  if (status != BAUM_OK) {
+    memcpy(numbers, before, size);
+  }
+  return status;
+}
+
+baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver, double s,
+                                       double ds, double dds)
+{
+  const double law[3] = {s, ds, dds};
+  baum_status status = check_driver(simulation, "baum_simulation_set_driver", driver, law);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_mechanism *m = simulation->workspace->mechanism;
+  status = own_parameters(simulation);
+  if (status == BAUM_OK) {
+    status = set_driver(simulation, m->joints[baum_i_joint_index(m, driver)], law);
+  }
+  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
 }

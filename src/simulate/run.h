@@ -29,6 +29,7 @@ struct baum_simulation {
   baum_i_problem problem;
   void *self; /* of the integrator; may be NULL for a fixed-step one */
 
+  double *parameters;   /* own copy of the mechanism's once a driver is set, else NULL */
   double *memory;       /* all arrays below */
   baum_i_state state;   /* reported */
   baum_i_state ahead;   /* variable step: end of the last internal step */

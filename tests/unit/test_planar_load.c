@@ -85,12 +85,30 @@ static void derivatives_on_a_particle_agree_with_differences(void **state)
   check_at_random(&scene, &def, true);
 }
 
-/* Force of one load on the crank turned by a quarter, and the potential. */
-static void evaluate(const baum_planar_load_def *given, double force[3], double *potential)
+static void derivatives_with_an_input_agree_with_differences(void **state)
+{
+  (void)state;
+  for (int follows = 0; follows <= 1; follows++) {
+    planar_scene scene = planar_scene_make();
+    baum_planar_load_def def = good(&scene);
+    assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", -2.5, &def.input), BAUM_OK);
+    def.torque = 1.5;
+    def.follows_body = follows == 1;
+    check_at_random(&scene, &def, false);
+  }
+}
+
+/* Force of one load on the crank turned by a quarter, and the potential. With an input of that value
+ * unless it is NaN. */
+static void evaluate_with(const baum_planar_load_def *given, double input, double force[3],
+                          double *potential)
 {
   planar_scene scene = planar_scene_make();
   baum_planar_load_def def = *given;
   def.body = scene.crank;
+  if (!isnan(input)) {
+    assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", input, &def.input), BAUM_OK);
+  }
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
   assert_int_equal(baum_mechanism_set_gravity(scene.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
   test_point p;
@@ -107,6 +125,11 @@ static void evaluate(const baum_planar_load_def *given, double force[3], double 
     force[i] = all[crank + i];
   }
   test_point_close(&p);
+}
+
+static void evaluate(const baum_planar_load_def *given, double force[3], double *potential)
+{
+  evaluate_with(given, TEST_NAN, force, potential);
 }
 
 static void a_load_keeps_its_direction_or_follows_its_body(void **state)
@@ -135,6 +158,46 @@ static void a_load_keeps_its_direction_or_follows_its_body(void **state)
   ASSERT_NEAR(force[1], 3.0, 1e-14, 0.0);
   ASSERT_NEAR(force[2], 1.0 * 5.0 - 2.0 * 3.0 + 7.0, 1e-14, 0.0);
   ASSERT_NEAR(potential, 0.0, 0.0, 0.0);
+}
+
+static void an_input_multiplies_force_and_torque_and_takes_the_potential(void **state)
+{
+  (void)state;
+  static const double inputs[] = {-2.5, 0.0, 1.0};
+  for (int k = 0; k < 12; k++) {
+    baum_planar_load_def def = baum_planar_load_def_default();
+    def.point[0] = 1.0;
+    def.point[1] = 2.0;
+    def.force[0] = 3.0;
+    def.force[1] = 5.0;
+    def.torque = k % 2 == 0 ? 0.0 : 7.0;
+    def.follows_body = k % 4 >= 2;
+    double input = inputs[k / 4];
+    double plain[3];
+    double scaled[3];
+    double potential;
+    evaluate(&def, plain, &potential);
+    assert_true((potential != 0.0) == (k % 4 == 0));
+    evaluate_with(&def, input, scaled, &potential);
+    assert_true(potential == 0.0);
+    for (int i = 0; i < 3; i++) {
+      ASSERT_NEAR(scaled[i], input * plain[i], 1e-14, 0.0); /* rounding of the products */
+    }
+  }
+}
+
+static void a_wrong_input_is_refused(void **state)
+{
+  (void)state;
+  planar_scene scene = planar_scene_make();
+  planar_scene other = planar_scene_make();
+  baum_planar_load_def def = good(&scene);
+  assert_int_equal(baum_mechanism_add_input(other.mechanism, "gas", 1.0, &def.input), BAUM_OK);
+  check_refused(scene.mechanism, add, &def, "force 1 \"push\": input is not of this mechanism");
+  def.input.index1 = 0;
+  check_refused(scene.mechanism, add, &def, "force 1 \"push\": input is none, must be given");
+  baum_mechanism_destroy(scene.mechanism);
+  baum_mechanism_destroy(other.mechanism);
 }
 
 static void wrong_numbers_are_refused(void **state)
@@ -201,7 +264,8 @@ static void definitions_come_back(void **state)
   second.force[0] = 2.5;
   second.torque = 9.0;
   second.follows_body = true;
-  CHECK_ROUND_TRIP(force, planar_load, follows_body, scene.mechanism, &first, &second);
+  assert_int_equal(baum_mechanism_add_input(scene.mechanism, "gas", 1.0, &second.input), BAUM_OK);
+  CHECK_ROUND_TRIP(force, planar_load, input, scene.mechanism, &first, &second);
   baum_mechanism_destroy(scene.mechanism);
 }
 
@@ -213,6 +277,9 @@ int main(void)
     cmocka_unit_test(derivatives_following_the_body_agree_with_differences),
     cmocka_unit_test(derivatives_on_a_particle_agree_with_differences),
     cmocka_unit_test(a_load_keeps_its_direction_or_follows_its_body),
+    cmocka_unit_test(derivatives_with_an_input_agree_with_differences),
+    cmocka_unit_test(an_input_multiplies_force_and_torque_and_takes_the_potential),
+    cmocka_unit_test(a_wrong_input_is_refused),
     cmocka_unit_test(wrong_numbers_are_refused),
     cmocka_unit_test(wrong_bodies_are_refused),
     cmocka_unit_test(definitions_come_back),

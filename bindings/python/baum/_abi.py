@@ -770,6 +770,7 @@ PROTOTYPES = {
     "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
     "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),
+    "baum_simulation_set_driver": (c_int, [c_void_p, baum_joint_id, c_double, c_double, c_double]),
     "baum_simulation_time": (c_double, [c_void_p]),
     "baum_simulation_q": (c_void_p, [c_void_p]),
     "baum_simulation_v": (c_void_p, [c_void_p]),

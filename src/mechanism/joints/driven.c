@@ -44,6 +44,36 @@ void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum
 
 /* ---- motion ---- */
 
+void baum_i_driver_replace_law(double *parameters, double t0, const double s[3])
+{
+  parameters[BAUM_I_DRIVER_S] = s[0];
+  parameters[BAUM_I_DRIVER_DS] = s[1];
+  parameters[BAUM_I_DRIVER_DDS] = s[2];
+  parameters[BAUM_I_DRIVER_T0] = t0;
+  parameters[BAUM_I_DRIVER_POLYNOMIAL] = 1.0;
+}
+
+static void polynomial(const double *numbers, double t, double s[3])
+{
+  double tau = t - numbers[BAUM_I_DRIVER_T0];
+  double ds = numbers[BAUM_I_DRIVER_DS];
+  double dds = numbers[BAUM_I_DRIVER_DDS];
+  s[0] = numbers[BAUM_I_DRIVER_S] + tau * (ds + 0.5 * tau * dds);
+  s[1] = ds + tau * dds;
+  s[2] = dds;
+}
+
+static baum_status motion_of(const baum_i_joint *joint, baum_i_point *point,
+                             baum_i_motion_fn *motion, double s[3])
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  if (!joint->type->replace_law || numbers[BAUM_I_DRIVER_POLYNOMIAL] == 0.0) {
+    return motion(joint, point, s);
+  }
+  polynomial(numbers, point->t, s);
+  return BAUM_OK;
+}
+
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3])
 {
@@ -69,7 +99,7 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
 {
   double s[3] = {0.0};
   if (out->phi || out->nu || out->gamma) {
-    baum_status status = motion(joint, point, s);
+    baum_status status = motion_of(joint, point, motion, s);
     if (status != BAUM_OK) {
       return status;
     }

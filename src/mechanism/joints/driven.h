@@ -5,6 +5,10 @@
  *
  * c, c_q and their derivatives are those of the driven joint's type;
  * the driver acts on the same bodies.
+ *
+ * The numbers of a type with replace_law begin with those of a polynomial in t - t0. Where it is in
+ * force it is the motion: from the start when the definition gives one, or because a run has put it
+ * in the place of what the definition gives, in a copy of the numbers of its own.
  */
 #ifndef BAUM_I_MECHANISM_JOINTS_DRIVEN_H
 #define BAUM_I_MECHANISM_JOINTS_DRIVEN_H
@@ -17,6 +21,19 @@ typedef struct baum_i_driver_head {
   const char *name;
   baum_joint_id joint;
 } baum_i_driver_head;
+
+/* Numbers; those of the type itself follow. */
+enum {
+  BAUM_I_DRIVER_S, /* at t0 */
+  BAUM_I_DRIVER_DS,
+  BAUM_I_DRIVER_DDS,
+  BAUM_I_DRIVER_T0,
+  BAUM_I_DRIVER_POLYNOMIAL, /* 1: in force, 0: the type's motion is */
+  BAUM_I_DRIVER_NUMBERS
+};
+
+/* Put a polynomial in force; the replace_law of types. */
+void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
 /* Value, rate and acceleration of s at the point's time; failures as in phi. */
 typedef baum_status baum_i_motion_fn(const baum_i_joint *driver, baum_i_point *point, double s[3]);

@@ -7,9 +7,6 @@
 #include "mechanism/definition.h"
 #include "mechanism/joints/driven.h"
 
-/* Parameters. */
-enum { VALUE, RATE, ACCELERATION, PARAMETER_COUNT };
-
 static const baum_driver_def defaults = {.struct_size = sizeof(baum_driver_def)};
 
 /* ---- definition ---- */
@@ -35,9 +32,10 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 {
   (void)mechanism;
   const baum_driver_def *def = joint->element.def;
-  parameters[VALUE] = def->value;
-  parameters[RATE] = def->rate;
-  parameters[ACCELERATION] = def->acceleration;
+  if (!def->law) {
+    const double s[3] = {def->value, def->rate, def->acceleration};
+    baum_i_driver_replace_law(parameters, 0.0, s);
+  }
   return BAUM_OK;
 }
 
@@ -52,21 +50,14 @@ static baum_status refuse_return(const baum_i_joint *joint, baum_i_point *point,
                      code > 0 ? "retry" : "stop");
 }
 
+/* The user's. */
 static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[3])
 {
   const baum_driver_def *def = joint->element.def;
-  double t = point->t;
-  if (!def->law) {
-    const double *numbers = point->parameters + joint->element.parameter;
-    s[0] = numbers[VALUE] + t * (numbers[RATE] + 0.5 * t * numbers[ACCELERATION]);
-    s[1] = numbers[RATE] + t * numbers[ACCELERATION];
-    s[2] = numbers[ACCELERATION];
-    return BAUM_OK;
-  }
   s[0] = 0.0;
   s[1] = 0.0;
   s[2] = 0.0;
-  int code = def->law(t, s, def->user);
+  int code = def->law(point->t, s, def->user);
   return code == 0 ? baum_i_check_motion(joint, point, "law()", s)
                    : refuse_return(joint, point, code);
 }
@@ -85,10 +76,11 @@ static const baum_i_joint_type type = {
                  .defaults = &defaults,
                  .check = check,
                  .tied = baum_i_driver_tied},
-  .parameter_count = PARAMETER_COUNT,
+  .parameter_count = BAUM_I_DRIVER_NUMBERS,
   .planar = true,
   .scleronomic = false,
   .drives = true,
+  .replace_law = baum_i_driver_replace_law,
   .rows = baum_i_driver_rows,
   .bodies = baum_i_driver_bodies,
   .lower = lower,
