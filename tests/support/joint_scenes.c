@@ -1,0 +1,366 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "joint_scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+/* ---- parts ---- */
+
+static void need(baum_status status)
+{
+  if (status != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+/* Where a body is drawn, and how fast it turns at start (NaN: that follows). */
+typedef struct drawn {
+  double x, y, angle, w;
+} drawn;
+
+static const double FREE = (double)NAN;
+
+static baum_body_id body(baum_mechanism *m, const char *name, drawn at)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.name = name;
+  def.mass = 1.5;
+  def.inertia = 0.02;
+  def.position[0] = at.x;
+  def.position[1] = at.y;
+  def.angle = at.angle;
+  def.angular_velocity = at.w;
+  need(baum_mechanism_add_planar_body(m, &def, &id));
+  return id;
+}
+
+static baum_body_id particle(baum_mechanism *m, const char *name, double x, double y)
+{
+  baum_planar_particle_def def = baum_planar_particle_def_default();
+  baum_body_id id;
+  def.name = name;
+  def.mass = 0.8;
+  def.position[0] = x;
+  def.position[1] = y;
+  need(baum_mechanism_add_planar_particle(m, &def, &id));
+  return id;
+}
+
+static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  baum_joint_id id;
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  need(baum_mechanism_add_planar_revolute(m, &def, &id));
+  return id;
+}
+
+/* b slides in a along an axis of the drawing. */
+static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
+                           const double axis[2])
+{
+  baum_planar_translational_def def = baum_planar_translational_def_default();
+  baum_joint_id id;
+  def.body_a = a;
+  def.body_b = b;
+  for (int i = 0; i < 2; i++) {
+    def.point[i] = at[i];
+    def.axis[i] = axis[i];
+  }
+  need(baum_mechanism_add_planar_translational(m, &def, &id));
+  return id;
+}
+
+static baum_joint_id slot(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
+                          const double axis[2])
+{
+  baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
+  baum_joint_id id;
+  def.body_a = a;
+  def.body_b = b;
+  for (int i = 0; i < 2; i++) {
+    def.point[i] = at[i];
+    def.axis[i] = axis[i];
+  }
+  need(baum_mechanism_add_planar_pin_in_slot(m, &def, &id));
+  return id;
+}
+
+/* ---- scenes ---- */
+
+/* Double pendulum. */
+static void revolute(baum_mechanism *m)
+{
+  baum_body_id upper = body(m, "upper", (drawn){0.2, 0.0, 0.0, 1.0});
+  baum_body_id lower = body(m, "lower", (drawn){0.4, -0.15, -1.5, -2.0});
+  (void)pin(m, BAUM_GROUND, upper, 0.0, 0.0);
+  (void)pin(m, upper, lower, 0.4, 0.0);
+}
+
+/* Block on a swinging beam. */
+static void translational(baum_mechanism *m)
+{
+  const double axis[2] = {cos(0.3), sin(0.3)};
+  const double at[2] = {0.3 * axis[0], 0.3 * axis[1]};
+  baum_body_id beam = body(m, "beam", (drawn){0.1 * axis[0], 0.1 * axis[1], 0.3, 2.0});
+  baum_body_id block = body(m, "block", (drawn){at[0], at[1], 0.3, FREE});
+  (void)pin(m, BAUM_GROUND, beam, 0.0, 0.0);
+  (void)guide(m, beam, block, at, axis);
+}
+
+/* Plate on a rod without mass. */
+static void distance(baum_mechanism *m)
+{
+  baum_body_id plate = body(m, "plate", (drawn){0.5, -0.1, 0.0, 1.5});
+  baum_planar_distance_def def = baum_planar_distance_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = plate;
+  def.point_a[0] = 0.0;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = -0.1;
+  def.point_b[1] = 0.1;
+  need(baum_mechanism_add_planar_distance(m, &def, NULL));
+}
+
+/* Pendulum of two pieces. */
+static void fixed(baum_mechanism *m)
+{
+  baum_body_id link = body(m, "link", (drawn){0.2, 0.0, 0.0, 1.0});
+  baum_body_id plate = body(m, "plate", (drawn){0.4, 0.1, 0.7, FREE});
+  (void)pin(m, BAUM_GROUND, link, 0.0, 0.0);
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  def.body_a = link;
+  def.body_b = plate;
+  def.point[0] = 0.35;
+  def.point[1] = 0.05;
+  need(baum_mechanism_add_planar_fixed(m, &def, NULL));
+}
+
+/* Pendulum on a driven crank. */
+static void driver(baum_mechanism *m)
+{
+  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, FREE});
+  baum_body_id link = body(m, "link", (drawn){0.35, 0.0, 0.0, 1.0});
+  baum_driver_def def = baum_driver_def_default();
+  def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)pin(m, crank, link, 0.2, 0.0);
+  def.rate = 3.0;
+  def.acceleration = 2.0;
+  need(baum_mechanism_add_driver(m, &def, NULL));
+}
+
+/* y = 2 x^2 */
+static int parabola(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[1] - 2.0 * q[0] * q[0];
+  return 0;
+}
+
+static int parabola_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = -4.0 * q[0];
+  out[1] = 1.0;
+  return 0;
+}
+
+/* Bead on a wire. */
+static void user_constraint(baum_mechanism *m)
+{
+  baum_body_id bead = particle(m, "bead", -0.3, 0.18);
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.bodies = &bead;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.phi = parabola;
+  def.jacobian = parabola_jacobian;
+  need(baum_mechanism_add_user_constraint(m, &def, NULL));
+}
+
+/* Quick return: the pin of a crank in the slot of a swinging arm. */
+static void pin_in_slot(baum_mechanism *m)
+{
+  const double at[2] = {0.1, 0.0};
+  const double axis[2] = {0.1, 0.3};
+  baum_body_id crank = body(m, "crank", (drawn){0.05, 0.0, 0.0, 4.0});
+  baum_body_id arm = body(m, "arm", (drawn){0.07, -0.09, 1.2, FREE});
+  (void)pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)pin(m, BAUM_GROUND, arm, 0.0, -0.3);
+  (void)slot(m, arm, crank, at, axis);
+}
+
+/* A particle that is pushed along a swinging slot. */
+static void driver_in_slot(baum_mechanism *m)
+{
+  const double at[2] = {0.3, 0.0};
+  const double axis[2] = {1.0, 0.0};
+  baum_body_id arm = body(m, "arm", (drawn){0.1, 0.0, 0.0, 1.0});
+  baum_body_id ball = particle(m, "ball", at[0], at[1]);
+  (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
+  baum_driver_def def = baum_driver_def_default();
+  def.joint = slot(m, arm, ball, at, axis);
+  def.rate = 0.4;
+  def.acceleration = -1.0;
+  need(baum_mechanism_add_driver(m, &def, NULL));
+}
+
+/* An unbalanced pinion above a rack that slides. */
+static void rack_and_pinion(baum_mechanism *m)
+{
+  const double at[2] = {0.0, 0.0};
+  const double axis[2] = {1.0, 0.0};
+  baum_body_id rack = body(m, "rack", (drawn){0.0, 0.0, 0.0, FREE});
+  baum_body_id pinion = body(m, "pinion", (drawn){0.05, 0.1, 0.0, 3.0});
+  (void)guide(m, BAUM_GROUND, rack, at, axis);
+  (void)pin(m, BAUM_GROUND, pinion, 0.0, 0.1);
+  baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
+  def.body_a = rack;
+  def.body_b = pinion;
+  def.point[0] = 0.0;
+  def.point[1] = 0.1;
+  def.radius = -0.1;
+  need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
+}
+
+/* A pinion that rolls down a slope, its centre in a slot beside the rack. */
+static void rolling(baum_mechanism *m)
+{
+  const double at[2] = {0.1, 0.2};
+  const double axis[2] = {0.8, -0.6};
+  baum_body_id wheel = body(m, "wheel", (drawn){at[0], at[1], 0.0, FREE});
+  (void)slot(m, BAUM_GROUND, wheel, at, axis);
+  baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = wheel;
+  for (int i = 0; i < 2; i++) {
+    def.point[i] = at[i];
+    def.axis[i] = axis[i];
+  }
+  def.radius = -0.15;
+  need(baum_mechanism_add_planar_rack_and_pinion(m, &def, NULL));
+}
+
+/* Sun and planet on an arm, all unbalanced. */
+static void gear(baum_mechanism *m)
+{
+  baum_body_id sun = body(m, "sun", (drawn){0.05, 0.0, 0.0, 4.0});
+  baum_body_id arm = body(m, "arm", (drawn){0.1, 0.0, 0.0, 1.0});
+  baum_body_id planet = body(m, "planet", (drawn){0.25, 0.04, 0.0, FREE});
+  (void)pin(m, BAUM_GROUND, sun, 0.0, 0.0);
+  (void)pin(m, BAUM_GROUND, arm, 0.0, 0.0);
+  (void)pin(m, arm, planet, 0.25, 0.0);
+  baum_planar_gear_def def = baum_planar_gear_def_default();
+  def.body_a = sun;
+  def.body_b = planet;
+  def.carrier = arm;
+  def.radius_a = 0.1;
+  def.radius_b = 0.15;
+  need(baum_mechanism_add_planar_gear(m, &def, NULL));
+}
+
+/* A crank and a weight that goes up and down; the caller couples them. */
+static baum_coupling_def crank_and_weight(baum_mechanism *m)
+{
+  const double at[2] = {0.3, 0.0};
+  const double axis[2] = {0.0, 1.0};
+  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, 3.0});
+  baum_body_id weight = body(m, "weight", (drawn){0.3, 0.0, 0.0, FREE});
+  baum_coupling_def def = baum_coupling_def_default();
+  def.joint_a = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  def.joint_b = guide(m, BAUM_GROUND, weight, at, axis);
+  return def;
+}
+
+/* A rope on a drum. */
+static void coupling(baum_mechanism *m)
+{
+  baum_coupling_def def = crank_and_weight(m);
+  def.ratio = 0.08;
+  need(baum_mechanism_add_coupling(m, &def, NULL));
+}
+
+static int lift(double x, double f[3], void *user)
+{
+  const double *height = user;
+  f[0] = *height * (1.0 - cos(2.0 * x));
+  f[1] = *height * 2.0 * sin(2.0 * x);
+  f[2] = *height * 4.0 * cos(2.0 * x);
+  return 0;
+}
+
+/* A cam with two lobes. */
+static void cam(baum_mechanism *m)
+{
+  static double height = 0.03;
+  baum_coupling_def def = crank_and_weight(m);
+  def.law = lift;
+  def.user = &height;
+  need(baum_mechanism_add_coupling(m, &def, NULL));
+}
+
+/* ((x / 0.2)^2 + (y / 0.1)^2 - 1) / 20, with a gradient of 0.5 to 1. */
+static int ellipse(const double xy[2], double out[6], void *user)
+{
+  (void)user;
+  out[0] = 1.25 * xy[0] * xy[0] + 5.0 * xy[1] * xy[1] - 0.05;
+  out[1] = 2.5 * xy[0];
+  out[2] = 10.0 * xy[1];
+  out[3] = 2.5;
+  out[5] = 10.0;
+  return 0;
+}
+
+/* A particle on the track of a swinging body. */
+static void curve(baum_mechanism *m)
+{
+  baum_body_id track = body(m, "track", (drawn){0.0, -0.2, 0.0, 1.0});
+  baum_body_id ball = particle(m, "ball", 0.2, -0.2);
+  (void)pin(m, BAUM_GROUND, track, 0.0, 0.0);
+  baum_planar_curve_def def = baum_planar_curve_def_default();
+  def.body_a = track;
+  def.body_b = ball;
+  for (int i = 0; i < 2; i++) {
+    def.point_a[i] = 0.0;
+    def.point_b[i] = 0.0;
+  }
+  def.curve = ellipse;
+  need(baum_mechanism_add_planar_curve(m, &def, NULL));
+}
+
+const joint_scene joint_scenes[JOINT_SCENES] = {
+  {"revolute", revolute, 2, true},
+  {"translational", translational, 2, true},
+  {"distance", distance, 2, true},
+  {"fixed", fixed, 1, true},
+  {"driver", driver, 1, false},
+  {"user constraint", user_constraint, 1, true},
+  {"pin in a slot", pin_in_slot, 1, true},
+  {"driver in a slot", driver_in_slot, 1, false},
+  {"rack and pinion", rack_and_pinion, 1, true},
+  {"rolling", rolling, 1, true},
+  {"gear", gear, 2, true},
+  {"coupling", coupling, 1, true},
+  {"coupling by a law", cam, 1, true},
+  {"point on a curve", curve, 2, true},
+};
+
+baum_mechanism *joint_scene_make(const joint_scene *scene)
+{
+  baum_mechanism *mechanism = NULL;
+  need(baum_mechanism_create(&mechanism));
+  scene->build(mechanism);
+  need(baum_mechanism_freeze(mechanism));
+  return mechanism;
+}
