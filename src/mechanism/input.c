@@ -121,7 +121,7 @@ baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input
                                      double *initial)
 {
   const char *call = "baum_mechanism_get_input";
-  baum_status status = baum_i_check_input(mechanism, id, call, "id");
+  baum_status status = baum_i_check_input(mechanism, id, call, "input");
   if (status != BAUM_OK) {
     return status;
   }
