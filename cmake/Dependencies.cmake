@@ -28,15 +28,16 @@ if(BAUM_SUNDIALS)
   list(TRANSFORM BAUM_CAPABILITIES REPLACE "SUNDIALS=0" "SUNDIALS=1")
 endif()
 
-list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR m)
-
 if(BAUM_GSL)
   find_package(GSL QUIET)
   if(NOT GSL_FOUND)
     baum_refuse("GSL" libgsl-dev BAUM_GSL)
   endif()
+  list(APPEND BAUM_BACKENDS GSL::gsl)
   list(TRANSFORM BAUM_CAPABILITIES REPLACE "GSL=0" "GSL=1")
 endif()
+
+list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR m)
 
 if(BAUM_TESTS)
   find_package(PkgConfig QUIET)

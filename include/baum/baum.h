@@ -10,6 +10,7 @@
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
 #include <baum/simulation.h>
+#include <baum/spline.h>
 #include <baum/stabilization.h>
 #include <baum/status.h>
 #include <baum/version.h>

@@ -133,9 +133,9 @@ HEAP_PUBLIC void free(void *memory)
   HEAP_REAL(free)(memory);
 }
 
-/* ---- what is excluded, and why ----
- *
- * SUNLogger_Create() of SUNDIALS 6.4.1, called by SUNContext_Create(): its first allocation is
+/* ---- what is excluded, and why ---- */
+
+/* SUNLogger_Create() of SUNDIALS 6.4.1, called by SUNContext_Create(): its first allocation is
  * checked. Then SUNHashMap_New() allocates a map and writes to it unchecked (it compares `map` with
  * NULL where `*map` is meant); and when the buckets of the map cannot be allocated it frees the
  * map, which the logger keeps and later destroys. Nobody outside can help it, so all but the first
@@ -146,14 +146,6 @@ HEAP_PUBLIC void free(void *memory)
 typedef int heap_create_logger(void *communicator, int rank, void **logger);
 
 static heap_create_logger *heap_real_create_logger;
-
-/* Looked up beforehand: it allocates. */
-static bool heap_find_excluded(void)
-{
-  void *found = dlsym(RTLD_NEXT, "SUNLogger_Create");
-  memcpy(&heap_real_create_logger, &found, sizeof found);
-  return found != NULL;
-}
 
 /* As in SUNDIALS' header, but for the names of its types. */
 int SUNLogger_Create(void *communicator, int rank, void **logger);
@@ -167,14 +159,65 @@ HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
   return code;
 }
 
-#else
+#endif
 
-static bool heap_find_excluded(void)
+/* gsl_interp_alloc() and gsl_interp_init() of GSL: its error handler, which belongs to the whole
+ * program, ends it when they get no memory. The library tries beforehand whether there is enough,
+ * and that may fail.
+ */
+#if BAUM_HAVE_GSL
+
+typedef void *heap_alloc_spline(const void *type, size_t size);
+typedef int heap_init_spline(void *spline, const double *x, const double *y, size_t size);
+
+static heap_alloc_spline *heap_real_alloc_spline;
+static heap_init_spline *heap_real_init_spline;
+
+/* As in GSL's header, but for the names of its types. */
+void *gsl_interp_alloc(const void *type, size_t size);
+int gsl_interp_init(void *spline, const double *x, const double *y, size_t size);
+
+HEAP_PUBLIC void *gsl_interp_alloc(const void *type, size_t size)
 {
-  return true;
+  heap.inside = true;
+  heap.may_still_fail = 0;
+  void *spline = heap_real_alloc_spline(type, size);
+  heap.inside = false;
+  return spline;
+}
+
+HEAP_PUBLIC int gsl_interp_init(void *spline, const double *x, const double *y, size_t size)
+{
+  heap.inside = true;
+  heap.may_still_fail = 0;
+  int code = heap_real_init_spline(spline, x, y, size);
+  heap.inside = false;
+  return code;
 }
 
 #endif
+
+/* Looked up beforehand: it allocates. */
+static bool heap_find_excluded(void)
+{
+  bool all = true;
+  void *found = NULL;
+#if BAUM_HAVE_SUNDIALS
+  found = dlsym(RTLD_NEXT, "SUNLogger_Create");
+  memcpy(&heap_real_create_logger, &found, sizeof found);
+  all = all && found;
+#endif
+#if BAUM_HAVE_GSL
+  found = dlsym(RTLD_NEXT, "gsl_interp_alloc");
+  memcpy(&heap_real_alloc_spline, &found, sizeof found);
+  all = all && found;
+  found = dlsym(RTLD_NEXT, "gsl_interp_init");
+  memcpy(&heap_real_init_spline, &found, sizeof found);
+  all = all && found;
+#endif
+  (void)found;
+  return all;
+}
 
 static bool heap_is_ours(void)
 {

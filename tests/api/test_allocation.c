@@ -18,7 +18,7 @@
 
 /* ---- what is run ---- */
 
-enum { CHANNELS = 13, WIDTH_MAX = 100, SAMPLES = 7 };
+enum { CHANNELS = 13, WIDTH_MAX = 160, SAMPLES = 7 };
 
 static bool is_of_a_body(baum_quantity quantity)
 {

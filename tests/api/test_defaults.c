@@ -19,15 +19,17 @@
 
 enum { HEADER_SIZE = 65536, TEXT_SIZE = 128, NAME_SIZE = 64, FILL = 0xA5, OTHER_FILL = 0x5A };
 
-static const char *const header_names[] = {"mechanism.h", "planar.h", "simulation.h"};
+static const char *const header_names[] = {"mechanism.h", "planar.h", "planar_joints.h",
+                                           "simulation.h", "spline.h"};
+enum { HEADERS = sizeof header_names / sizeof *header_names };
 
-/* The three headers, one after the other; to be freed. */
+/* The headers, one after the other; to be freed. */
 static char *read_headers(void)
 {
-  char *text = calloc(1, 3 * HEADER_SIZE);
+  char *text = calloc(HEADERS, HEADER_SIZE);
   assert_non_null(text);
   size_t used = 0;
-  for (int k = 0; k < 3; k++) {
+  for (int k = 0; k < HEADERS; k++) {
     char path[1024];
     (void)snprintf(path, sizeof path, "%s/../../include/baum/%s", BAUM_TEST_DATA, header_names[k]);
     FILE *file = fopen(path, "r");
@@ -291,10 +293,12 @@ static void init_writes_at_most_the_callers_size(void **state)
 static size_t array_bytes(const element_kind *kind, const element_field *field, const any_def *def)
 {
   bool ids = strcmp(field->name, "bodies") == 0;
-  const char *counter = ids ? "body_count" : "size";
   size_t bytes[2] = {sizeof(double), sizeof(baum_body_id)};
   for (int k = 0; k < kind->field_count; k++) {
-    if (strcmp(kind->fields[k].name, counter) == 0) {
+    const char *name = kind->fields[k].name;
+    bool counts = ids ? strcmp(name, "body_count") == 0
+                      : strcmp(name, "size") == 0 || strcmp(name, "count") == 0;
+    if (counts) {
       const element_field *count = &kind->fields[k];
       return (size_t)integer_of(def->bytes + count->offset, count->size) * bytes[ids ? 1 : 0];
     }

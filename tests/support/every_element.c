@@ -303,6 +303,23 @@ GOOD(planar_torsion_spring)
   return def;
 }
 
+#if BAUM_HAVE_GSL
+
+GOOD(spline_driver)
+{
+  static const double times[4] = {0.0, 0.2, 0.5, 1.0};
+  static const double values[4] = {0.0, 0.1, -0.2, 0.3};
+  baum_spline_driver_def def = baum_spline_driver_def_default();
+  def.name = "cam";
+  def.joint = parts->hinge;
+  def.times = times;
+  def.values = values;
+  def.count = 4;
+  return def;
+}
+
+#endif
+
 /* ---- building ---- */
 
 static baum_status add_block(every_element *parts, const char *name, double x, double y,
@@ -316,6 +333,33 @@ static baum_status add_block(every_element *parts, const char *name, double x, d
   def.position[1] = y;
   return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
 }
+
+#if BAUM_HAVE_GSL
+
+/* What the spline drives. */
+static baum_status add_wheel(every_element *parts)
+{
+  baum_planar_revolute_def hinge = baum_planar_revolute_def_default();
+  baum_status status = add_block(parts, "wheel", -0.5, 0.3, &parts->wheel);
+  hinge.name = "hinge";
+  hinge.body_a = BAUM_GROUND;
+  hinge.body_b = parts->wheel;
+  hinge.point[0] = -0.55;
+  hinge.point[1] = 0.3;
+  return status == BAUM_OK
+           ? baum_mechanism_add_planar_revolute(parts->mechanism, &hinge, &parts->hinge)
+           : status;
+}
+
+#else
+
+static baum_status add_wheel(every_element *parts)
+{
+  (void)parts;
+  return BAUM_OK;
+}
+
+#endif
 
 static baum_status add_kind(every_element *parts, const element_kind *kind)
 {
@@ -332,6 +376,9 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
+/* Kinds before the spline driver, the last. */
+enum { EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - BAUM_HAVE_GSL };
+
 static baum_status add_all(every_element *parts)
 {
   baum_status status = baum_mechanism_set_gravity(parts->mechanism, 0.0, -9.81, 0.0);
@@ -339,7 +386,12 @@ static baum_status add_all(every_element *parts)
     status = baum_mechanism_add_input(parts->mechanism, "throttle", 1.0, &parts->throttle);
   }
   for (int k = 0; k < ELEMENT_KINDS && status == BAUM_OK; k++) {
-    status = add_kind(parts, &element_kinds[k]);
+    if (k == EVERY_WITHOUT_WHEEL) {
+      status = add_wheel(parts);
+    }
+    if (status == BAUM_OK) {
+      status = add_kind(parts, &element_kinds[k]);
+    }
     if (k == 0 && status == BAUM_OK) {
       status = add_block(parts, "slider", 0.4, 0.0, &parts->slider);
     }

@@ -4,9 +4,10 @@
  *
  *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
  *   a circle about the slider (user constraint); two masses in a row (user coordinates);
- *   spring, load, drag (user force), torsion spring.
+ *   spring, load, drag (user force), torsion spring; where there is GSL, a wheel on a hinge that
+ *   is driven along a spline (cam).
  *
- * 13 coordinates, 10 rows, 3 freedoms; drawn in its exact start pose.
+ * 13 coordinates and 10 rows without the wheel, 3 freedoms; drawn in its exact start pose.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -35,23 +36,26 @@ typedef struct every_element {
   baum_body_id tool;
   baum_body_id bob;
   baum_body_id masses;
+  baum_body_id wheel;
   baum_joint_id pin;
   baum_joint_id rod;
   baum_joint_id guide;
   baum_joint_id weld;
   baum_joint_id motor;
   baum_joint_id circle;
+  baum_joint_id hinge;
+  baum_joint_id cam;
   baum_force_id spring;
   baum_force_id load;
   baum_force_id drag;
   baum_force_id twist;
-  baum_input_id throttle; /* of the load, 1 at first */
+  baum_input_id throttle;        /* of the load, 1 at first */
   every_fault *fault;            /* `user` of all functions; may be NULL */
   baum_body_id circle_bodies[2]; /* of the definitions */
   baum_body_id drag_bodies[1];
 } every_element;
 
-enum { EVERY_NV = 13, EVERY_NC = 10, EVERY_DEF_SIZE = 256 };
+enum { EVERY_NV = 13 + 3 * BAUM_HAVE_GSL, EVERY_NC = 10 + 3 * BAUM_HAVE_GSL, EVERY_DEF_SIZE = 256 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -98,7 +102,7 @@ typedef struct element_kind {
   int field_count;
 } element_kind;
 
-enum { ELEMENT_KINDS = 13 };
+enum { ELEMENT_KINDS = 13 + BAUM_HAVE_GSL };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 17 };

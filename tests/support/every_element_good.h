@@ -18,5 +18,6 @@ void good_planar_spring(const every_element *parts, any_def *to);
 void good_planar_load(const every_element *parts, any_def *to);
 void good_user_force(const every_element *parts, any_def *to);
 void good_planar_torsion_spring(const every_element *parts, any_def *to);
+void good_spline_driver(const every_element *parts, any_def *to);
 
 #endif

@@ -152,6 +152,17 @@ static const element_field planar_torsion_spring_fields[] = {
   FIELD(baum_planar_torsion_spring_def, user, FUNCTION),
 };
 
+#if BAUM_HAVE_GSL
+
+static const element_field spline_driver_fields[] = {
+  FIELD(baum_spline_driver_def, struct_size, SIZE), FIELD(baum_spline_driver_def, name, NAME),
+  FIELD(baum_spline_driver_def, joint, ID),         FIELD(baum_spline_driver_def, times, ARRAY),
+  FIELD(baum_spline_driver_def, values, ARRAY),     FIELD(baum_spline_driver_def, count, INTEGER),
+  FIELD(baum_spline_driver_def, periodic, FLAG),
+};
+
+#endif
+
 const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, struct_size, SIZE),
   FIELD(baum_simulation_options, integrator, FUNCTION),
@@ -221,6 +232,9 @@ KIND_FUNCTIONS(force, planar_spring)
 KIND_FUNCTIONS(force, planar_load)
 KIND_FUNCTIONS(force, user_force)
 KIND_FUNCTIONS(force, planar_torsion_spring)
+#if BAUM_HAVE_GSL
+KIND_FUNCTIONS(joint, spline_driver)
+#endif
 
 const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(body, planar_body, "planar body", crank),
@@ -236,6 +250,9 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(force, planar_load, "planar load", load),
   KIND(force, user_force, "user force", drag),
   KIND(force, planar_torsion_spring, "planar torsion spring", twist),
+#if BAUM_HAVE_GSL
+  KIND(joint, spline_driver, "spline driver", cam),
+#endif
 };
 
 any_id every_element_id(const every_element *parts, const element_kind *kind)

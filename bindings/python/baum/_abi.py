@@ -494,6 +494,18 @@ class baum_counters(Structure):
     ]
 
 
+class baum_spline_driver_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint", baum_joint_id),
+        ("times", c_void_p),
+        ("values", c_void_p),
+        ("count", c_int32),
+        ("periodic", c_bool),
+    ]
+
+
 # Result and arguments of every function.
 PROTOTYPES = {
     "baum_status_name": (c_char_p, [c_int]),
@@ -783,6 +795,16 @@ PROTOTYPES = {
     "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
     "baum_simulation_explain": (c_char_p, [c_void_p]),
     "baum_simulation_message": (c_char_p, [c_void_p]),
+    "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
+    "baum_mechanism_add_spline_driver": (c_int, [
+        c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spline_driver": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spline_driver": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def),
+    ]),
     "baum_version": (c_char_p, []),
     "baum_has": (c_bool, [c_char_p]),
 }
@@ -808,6 +830,7 @@ DEFAULTS = {
     baum_planar_gear_def: "baum_planar_gear_def_init",
     baum_planar_curve_def: "baum_planar_curve_def_init",
     baum_simulation_options: "baum_simulation_options_init",
+    baum_spline_driver_def: "baum_spline_driver_def_init",
 }
 
 STRUCTS = [
@@ -841,4 +864,5 @@ STRUCTS = [
     baum_simulation_options,
     baum_channel,
     baum_counters,
+    baum_spline_driver_def,
 ]
