@@ -85,8 +85,21 @@ static bool find_pair(int k, baum_simulation_options *o)
 
 /* ---- steps allocate nothing ---- */
 
-static void run_a_while(baum_simulation *run, const baum_channel *channels, double *rows)
+/* Another input, and the law of the motor as it is, from now on by the run. */
+static baum_status act(baum_simulation *run, const every_element *parts)
 {
+  double t = baum_simulation_time(run);
+  double throttle = baum_simulation_input(run, parts->throttle);
+  baum_status status = baum_simulation_set_input(run, parts->throttle, 0.9 * throttle);
+  return status == BAUM_OK ? baum_simulation_set_driver(
+                               run, parts->motor, 0.5 + t * (2.0 + 0.15 * t), 2.0 + 0.3 * t, 0.3)
+                           : status;
+}
+
+static void run_a_while(baum_simulation *run, const every_element *parts,
+                        const baum_channel *channels, double *rows)
+{
+  assert_int_equal(act(run, parts), BAUM_OK);
   assert_true(reached_the_end(baum_simulation_step(run, 10)));
   double t = baum_simulation_time(run) + 0.0105;
   assert_true(reached_the_end(baum_simulation_advance_to(run, t)));
@@ -113,11 +126,11 @@ static void check_steady(const every_element *parts, const baum_simulation_optio
   (void)make_channels(parts, channels);
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts->mechanism, o, &run), BAUM_OK);
-  run_a_while(run, channels, rows);
+  run_a_while(run, parts, channels, rows);
   int64_t full = counters_of(run).full_factorizations;
   heap_watch();
-  run_a_while(run, channels, rows);
-  run_a_while(run, channels, rows);
+  run_a_while(run, parts, channels, rows);
+  run_a_while(run, parts, channels, rows);
   baum_counters counters = counters_of(run);
   long allocations = heap_stop();
   if (allocations != 0 || counters.full_factorizations != full) {
@@ -385,6 +398,9 @@ static baum_status go(baum_simulation *run, const every_element *parts, double s
   memcpy(state + EVERY_NV, baum_simulation_v(run), EVERY_NV * sizeof *state);
   baum_status status = baum_simulation_advance_to(run, span);
   if (reached_the_end(status)) {
+    status = act(run, parts);
+  }
+  if (status == BAUM_OK) {
     status = baum_simulation_get(run, channels, CHANNELS, row);
   }
   if (status == BAUM_OK) {
