@@ -1,0 +1,195 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A chain of 100000 links: what it costs to begin with, and Newton's and Euler's equations of every
+ * link. Shorter where instruments make everything slow; memory is then theirs too.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <sys/resource.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "physics_run.h"
+
+enum { LINKS = 100000 / BAUM_TEST_PATIENCE, PER_LINK = 3 };
+
+/* Half a minute: a step of setting up that takes it is not linear in the number of links. */
+static const double HANGING = 30.0 * BAUM_TEST_PATIENCE;
+static const double GRAVITY = 9.81;
+
+/* ---- cost ---- */
+
+static double now(void)
+{
+  struct timespec time;
+  assert_int_equal(clock_gettime(CLOCK_MONOTONIC, &time), 0);
+  return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* The most memory that the process has held so far [MB]. */
+static double most_memory(void)
+{
+  struct rusage usage;
+  assert_int_equal(getrusage(RUSAGE_SELF, &usage), 0);
+  return (double)usage.ru_maxrss / 1e3;
+}
+
+/* Prints what has been done since; returns the present time. */
+static double lap(const char *what, double since)
+{
+  double seconds = now() - since;
+  printf("%-34s %8.4f s %8.1f MB\n", what, seconds, most_memory());
+  assert_true(seconds < HANGING);
+  if (BAUM_TEST_PATIENCE == 1) {
+    assert_true(most_memory() < 1000.0);
+  }
+  return now();
+}
+
+/* ---- the chain: links of 1 m and 1 kg in gentle bends, at rest ---- */
+
+static double angle_of(int link)
+{
+  return 0.3 * sin(0.1 * link);
+}
+
+static model build_chain(void)
+{
+  model out;
+  double *angles = malloc(LINKS * sizeof *angles);
+  assert_non_null(angles);
+  for (int k = 0; k < LINKS; k++) {
+    angles[k] = angle_of(k);
+  }
+  const model_chain data = {.links = LINKS, .angle = angles};
+  check(model_chain_build(&data, &out));
+  free(angles);
+  return out;
+}
+
+static void it_is_frozen_and_runs_at_once(void **state)
+{
+  (void)state;
+  double before = now();
+  model m = build_chain();
+  before = lap("add and freeze", before);
+  baum_mechanism *again = NULL;
+  check(baum_mechanism_copy(m.mechanism, &again));
+  before = lap("copy", before);
+  check(baum_mechanism_freeze(again));
+  before = lap("freeze", before);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.step = 1e-4;
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(again, &options, &run));
+  baum_mechanism_destroy(again);
+  model_destroy(&m);
+  before = lap("simulation", before);
+  check(baum_simulation_step(run, 1));
+  (void)lap("step", before);
+  for (int i = 0; i < PER_LINK * LINKS; i++) {
+    assert_true(isfinite(baum_simulation_q(run)[i]));
+  }
+  baum_simulation_destroy(run);
+}
+
+static void its_freedoms_are_counted(void **state)
+{
+  (void)state;
+  model m = build_chain();
+  baum_mobility mobility;
+  double before = now();
+  check(baum_mechanism_mobility(m.mechanism, &mobility, sizeof mobility));
+  (void)lap("mobility", before);
+  assert_int_equal(mobility.freedoms, LINKS);
+  assert_int_equal(mobility.redundant_rows, 0);
+  assert_int_equal(mobility.free_bodies, 0);
+  assert_false(mobility.near_singular);
+  model_destroy(&m);
+}
+
+/* ---- mechanics ---- */
+
+/* From the tip on, the pin at the beginning of each link carries what the rest needs:
+ * F_k = sum of m (a_j - g) for j >= k, and J alpha_k = -p x F_k - p x F_(k+1), p half of the link.
+ * Pins hold: the acceleration at the end of a link is that at the beginning of the next. */
+typedef struct worst {
+  double force;
+  double moment; /* [N m] left over */
+  double gap;    /* [m/s^2] between two ends */
+} worst;
+
+static worst compare_links(const double *a)
+{
+  worst out = {0};
+  double force[2] = {0.0, 0.0};
+  double next[2] = {NAN, NAN}; /* acceleration at the beginning of the link after */
+  for (int k = LINKS - 1; k >= 0; k--) {
+    const double *at = a + (size_t)(PER_LINK * k);
+    double p[2] = {0.5 * cos(angle_of(k)), 0.5 * sin(angle_of(k))};
+    double turned[2] = {-p[1] * at[2], p[0] * at[2]};
+    double moment = -at[2] / 12.0 - (p[0] * force[1] - p[1] * force[0]);
+    force[0] += at[0];
+    force[1] += at[1] + GRAVITY;
+    moment -= p[0] * force[1] - p[1] * force[0];
+    out.moment = fmax(out.moment, fabs(moment));
+    out.force = fmax(out.force, hypot(force[0], force[1]));
+    for (int i = 0; i < 2 && k < LINKS - 1; i++) {
+      out.gap = fmax(out.gap, fabs(at[i] + turned[i] - next[i]));
+    }
+    next[0] = at[0] - turned[0];
+    next[1] = at[1] - turned[1];
+  }
+  out.gap = fmax(out.gap, hypot(next[0], next[1])); /* the ground does not move */
+  return out;
+}
+
+static double *solve(const model *m)
+{
+  double *q = malloc((size_t)PER_LINK * LINKS * sizeof *q);
+  double *v = calloc((size_t)PER_LINK * LINKS, sizeof *v);
+  double *a = malloc((size_t)PER_LINK * LINKS * sizeof *a);
+  assert_true(q && v && a);
+  baum_workspace *workspace = NULL;
+  double before = now();
+  check(baum_workspace_create(m->mechanism, &workspace));
+  before = lap("workspace", before);
+  check(baum_workspace_drawn(workspace, q, NULL));
+  check(baum_workspace_acceleration(workspace, 0.0, q, v, 0.0, 0.0, a, NULL));
+  before = lap("first evaluation", before);
+  check(baum_workspace_acceleration(workspace, 0.0, q, v, 0.0, 0.0, a, NULL));
+  (void)lap("second evaluation", before);
+  baum_workspace_destroy(workspace);
+  free(q);
+  free(v);
+  return a;
+}
+
+static void every_link_obeys_newton_and_euler(void **state)
+{
+  (void)state;
+  model m = build_chain();
+  double *a = solve(&m);
+  worst off = compare_links(a);
+  printf("forces up to %.3g N, moments off by %.1e N m, ends by %.1e m/s^2\n", off.force,
+         off.moment, off.gap);
+  /* Forces are summed from the tip here: 1e5 roundings of 1e-16 of themselves. */
+  assert_true(off.moment <= 1e-11 * off.force);
+  /* The residual of a row is brought down to rounding of accelerations of about g. */
+  assert_true(off.gap <= 1e-12 * GRAVITY);
+  free(a);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(it_is_frozen_and_runs_at_once),
+    cmocka_unit_test(its_freedoms_are_counted),
+    cmocka_unit_test(every_link_obeys_newton_and_euler),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
