@@ -143,9 +143,112 @@ class Adding:
             angle=angle,
         )
 
+    def pin_in_slot(
+        self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None
+    ):
+        """Add a pin of body_b in a straight slot of body_a, where it may turn. One row [m]. Its
+        coordinate is the displacement of body_b's point along the axis [m]."""
+        return self._add(
+            "planar_pin_in_slot",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            axis=axis,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+        )
+
+    def rack_and_pinion(
+        self,
+        name,
+        body_a,
+        body_b,
+        radius,
+        *,
+        axis=None,
+        point=None,
+        point_a=None,
+        point_b=None,
+        offset=None,
+    ):
+        """Add a pinion of body_b, about its point, that rolls on a rack of body_a along an axis:
+        displacement - radius (angle_b - angle_a) = offset. One row [m]. radius [m] > 0: the rack is
+        on the left of the axis; < 0: on the right, which is below for the axis (1, 0). offset [m],
+        default that of the drawing."""
+        return self._add(
+            "planar_rack_and_pinion",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            radius=radius,
+            axis=axis,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+            offset=offset,
+        )
+
+    def gear(self, name, body_a, body_b, radius_a, radius_b, *, carrier=None, offset=None):
+        """Add a gear of two wheels on a carrier (default: ground): radius_a (angle_a - angle_c) +
+        radius_b (angle_b - angle_c) = offset. One row [m]. A negative radius [m] is a ring with
+        internal teeth. offset [m], default that of the drawing."""
+        return self._add(
+            "planar_gear",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            radius_a=radius_a,
+            radius_b=radius_b,
+            carrier=carrier,
+            offset=offset,
+        )
+
+    def curve(
+        self,
+        name,
+        body_a,
+        body_b,
+        curve,
+        *,
+        point=None,
+        point_a=None,
+        point_b=None,
+        user=None,
+    ):
+        """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a, x and y from its
+        point: curve(xy) returns F [m], F_x, F_y, F_xx, F_xy, F_yy. One row. F with a gradient of
+        about 1 near the curve behaves best."""
+        return self._add(
+            "planar_curve",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            curve=curve,
+            point=point,
+            point_a=point_a,
+            point_b=point_b,
+            user=user,
+        )
+
+    def coupling(self, name, joint_a, joint_b, *, ratio=None, offset=None, law=None, user=None):
+        """Tie the coordinates of two joints: b = ratio a + offset (default offset: that of the
+        drawing), or b = f(a), a cam: law(a) returns f, its slope and its curvature. One row."""
+        return self._add(
+            "coupling",
+            name,
+            joint_a=joint_a,
+            joint_b=joint_b,
+            ratio=ratio,
+            offset=offset,
+            law=law,
+            user=user,
+        )
+
     def driver(self, name, joint, *, value=None, rate=None, acceleration=None, law=None, user=None):
-        """Prescribe the coordinate of a revolute [rad] or translational [m] joint: value + rate t +
-        acceleration t^2 / 2, or law(t) that returns value, rate and acceleration. One row."""
+        """Prescribe the coordinate of a revolute [rad] or translational [m] joint or of a pin in a
+        slot [m]: value + rate t + acceleration t^2 / 2, or law(t) that returns value, rate and
+        acceleration. One row."""
         return self._add(
             "driver",
             name,

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Functions of the user as the library wants them.
 
-A Python function takes (t, q), (t, q, v) or (t) and returns its value. Here it gets a shell that
-the library can call: it shows q and v as read-only arrays, checks what comes back and writes it
-where it belongs, and keeps an exception until the run that it stopped is back. q and v are only
-valid during the call.
+A Python function takes (t, q), (t, q, v), (t), a number or a point and returns its value. Here it
+gets a shell that the library can call: it shows q and v as read-only arrays, checks what comes back
+and writes it where it belongs, and keeps an exception until the run that it stopped is back. q and
+v are only valid during the call.
 
 Instead of a Python function there may be the address of a compiled one (an int, a ctypes function
 pointer, or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and
@@ -131,6 +131,30 @@ def _shell_law(function, write, nq, nv):
     return shell
 
 
+def _shell_coupling(function, write, nq, nv):
+    def shell(x, f, user):
+        try:
+            write(f, function(x))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _shell_curve(function, write, nq, nv):
+    xy_at = _Views((2,), writeable=False)
+
+    def shell(xy, out, user):
+        try:
+            write(out, function(xy_at[xy]))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
 def _answer(error):
     """What the library is told about an exception."""
     asks_again = isinstance(error, Retry)
@@ -143,6 +167,8 @@ SHELLS = {
     _abi.baum_qv_fn: _shell_qv,
     _abi.baum_force_fn: _shell_force,
     _abi.baum_law_fn: _shell_law,
+    _abi.baum_coupling_fn: _shell_coupling,
+    _abi.baum_curve_fn: _shell_curve,
 }
 
 

@@ -45,6 +45,11 @@ KINDS = {
         Kind("planar_translational", "joint"),
         Kind("planar_distance", "joint"),
         Kind("planar_fixed", "joint"),
+        Kind("planar_pin_in_slot", "joint"),
+        Kind("planar_rack_and_pinion", "joint"),
+        Kind("planar_gear", "joint"),
+        Kind("planar_curve", "joint"),
+        Kind("coupling", "joint"),
         Kind("driver", "joint"),
         Kind("user_constraint", "joint"),
         Kind("planar_spring", "force"),
@@ -139,6 +144,7 @@ class Definition:
             "gamma": (rows,),
             "jacobian": (rows, nv),
             "law": (3,),
+            "curve": (6,),
         }[name]
         label = f"{self._label}: {name}"
         wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv)
@@ -150,7 +156,7 @@ class Definition:
         """Lengths of the q and v that this definition's functions are given."""
         if self.kind.name == "coordinates":
             return self.struct.size, self.struct.size
-        if self.kind.name == "driver":
+        if "body_count" not in self._types:
             return 0, 0
         count = self.struct.body_count
         bodies = [self._find("body", self.struct.bodies[k]) for k in range(count)]

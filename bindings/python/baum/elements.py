@@ -117,12 +117,13 @@ class Joint(Element):
     @property
     def reaction(self):
         """Channel: force [N] and moment [N m] on body_b, ground axes, about the joint's point on
-        body_b; for a user constraint -J^T lambda over its bodies."""
+        body_b; for a gear, a coupling or a user constraint -J^T lambda over its bodies."""
         return self._channel("reaction", _Q.BAUM_JOINT_REACTION)
 
     @property
     def coordinate(self):
-        """Channel: coordinate and its rate of a revolute [rad] or translational [m] joint."""
+        """Channel: coordinate and its rate of a revolute [rad] or translational [m] joint or a pin
+        in a slot [m]."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
     def _channel(self, attribute, quantity):

@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Joints beside pin, slider, rod and weld: that every argument arrives."""
+
+import math
+import unittest
+
+import numpy as np
+
+import baum
+
+
+def phi(m, q, t=0.0):
+    """Constraint residuals of a mechanism at positions q."""
+    return baum.Workspace(m.freeze()).phi(t, q)
+
+
+class Rows(unittest.TestCase):
+    def test_a_pin_in_a_slot_keeps_to_its_axis_and_can_be_driven(self):
+        m = baum.Mechanism()
+        ball = m.planar_particle("ball", position=(0.3, 0.0))
+        slot = m.pin_in_slot("slot", m.ground, ball, axis=(0, 2), point_a=(1, 0), point_b=(0, 0))
+        m.driver("push", slot, value=0.25)
+        np.testing.assert_allclose(phi(m, (4, 3)), (-3, 2.75), atol=1e-15)
+
+    def test_a_rack_and_pinion_rolls(self):
+        m = baum.Mechanism()
+        wheel = m.planar_body("wheel", position=(0, 0.5))
+        m.rack_and_pinion(
+            "rack", "ground", wheel, -0.5, axis=(1, 0), point_a=(0, 0), point_b=(0, 0), offset=0.1
+        )
+        np.testing.assert_allclose(phi(m, (2, 0.5, 3)), [2 + 0.5 * 3 - 0.1], rtol=1e-15)
+
+    def test_a_gear_turns_wheels_on_a_carrier(self):
+        m = baum.Mechanism()
+        for name in ("sun", "planet", "arm"):
+            m.planar_body(name)
+        m.gear("free", "sun", "planet", 1, 2, carrier="arm", offset=0.5)
+        m.gear("fixed", "sun", "planet", 1, -2)
+        q = np.zeros(9)
+        q[2::3] = 1.0, 10.0, 100.0
+        np.testing.assert_allclose(phi(m, q), [-99 - 180 - 0.5, 1 - 20], rtol=1e-15)
+        self.assertEqual(m["free"].definition["carrier"], m["arm"])
+        self.assertEqual(m["fixed"].definition["carrier"], m.ground)
+
+    def test_a_point_stays_on_a_curve(self):
+        seen = []
+
+        def parabola(xy):
+            seen.append(xy.tolist())
+            x, y = xy
+            return y - x * x, -2 * x, 1, -2, 0, 0
+
+        m = baum.Mechanism()
+        ball = m.planar_particle("ball", position=(1, 1))
+        m.curve("wire", m.ground, ball, parabola, point_a=(0.5, 0), point_b=(0, 0))
+        np.testing.assert_allclose(phi(m, (2.5, 5)), [1.0])
+        self.assertIn([2.0, 5.0], seen)
+
+    def test_a_curve_returns_six_numbers(self):
+        m = baum.Mechanism()
+        m.planar_particle("ball")
+        m.curve("wire", "ground", "ball", lambda xy: 1.0, point=(0, 0))
+        with self.assertRaisesRegex(ValueError, "wire.*curve must return an array of shape"):
+            phi(m, (0, 0))
+
+
+class Couplings(unittest.TestCase):
+    def mechanism(self, **fields):
+        """A crank and a weight on the ground, coupled."""
+        m = baum.Mechanism()
+        crank = m.planar_body("crank", angle=0.5)
+        weight = m.planar_body("weight", position=(1, 0.2))
+        pin = m.revolute("pin", m.ground, crank, point=(0, 0))
+        guide = m.translational(
+            "guide", m.ground, weight, axis=(0, 1), point_a=(1, 0), point_b=(0, 0)
+        )
+        m.coupling("rope", pin, guide, **fields)
+        return m
+
+    def last(self, m, angle, height):
+        return phi(m, (0, 0, angle, 1, height, 0))[-1]
+
+    def test_a_line(self):
+        self.assertAlmostEqual(self.last(self.mechanism(), 0.5, 0.2), 0.0, places=15)
+        m = self.mechanism(ratio=3, offset=0.25)
+        self.assertAlmostEqual(self.last(m, 2.0, 1.0), 1 - 6.25, places=14)
+        self.assertEqual(m["rope"].definition["joint_b"], m["guide"])
+
+    def test_a_law(self):
+        m = self.mechanism(law=lambda x: (math.sin(x), math.cos(x), -math.sin(x)))
+        self.assertAlmostEqual(self.last(m, 2.0, 1.0), 1 - math.sin(2.0), places=15)
+
+    def test_a_wrong_slope_is_found(self):
+        m = self.mechanism(law=lambda x: (math.sin(x), math.sin(x), -math.sin(x))).freeze()
+        with self.assertRaisesRegex(baum.Error, r"rope.*law\(\)\[1\]"):
+            m.simulate([0, 0.1], "rk4", step=1e-2)
+
+    def test_an_exception_in_a_law_comes_back(self):
+        def law(x):
+            raise KeyError("no such cam")
+
+        with self.assertRaises(KeyError):
+            self.last(self.mechanism(law=law), 0.0, 0.0)
+
+
+if __name__ == "__main__":
+    unittest.main()
