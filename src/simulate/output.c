@@ -9,6 +9,42 @@
 #include "mechanism/planar.h"
 #include "simulate/run.h"
 
+/* ---- quantities ---- */
+
+/* What the columns are of. */
+typedef enum object { OF_NOTHING, OF_Q, OF_V, OF_ROWS, OF_ENERGY, OF_BODY, OF_JOINT } object;
+
+/* How much has to be evaluated, each with what is before it. */
+typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
+
+typedef struct facts {
+  object of;
+  depth needs;
+} facts;
+
+/* By quantity; 0 is none. */
+static const facts table[] = {
+  [BAUM_Q] = {OF_Q, DEPTH_FRAMES},
+  [BAUM_V] = {OF_V, DEPTH_FRAMES},
+  [BAUM_A] = {OF_V, DEPTH_SOLUTION},
+  [BAUM_LAMBDA] = {OF_ROWS, DEPTH_SOLUTION},
+  [BAUM_PHI] = {OF_ROWS, DEPTH_VIOLATION},
+  [BAUM_PHI_RATE] = {OF_ROWS, DEPTH_VIOLATION},
+  [BAUM_ENERGY] = {OF_ENERGY, DEPTH_FRAMES},
+  [BAUM_BODY_POSE] = {OF_BODY, DEPTH_FRAMES},
+  [BAUM_BODY_VELOCITY] = {OF_BODY, DEPTH_FRAMES},
+  [BAUM_JOINT_REACTION] = {OF_JOINT, DEPTH_SOLUTION},
+  [BAUM_JOINT_COORDINATE] = {OF_JOINT, DEPTH_FRAMES},
+  [BAUM_BODY_ACCELERATION] = {OF_BODY, DEPTH_SOLUTION},
+  [BAUM_DRIVE_EFFORT] = {OF_JOINT, DEPTH_SOLUTION},
+};
+
+static facts facts_of(baum_quantity quantity)
+{
+  size_t k = (size_t)quantity;
+  return table[k < sizeof table / sizeof *table ? k : 0];
+}
+
 /* ---- widths and checks ---- */
 
 static int fail_channel(int k, const char *what)
@@ -58,27 +94,24 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
   if (c->quantity == BAUM_DRIVE_EFFORT) {
     return m->joints[joint]->type->drives ? 1 : fail_channel(k, "only drivers have an effort");
   }
-  return m->joints[joint]->type->coordinate
-           ? 2
-           : fail_channel(k, "only revolute and translational joints have a coordinate");
+  if (!m->joints[joint]->type->coordinate) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: joint is a %s, which has no coordinate", k,
+                      m->joints[joint]->type->definition.kind);
+    return -1;
+  }
+  return 2;
 }
 
 static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
-  switch (c->quantity) {
-  case BAUM_Q: return m->nq;
-  case BAUM_V:
-  case BAUM_A: return m->nv;
-  case BAUM_LAMBDA:
-  case BAUM_PHI:
-  case BAUM_PHI_RATE: return rows_width(m, c, k);
-  case BAUM_ENERGY: return 2;
-  case BAUM_BODY_POSE:
-  case BAUM_BODY_VELOCITY:
-  case BAUM_BODY_ACCELERATION: return body_width(m, c, k);
-  case BAUM_JOINT_REACTION:
-  case BAUM_JOINT_COORDINATE:
-  case BAUM_DRIVE_EFFORT: return joint_width(m, c, k);
+  switch (facts_of(c->quantity).of) {
+  case OF_Q: return m->nq;
+  case OF_V: return m->nv;
+  case OF_ROWS: return rows_width(m, c, k);
+  case OF_ENERGY: return 2;
+  case OF_BODY: return body_width(m, c, k);
+  case OF_JOINT: return joint_width(m, c, k);
+  case OF_NOTHING:
   default: return fail_channel(k, "quantity is no baum_quantity");
   }
 }
@@ -114,35 +147,12 @@ int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel 
 
 /* ---- evaluation that channels need ---- */
 
-/* How much has to be evaluated, each with what is before it. */
-typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
-
-static depth depth_of(baum_quantity quantity)
-{
-  switch (quantity) {
-  case BAUM_A:
-  case BAUM_LAMBDA:
-  case BAUM_JOINT_REACTION:
-  case BAUM_BODY_ACCELERATION:
-  case BAUM_DRIVE_EFFORT: return DEPTH_SOLUTION;
-  case BAUM_PHI:
-  case BAUM_PHI_RATE: return DEPTH_VIOLATION;
-  case BAUM_Q:
-  case BAUM_V:
-  case BAUM_ENERGY:
-  case BAUM_BODY_POSE:
-  case BAUM_BODY_VELOCITY:
-  case BAUM_JOINT_COORDINATE:
-  default: return DEPTH_FRAMES;
-  }
-}
-
 static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
                             const baum_channel *channels, int count)
 {
   depth deepest = DEPTH_FRAMES;
   for (int k = 0; k < count; k++) {
-    depth asked = depth_of(channels[k].quantity);
+    depth asked = facts_of(channels[k].quantity).needs;
     deepest = asked > deepest ? asked : deepest;
   }
   if (deepest == DEPTH_SOLUTION) {
@@ -232,24 +242,31 @@ static int put_joint(const baum_workspace *w, const baum_channel *c, double *out
   return 2;
 }
 
+/* Vectors over v or the rows. */
+static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
+                               baum_quantity quantity)
+{
+  switch ((int)quantity) {
+  case BAUM_V: return state->v;
+  case BAUM_A: return w->a;
+  case BAUM_LAMBDA: return w->lambda;
+  case BAUM_PHI: return w->phi;
+  default: return w->phi_rate;
+  }
+}
+
 static int put_channel(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
                        double *out)
 {
   const baum_mechanism *m = w->mechanism;
-  switch (c->quantity) {
-  case BAUM_Q: return put(state->q, m->nq, out);
-  case BAUM_V: return put(state->v, m->nv, out);
-  case BAUM_A: return put(w->a, m->nv, out);
-  case BAUM_LAMBDA: return put_rows(m, c, w->lambda, out);
-  case BAUM_PHI: return put_rows(m, c, w->phi, out);
-  case BAUM_PHI_RATE: return put_rows(m, c, w->phi_rate, out);
-  case BAUM_BODY_POSE:
-  case BAUM_BODY_VELOCITY:
-  case BAUM_BODY_ACCELERATION: return put_body(w, state, c, out);
-  case BAUM_JOINT_REACTION:
-  case BAUM_JOINT_COORDINATE:
-  case BAUM_DRIVE_EFFORT: return put_joint(w, c, out);
-  case BAUM_ENERGY:
+  switch (facts_of(c->quantity).of) {
+  case OF_Q: return put(state->q, m->nq, out);
+  case OF_V: return put(vector_of(w, state, c->quantity), m->nv, out);
+  case OF_ROWS: return put_rows(m, c, vector_of(w, state, c->quantity), out);
+  case OF_BODY: return put_body(w, state, c, out);
+  case OF_JOINT: return put_joint(w, c, out);
+  case OF_ENERGY:
+  case OF_NOTHING:
   default: return 2; /* filled afterwards: it needs an evaluation of its own */
   }
 }

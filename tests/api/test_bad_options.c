@@ -472,7 +472,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {{.quantity = BAUM_PHI, .joint = others.pin}, "channel 1: joint is not of this mechanism"},
     {{.quantity = BAUM_JOINT_REACTION}, "channel 1: joint is none or not of this mechanism"},
     {{.quantity = BAUM_JOINT_COORDINATE, .joint = parts.rod},
-     "channel 1: only revolute and translational joints have a coordinate"},
+     "channel 1: joint is a planar distance joint, which has no coordinate"},
     {{.quantity = BAUM_DRIVE_EFFORT, .joint = parts.pin}, "channel 1: only drivers have an effort"},
     {{.quantity = BAUM_DRIVE_EFFORT}, "channel 1: joint is none or not of this mechanism"},
     {{.quantity = BAUM_BODY_ACCELERATION, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
