@@ -31,6 +31,8 @@ static const double FIRST_TURN = 0.1;
 /* The shortest step in turns of the rate of the motion, and in roundings of the time. */
 static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
+/* The longest step, likewise, while nothing moves. */
+static const double LONGEST = 1e6;
 /* |J^-1| from which on a pose counts as singular; at a fold it is about 1e5 when steps end. */
 static const double SINGULAR_GAIN = 1e3;
 /* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 / gain. */
@@ -238,7 +240,8 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
 {
   kinematics_run *run = self;
   const baum_mechanism *m = problem->workspace->mechanism;
-  double h = fmax(fmin(run->h, problem->max_step), 2.0 * shortest_step(problem, run->right->t));
+  double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
+  h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
   double end = run->right->t + problem->direction * h;
   baum_status status = step(run, problem, run->right, run->trial, end, &h);
   if (status != BAUM_OK) {

@@ -214,9 +214,11 @@ static void start_options(const baum_integrator *integrator, baum_simulation_opt
   }
 }
 
+/* Not of this build, or not for mechanisms with freedom. */
 static bool is_absent(const baum_integrator *integrator)
 {
-  return !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
+  bool built = baum_integrator_has_fixed_step(integrator) || baum_has("sundials");
+  return !built || integrator == baum_kinematics();
 }
 
 static const struct {

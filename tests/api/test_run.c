@@ -60,12 +60,12 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Every integrator that this build can run. */
+/* Every integrator that this build can run where freedom is left: the list ends with kinematics. */
 static const baum_integrator *integrator_at(int32_t k)
 {
   const baum_integrator *integrator = baum_integrator_at(k);
   bool absent = integrator && !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
-  return absent ? NULL : integrator;
+  return absent || integrator == baum_kinematics() ? NULL : integrator;
 }
 
 /* Bit for bit. */

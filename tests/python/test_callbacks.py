@@ -162,8 +162,8 @@ class Exceptions(unittest.TestCase):
 
     def test_every_integrator_stops_at_an_exception(self):
         for name, method in baum.integrators().items():
-            if not SUNDIALS and not method.fixed_step:
-                continue
+            if name == "kinematics" or not SUNDIALS and not method.fixed_step:
+                continue  # not here: there is freedom
             with self.subTest(name):
                 options = dict(step=1e-2) if method.fixed_step else dict(rtol=1e-6)
                 self.run_until_it_fails(ZeroDivisionError(), name, **options)

@@ -60,6 +60,7 @@ class Stability(unittest.TestCase):
         self.assertFalse(methods["ida"].fixed_step)
         self.assertIn("index3", methods["ida"].formulations)
         self.assertNotIn("index3", methods["euler"].formulations)
+        self.assertEqual(methods["kinematics"].formulations, ())
 
 
 if __name__ == "__main__":

@@ -126,6 +126,10 @@ class Options(unittest.TestCase):
         m = rod_pendulum()
         for name, method in baum.integrators().items():
             with self.subTest(name):
+                if name == "kinematics":
+                    with self.assertRaisesRegex(baum.Error, "1 freedom is left"):
+                        m.simulate([0.1], name)
+                    continue
                 if not SUNDIALS and not method.fixed_step:
                     self.assertRaises(baum.Error, m.simulate, [0.1], name, rtol=1e-8)
                     continue
@@ -144,6 +148,16 @@ class Options(unittest.TestCase):
                     warnings.simplefilter("ignore", baum.Warning)
                     run = m.simulate([0.1], method.name, formulation=formulation, **options)
                     self.assertIn(formulation, run.explain)
+
+    def test_kinematics_needs_output_times_alone(self):
+        m = slider_crank(omega=150)
+        t = np.linspace(0, 0.4, 30)
+        run = m.simulate(t, "kinematics")
+        x = 0.153 * np.cos(150 * t) + np.sqrt(0.306**2 - (0.05 - 0.153 * np.sin(150 * t)) ** 2)
+        np.testing.assert_allclose(run["slider.pose"][:, 0], x, rtol=0, atol=1e-12)
+        self.assertIn("kinematics", run.explain)
+        with self.assertRaisesRegex(baum.Error, "rtol is 1e-06, but kinematics solves"):
+            m.simulate(t, "kinematics", rtol=1e-6)
 
     def test_words_that_mean_nothing_are_refused_with_the_list(self):
         m = rod_pendulum()

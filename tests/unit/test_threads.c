@@ -82,7 +82,7 @@ static void in_threads(void *(*function)(void *), job jobs[THREADS])
   }
 }
 
-/* Integrators that can be run here, one after the other. */
+/* Integrators that can be run here, one after the other; there is freedom. */
 static const baum_integrator *choose(int k)
 {
   int count = 0;
@@ -91,7 +91,7 @@ static const baum_integrator *choose(int k)
   }
   const baum_integrator *integrator = baum_integrator_at(k % count);
   bool absent = !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
-  return absent ? baum_rk4() : integrator;
+  return absent || integrator == baum_kinematics() ? baum_rk4() : integrator;
 }
 
 static void check_same(const job *got, const job *want)

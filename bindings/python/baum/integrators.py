@@ -20,7 +20,7 @@ STABILITIES = {value: name for name, value in _names(_abi.baum_stability, "BAUM_
 
 class Integrator:
     """A method: name, order (0 when it varies), whether it takes `step` or `rtol`, and its
-    formulations."""
+    formulations. "kinematics" takes none of these: see Simulation."""
 
     def __init__(self, address):
         self.address = address

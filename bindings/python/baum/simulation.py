@@ -104,7 +104,9 @@ class Simulation:
     integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
     "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
     allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
-    rtol, atol for the others, and max_step [s] where a force begins late. start_time [s], default 0. start: "assemble", "exact", "as_given".
+    rtol, atol for the others, and max_step [s] where a force begins late; "kinematics", for mechanisms
+    whose drivers leave no freedom, takes neither. start_time [s], default 0. start: "assemble",
+    "exact", "as_given".
     solver: "auto", "klu", "qr". check_derivatives: compare given derivatives with differences
     first. max_steps of one call. progress(t) is called every progress_interval seconds of wall
     time, and cancels when it returns something true.

@@ -1,0 +1,469 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kinematics: the motion of mechanisms without freedom, on its branch and to rounding. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "driven.h"
+#include "methods.h"
+#include "models.h"
+#include "sentence.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Poses are solved until Phi is rounding, so what is left is that of a few operations on lengths up to 5 m. */
+static const double EXACT = 1e-13;
+
+/* ---- runs ---- */
+
+static baum_simulation *open_run(const baum_mechanism *mechanism)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_kinematics();
+  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  return run;
+}
+
+static void advance(baum_simulation *run, double t)
+{
+  baum_status status = baum_simulation_advance_to(run, t);
+  if (status != BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+  assert_true(baum_simulation_time(run) == t);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters;
+}
+
+static void close_run(baum_simulation *run, baum_mechanism *mechanism)
+{
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- branches ---- */
+
+/* Any pose but those within a few hundredths of a lock-up, either branch, rates from 0.01 to 100 rad/s both ways. */
+static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
+{
+  slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
+  data.branch = uniform(seed, 0.0, 1.0) < 0.5 ? -1 : 1;
+  do {
+    data.drive.angle = uniform(seed, -PI, PI);
+  } while (fabs(offset - crank * sin(data.drive.angle)) > 0.97 * rod);
+  data.drive.rate =
+    pow(10.0, uniform(seed, -2.0, 2.0)) * (uniform(seed, 0.0, 1.0) < 0.5 ? -1.0 : 1.0);
+  return data;
+}
+
+typedef struct tally {
+  double error;
+  double phi;
+  int64_t outputs;
+  int64_t steps;
+  int64_t evaluations;
+} tally;
+
+/* 20 outputs, each `gap` rad of the crank after the one before. */
+static void follow(const slider_crank *data, double gap, tally *all)
+{
+  baum_mechanism *mechanism = slider_crank_make(data);
+  baum_simulation *run = open_run(mechanism);
+  for (int k = 1; k <= 20; k++) {
+    double t = k * gap / fabs(data->drive.rate);
+    double x[3];
+    advance(run, t);
+    slider_crank_motion(data, data->drive.angle + data->drive.rate * t, x);
+    all->error = fmax(all->error, fabs(baum_simulation_q(run)[SLIDER_X] - x[0]));
+    all->outputs++;
+  }
+  baum_counters c = counters_of(run);
+  all->phi = fmax(all->phi, c.max_phi);
+  all->steps += c.steps;
+  all->evaluations += c.evaluations;
+  close_run(run, mechanism);
+}
+
+/* The branches are apart by 2 D, D >= sqrt(l^2 - (r + e)^2): 0.11 m, 0.011 m, and 0.0011 m. */
+static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
+{
+  (void)state;
+  const double rods[3] = {0.16, 0.1501, 0.150001};
+  uint64_t seed = 2;
+  for (int i = 0; i < 3; i++) {
+    tally all = {.error = 0.0};
+    for (int start = 0; start < 200; start++) {
+      slider_crank data = draw(0.1, rods[i], 0.05, &seed);
+      follow(&data, uniform(&seed, 0.1, 3.0), &all);
+    }
+    printf("rod %.6f m: error %.1e m, Phi %.1e; per output %.1f steps, %.1f factorizations of J\n",
+           rods[i], all.error, all.phi, (double)all.steps / (double)all.outputs,
+           (double)all.evaluations / (double)all.outputs);
+    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times the velocity ratio of up to 200. */
+    assert_true(all.error <= 1e-11);
+    assert_true(all.phi <= 1e-13);
+  }
+}
+
+/* Outputs 3 rad apart over many turns: no error accumulates. */
+static void a_thousand_turns_end_where_the_crank_says(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.4, .rate = 2.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  double x[3];
+  advance(run, 1000.0 * PI);
+  slider_crank_motion(&data, data.drive.angle + data.drive.rate * baum_simulation_time(run), x);
+  /* The angle of 6e3 rad is rounded to 1e-12. */
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-11);
+  assert_int_equal(counters_of(run).warnings, 0);
+  close_run(run, mechanism);
+}
+
+enum { LOOPS = 8 };
+
+/* Many loops at once, each with its own crank: what is near its other branch may be any of them. */
+static void no_loop_of_many_leaves_its_branch(void **state)
+{
+  (void)state;
+  const double rods[3] = {0.16, 0.1501, 0.150001};
+  uint64_t seed = 7;
+  for (int start = 0; start < 60; start++) {
+    slider_crank data[LOOPS];
+    baum_mechanism *all = NULL;
+    assert_int_equal(baum_mechanism_create(&all), BAUM_OK);
+    for (int k = 0; k < LOOPS; k++) {
+      data[k] = draw(0.1, rods[(start + k) % 3], 0.05, &seed);
+      data[k].drive.rate = uniform(&seed, -3.0, 3.0);
+      slider_crank_add(all, &data[k]);
+    }
+    assert_int_equal(baum_mechanism_freeze(all), BAUM_OK);
+    baum_simulation *run = open_run(all);
+    for (int i = 1; i <= 10; i++) {
+      double x[3];
+      advance(run, 0.5 * i);
+      for (int k = 0; k < LOOPS; k++) {
+        slider_crank_motion(&data[k], data[k].drive.angle + data[k].drive.rate * 0.5 * i, x);
+        ASSERT_NEAR(baum_simulation_q(run)[SLIDER_NV * k + SLIDER_X], x[0], 0.0, 1e-11);
+      }
+    }
+    close_run(run, all);
+  }
+}
+
+/* ---- what comes out ---- */
+
+static void positions_velocities_accelerations_are_those_of_the_closed_form(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.7, .rate = 20.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  double times[40];
+  double rows[40][3 * SLIDER_NV];
+  const baum_channel channels[3] = {
+    {.quantity = BAUM_Q}, {.quantity = BAUM_V}, {.quantity = BAUM_A}};
+  for (int k = 0; k < 40; k++) {
+    times[k] = 0.0137 * k;
+  }
+  assert_int_equal(baum_simulation_sample(run, times, 40, channels, 3, rows[0], NULL), BAUM_OK);
+  for (int k = 0; k < 40; k++) {
+    double x[3];
+    slider_crank_motion(&data, 0.7 + 20.0 * times[k], x);
+    ASSERT_NEAR(rows[k][SLIDER_X], x[0], 0.0, EXACT);
+    ASSERT_NEAR(rows[k][SLIDER_NV + SLIDER_X], x[1], 0.0, 20.0 * EXACT);
+    ASSERT_NEAR(rows[k][2 * SLIDER_NV + SLIDER_X], x[2], 0.0, 400.0 * EXACT);
+  }
+  close_run(run, mechanism);
+}
+
+/* Torque of the motor: by virtual power, sum of (m a - f) v over the bodies, divided by its rate. */
+static void the_multiplier_of_the_driver_is_its_torque(void **state)
+{
+  (void)state;
+  enum { MOTOR_ROW = 8 };
+  slider_crank data = {0.1, 0.16, 0.05, -1, {.angle = 0.7, .rate = -20.0}};
+  const double mass[SLIDER_NV] = {0.2, 0.2, 0.2 * 0.01 / 12.0, 0.2, 0.2, 0.2 * 0.0256 / 12.0, 0.1,
+                                  0.1, 1e-4};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  const baum_channel channels[3] = {
+    {.quantity = BAUM_V}, {.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  for (int k = 1; k < 20; k++) {
+    double row[3 * SLIDER_NV];
+    double power = 0.0;
+    advance(run, 0.021 * k);
+    assert_int_equal(baum_simulation_get(run, channels, 3, row), BAUM_OK);
+    for (int i = 0; i < SLIDER_NV; i++) {
+      double weight = i % 3 == 1 ? -9.81 * mass[i] : 0.0;
+      power += (mass[i] * row[SLIDER_NV + i] - weight) * row[i];
+    }
+    /* J of the driver is 1 on the crank, and M a + J^T lambda = f. Powers here are about 10 W. */
+    ASSERT_NEAR(-row[2 * SLIDER_NV + MOTOR_ROW], power / -20.0, 1e-11, 1e-12);
+  }
+  close_run(run, mechanism);
+}
+
+static void a_driven_four_bar_follows_its_crank_for_many_turns(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = 1.0, .rate = 3.0};
+  baum_mechanism *mechanism = four_bar_make(&motor);
+  baum_simulation *run = open_run(mechanism);
+  for (int k = 1; k <= 100; k++) {
+    advance(run, 0.9 * k);
+    double off = baum_simulation_q(run)[ROCKER_ANGLE] - four_bar_rocker(1.0 + 2.7 * k);
+    /* 270 rad are rounded to 6e-14. */
+    ASSERT_NEAR(remainder(off, 2.0 * PI), 0.0, 0.0, 2e-13);
+  }
+  assert_true(counters_of(run).max_phi <= 1e-13 * 5.0);
+  close_run(run, mechanism);
+}
+
+/* Crank angle 1.55 + 1.2 sin 2 t: from 0.35 to 2.75, back and forth between its flat poses. */
+static int swing(double t, double s[3], void *user)
+{
+  (void)user;
+  s[0] = 1.55 + 1.2 * sin(2.0 * t);
+  s[1] = 2.4 * cos(2.0 * t);
+  s[2] = -4.8 * sin(2.0 * t);
+  return 0;
+}
+
+static void a_third_crank_is_redundant_and_changes_nothing(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = 1.55, .law = swing};
+  baum_mechanism *mechanism = parallelogram_make(&motor);
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_kinematics();
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  for (int k = 1; k <= 60; k++) {
+    double t = 0.31 * k;
+    double s[3];
+    baum_status status = baum_simulation_advance_to(run, t);
+    assert_true(status == BAUM_OK || (status == BAUM_WARNED && k == 1)); /* of the redundant row */
+    (void)swing(t, s, NULL);
+    const double *q = baum_simulation_q(run);
+    const double *v = baum_simulation_v(run);
+    ASSERT_NEAR(q[0], cos(s[0]) + 1.0, 0.0, 10.0 * EXACT); /* 1 / sin of the crank is up to 3 */
+    ASSERT_NEAR(q[1], sin(s[0]), 0.0, 10.0 * EXACT);
+    ASSERT_NEAR(q[2], 0.0, 0.0, 10.0 * EXACT);
+    for (int i = 0; i < 3; i++) {
+      ASSERT_NEAR(q[5 + 3 * i], s[0], 0.0, 10.0 * EXACT);
+      ASSERT_NEAR(v[5 + 3 * i], s[1], 0.0, 100.0 * EXACT);
+    }
+  }
+  assert_int_equal(counters_of(run).warnings, 1);
+  close_run(run, mechanism);
+}
+
+static void two_guides_are_one_too_many_and_change_nothing(void **state)
+{
+  (void)state;
+  double x[2];
+  for (int doubled = 0; doubled < 2; doubled++) {
+    model scene;
+    baum_status status = model_slider_crank_build(
+      (model_slider_crank){.driven = true, .doubled_guide = doubled}, &scene);
+    assert_int_equal(status, BAUM_OK);
+    baum_simulation *run = open_run(scene.mechanism);
+    assert_true(baum_simulation_advance_to(run, 0.1) >= BAUM_OK);
+    x[doubled] = baum_simulation_q(run)[SLIDER_X];
+    baum_simulation_destroy(run);
+    model_destroy(&scene);
+  }
+  ASSERT_NEAR(x[1], x[0], 0.0, EXACT);
+}
+
+/* ---- time ---- */
+
+static void backward_in_time_is_the_same_motion(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.1501, 0.05, -1, {.angle = 0.3, .rate = 7.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  const double times[6] = {-0.5, -3.0, -2.0, 1.0, 4.0, 0.0};
+  for (int k = 0; k < 6; k++) {
+    double x[3];
+    advance(run, times[k]);
+    slider_crank_motion(&data, 0.3 + 7.0 * times[k], x);
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12); /* 28 rad, velocity ratio 20 */
+    ASSERT_NEAR(baum_simulation_v(run)[SLIDER_X], x[1], 0.0, 1e-10);
+  }
+  assert_int_equal(counters_of(run).restarts, 3);
+  close_run(run, mechanism);
+}
+
+static void a_crank_at_rest_stays_for_any_time(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 0.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  double q[SLIDER_NV];
+  memcpy(q, baum_simulation_q(run), sizeof q);
+  advance(run, 1e6);
+  for (int i = 0; i < SLIDER_NV; i++) {
+    ASSERT_NEAR(baum_simulation_q(run)[i], q[i], 0.0, 1e-15);
+    assert_true(baum_simulation_v(run)[i] == 0.0);
+  }
+  assert_true(counters_of(run).steps < 100);
+  assert_int_equal(baum_simulation_step(run, 200), BAUM_OK);
+  assert_true(isfinite(baum_simulation_time(run)));
+  close_run(run, mechanism);
+}
+
+/* At rest but for 0.2 s from 5 s on, in which the crank goes 2 rad out and back. */
+static int bump(double t, double s[3], void *user)
+{
+  (void)user;
+  double x = PI * (t - 5.0) / 0.2;
+  bool moves = x > 0.0 && x < PI;
+  s[0] = 0.3 + (moves ? 2.0 * sin(x) * sin(x) : 0.0);
+  s[1] = moves ? 2.0 * PI / 0.2 * sin(2.0 * x) : 0.0;
+  s[2] = moves ? 4.0 * PI * PI / 0.04 * cos(2.0 * x) : 0.0;
+  return 0;
+}
+
+/* Whether or not a step has seen the motion, an output inside is on the branch. */
+static void outputs_inside_a_motion_that_steps_may_pass_over_are_right(void **state)
+{
+  (void)state;
+  for (int kind = 0; kind < 2; kind++) {
+    slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.3, .law = bump}};
+    baum_mechanism *mechanism = slider_crank_make(&data);
+    baum_simulation_options o = baum_simulation_options_default();
+    baum_simulation *run = NULL;
+    o.integrator = baum_kinematics();
+    o.max_step = kind == 0 ? (double)NAN : 0.05;
+    assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+    for (int k = 0; k <= 50; k++) {
+      double t = 4.9 + 0.01 * k;
+      double s[3];
+      double x[3];
+      advance(run, t);
+      (void)bump(t, s, NULL);
+      slider_crank_motion(&data, s[0], x);
+      ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
+    }
+    assert_true(kind == 0 || counters_of(run).steps >= (int64_t)(5.3 / 0.05));
+    close_run(run, mechanism);
+  }
+}
+
+static void targets_do_not_alter_the_steps(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.3, .rate = 9.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *once = open_run(mechanism);
+  baum_simulation *often = open_run(mechanism);
+  advance(once, 2.0);
+  for (int k = 1; k <= 400; k++) {
+    advance(often, 0.005 * k);
+  }
+  assert_int_equal(counters_of(once).steps, counters_of(often).steps);
+  assert_int_equal(counters_of(once).rejected, counters_of(often).rejected);
+  for (int i = 0; i < SLIDER_NV; i++) {
+    ASSERT_NEAR(baum_simulation_q(often)[i], baum_simulation_q(once)[i], 0.0, EXACT);
+  }
+  baum_simulation_destroy(once);
+  close_run(often, mechanism);
+}
+
+/* The other branch is a pose as good as this one: a run that is put there stays there. */
+static void a_state_of_the_other_branch_can_be_set(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.3, .rate = 9.0}};
+  slider_crank other = data;
+  other.branch = -1;
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_mechanism *mirror = slider_crank_make(&other);
+  baum_simulation *run = open_run(mechanism);
+  baum_simulation *there = open_run(mirror);
+  double x[3];
+  advance(run, 0.7);
+  assert_int_equal(
+    baum_simulation_set_state(run, 0.0, baum_simulation_q(there), baum_simulation_v(there)),
+    BAUM_OK);
+  advance(run, 5.0);
+  slider_crank_motion(&other, 0.3 + 45.0, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-12);
+  close_run(run, mechanism);
+  close_run(there, mirror);
+}
+
+/* ---- cost ---- */
+
+static baum_counters cost_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
+                             double rtol)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = integrator;
+  o.rtol = rtol;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  advance(run, 10.0);
+  baum_counters counters = counters_of(run);
+  baum_simulation_destroy(run);
+  return counters;
+}
+
+static void it_is_cheaper_than_integration(void **state)
+{
+  (void)state;
+  if (!baum_has("sundials")) {
+    skip();
+  }
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 2.0 * PI}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_counters exact = cost_of(mechanism, baum_kinematics(), (double)NAN);
+  baum_counters adams = cost_of(mechanism, baum_cvode_adams(), 1e-8);
+  printf(
+    "10 turns: kinematics %lld steps, %lld factorizations; cvode_adams at 1e-8 %lld and %lld\n",
+    (long long)exact.steps, (long long)exact.factorizations, (long long)adams.steps,
+    (long long)adams.factorizations);
+  assert_true(2 * exact.factorizations < adams.factorizations);
+  assert_true(exact.nonlinear_iterations <= 5 * (exact.steps + exact.rejected));
+  baum_mechanism_destroy(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(slider_cranks_stay_on_their_branch_from_any_start),
+    cmocka_unit_test(a_thousand_turns_end_where_the_crank_says),
+    cmocka_unit_test(no_loop_of_many_leaves_its_branch),
+    cmocka_unit_test(positions_velocities_accelerations_are_those_of_the_closed_form),
+    cmocka_unit_test(the_multiplier_of_the_driver_is_its_torque),
+    cmocka_unit_test(a_driven_four_bar_follows_its_crank_for_many_turns),
+    cmocka_unit_test(a_third_crank_is_redundant_and_changes_nothing),
+    cmocka_unit_test(two_guides_are_one_too_many_and_change_nothing),
+    cmocka_unit_test(backward_in_time_is_the_same_motion),
+    cmocka_unit_test(a_crank_at_rest_stays_for_any_time),
+    cmocka_unit_test(outputs_inside_a_motion_that_steps_may_pass_over_are_right),
+    cmocka_unit_test(targets_do_not_alter_the_steps),
+    cmocka_unit_test(a_state_of_the_other_branch_can_be_set),
+    cmocka_unit_test(it_is_cheaper_than_integration),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Kinematics: what is refused, and where a run stops rather than jump. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "driven.h"
+#include "integrator_run.h"
+#include "methods.h"
+#include "models.h"
+#include "sentence.h"
+
+static const double PI = 3.14159265358979323846;
+
+static baum_simulation_options kinematic_options(void)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  return o;
+}
+
+static baum_simulation *open_run(const baum_mechanism *mechanism)
+{
+  baum_simulation_options o = kinematic_options();
+  baum_simulation *run = NULL;
+  if (baum_simulation_create(mechanism, &o, &run) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  return run;
+}
+
+static void close_run(baum_simulation *run, baum_mechanism *mechanism)
+{
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
+                          baum_status want, const char *sentence)
+{
+  baum_simulation *run = NULL;
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, sentence);
+  assert_null(run);
+}
+
+/* ---- lock-ups ---- */
+
+typedef struct tally {
+  double to_lock; /* [rad] */
+  double error;   /* [m] */
+} tally;
+
+static void run_into_lock(const slider_crank *data, tally *worst)
+{
+  baum_mechanism *mechanism = slider_crank_make(data);
+  baum_simulation *run = open_run(mechanism);
+  double end = 10.0 / fabs(data->drive.rate);
+  ASSERT_SAYS(
+    baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
+    "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|the first "
+    "of them joint ");
+  double t = baum_simulation_time(run);
+  double angle = data->drive.angle + data->drive.rate * t;
+  double x[3];
+  char when[32];
+  slider_crank_motion(data, angle, x);
+  worst->to_lock = fmax(worst->to_lock, slider_crank_to_lock(data, angle));
+  worst->error = fmax(worst->error, fabs(baum_simulation_q(run)[SLIDER_X] - x[0]));
+  (void)snprintf(when, sizeof when, "t = %.9g s: ", t);
+  assert_non_null(strstr(baum_simulation_message(run), when));
+  /* And again, and back. */
+  ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR, "locks up");
+  assert_true(baum_simulation_time(run) >= t);
+  assert_true(baum_simulation_advance_to(run, 0.0) >= BAUM_OK);
+  slider_crank_motion(data, data->drive.angle, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
+  close_run(run, mechanism);
+}
+
+/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64 and -116 degrees there is
+ * no pose. */
+static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
+{
+  (void)state;
+  uint64_t seed = 5;
+  tally worst = {0.0, 0.0};
+  for (int start = 0; start < 200; start++) {
+    slider_crank data = {.crank = 0.1, .rod = 0.14, .offset = 0.05};
+    data.branch = start % 2 == 0 ? 1 : -1;
+    do {
+      data.drive.angle = uniform(&seed, -PI, PI);
+    } while (fabs(data.offset - data.crank * sin(data.drive.angle)) > 0.97 * data.rod);
+    data.drive.rate = pow(10.0, uniform(&seed, -2.0, 2.0)) * (start % 3 == 0 ? -1.0 : 1.0);
+    run_into_lock(&data, &worst);
+  }
+  printf("stopped at most %.1e rad from the lock-up, %.1e m off the branch\n", worst.to_lock,
+         worst.error);
+  /* Shortest steps are 1e-10 of 1/rate; at 1e-9 rad rounding of the angle is amplified 1e4 times. */
+  assert_true(worst.to_lock <= 1e-6);
+  assert_true(worst.error <= 1e-9);
+}
+
+/* Steps may pass no lock-up however far the output is, and stop before it, from where the run can go on. */
+static void outputs_up_to_the_lock_up_are_given(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.14, 0.05, 1, {.angle = 0.0, .rate = -1.0}};
+  double lock = slider_crank_to_lock(&data, 0.0);
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  double times[4] = {0.5 * lock, 0.999 * lock, lock - 1e-6, 1.5 * lock};
+  double q[4][SLIDER_NV];
+  const baum_channel channel = {.quantity = BAUM_Q};
+  int64_t done = 0;
+  ASSERT_SAYS(baum_simulation_sample(run, times, 4, &channel, 1, q[0], &done), BAUM_ERR_SINGULAR,
+              "locks up");
+  assert_int_equal(done, 3);
+  for (int k = 0; k < 3; k++) {
+    double x[3];
+    slider_crank_motion(&data, -times[k], x);
+    ASSERT_NEAR(q[k][SLIDER_X], x[0], 0.0, 1e-12); /* amplification 1e3 at 1e-6 rad */
+  }
+  close_run(run, mechanism);
+}
+
+/* A parallelogram that flattens may become an antiparallelogram: J says so, the driver does not choose. */
+static void where_branches_cross_a_run_stops(void **state)
+{
+  (void)state;
+  for (int sign = -1; sign <= 1; sign += 2) {
+    const drive motor = {.angle = 1.0, .rate = sign * 2.0};
+    baum_mechanism *mechanism = parallelogram_make(&motor);
+    baum_simulation *run = open_run(mechanism);
+    double flat = (sign > 0 ? PI - 1.0 : 1.0) / 2.0;
+    ASSERT_SAYS(baum_simulation_advance_to(run, 10.0), BAUM_ERR_SINGULAR,
+                "kinematics: the pose is singular here|in more than one way");
+    assert_true(baum_simulation_time(run) < flat);
+    ASSERT_NEAR(baum_simulation_time(run), flat, 0.0, 1e-6);
+    ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-6);
+    close_run(run, mechanism);
+  }
+}
+
+/* ---- laws that fail ---- */
+
+typedef struct fault {
+  double after; /* [s] */
+  int answer;   /* 0: NaN; 9: a jump */
+  int64_t calls;
+} fault;
+
+static int faulty(double t, double s[3], void *user)
+{
+  fault *f = user;
+  bool fails = t > f->after;
+  f->calls++;
+  s[0] = 0.3 + t + (fails && f->answer == 9 ? 0.6 : 0.0);
+  s[1] = fails && f->answer == 0 ? (double)NAN : 1.0;
+  s[2] = 0.0;
+  return fails && f->answer != 9 ? f->answer : 0;
+}
+
+static void meet(int answer, baum_status want, const char *sentence)
+{
+  fault f = {.after = (double)INFINITY, .answer = answer};
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  double x[3];
+  f.after = 0.7;
+  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, sentence);
+  assert_non_null(strstr(baum_simulation_message(run), "t = 0."));
+  double t = baum_simulation_time(run);
+  assert_true(t > (answer < 0 ? 0.2 : 0.699) && t <= 0.7);
+  slider_crank_motion(&data, 0.3 + t, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, sentence);
+  f.after = (double)INFINITY;
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+  slider_crank_motion(&data, 2.3, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
+  close_run(run, mechanism);
+}
+
+static void a_law_that_fails_leaves_the_last_good_step(void **state)
+{
+  (void)state;
+  meet(-3, BAUM_ERR_CALLBACK, "\"motor\": law() returned -3 (stop)");
+  meet(4, BAUM_ERR_CALLBACK, "\"motor\": law() returned 4 (retry)");
+  meet(0, BAUM_ERR_NOT_FINITE, "\"motor\": law() gave nan for the rate");
+}
+
+static void a_law_that_jumps_is_an_error(void **state)
+{
+  (void)state;
+  meet(9, BAUM_ERR_CONVERGENCE,
+       "t = 0.7|kinematics: no pose is found close by|the law of |\"motor\" may jump here");
+}
+
+static void a_law_that_stops_is_left_alone(void **state)
+{
+  (void)state;
+  fault f = {.after = (double)INFINITY, .answer = -1};
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
+  f.after = -1.0;
+  f.calls = 0;
+  assert_int_equal(baum_simulation_step(run, 1), BAUM_ERR_CALLBACK);
+  assert_true(f.calls <= 3); /* the step, and the look of the run at where it stands */
+  close_run(run, mechanism);
+}
+
+/* ---- what is refused at create ---- */
+
+static void freedom_is_refused_with_its_number_and_advice(void **state)
+{
+  (void)state;
+  baum_simulation_options o = kinematic_options();
+  model scene;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &scene),
+                   BAUM_OK);
+  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                "kinematics: 1 freedom is left|add a driver for each|baum_rk4");
+  model_destroy(&scene);
+  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &scene), BAUM_OK);
+  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED, "kinematics: 3 freedoms are left");
+  model_destroy(&scene);
+}
+
+static void settings_of_other_integrators_are_refused(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = 1.0, .rate = 2.0};
+  baum_mechanism *mechanism = four_bar_make(&motor);
+  baum_simulation_options o = kinematic_options();
+  o.step = 1e-3;
+  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
+                "step is 0.001, but kinematics solves|give neither step nor tolerance");
+  o = kinematic_options();
+  o.rtol = 1e-6;
+  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1e-06, but kinematics solves");
+  o = kinematic_options();
+  o.atol = 0.0;
+  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "atol is 0, but kinematics solves");
+  o = kinematic_options();
+  o.max_step = -1.0;
+  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is -1 s, must be > 0");
+  o = kinematic_options();
+  o.gains = baum_gains_auto();
+  check_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
+                "gains are given, but the integrator kinematics has none");
+  for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+    o = kinematic_options();
+    o.formulation = (baum_formulation)f;
+    assert_false(baum_integrator_offers(o.integrator, o.formulation));
+    check_refused(
+      mechanism, &o, BAUM_ERR_UNSUPPORTED,
+      "kinematics does not offer the formulation |it offers none, for no freedom is left");
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
+/* A start as it is drawn is solved like any other pose; one that is far off is refused. */
+static void a_start_off_the_constraints_is_solved_or_refused(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 1.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  for (int far = 0; far < 2; far++) {
+    baum_simulation_options o = kinematic_options();
+    baum_simulation *run = NULL;
+    double q[SLIDER_NV];
+    double v[SLIDER_NV] = {0.0};
+    double x[3];
+    o.start = BAUM_START_AS_GIVEN;
+    assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+    memcpy(q, baum_simulation_q(run), sizeof q);
+    q[SLIDER_X] += far ? 1.0 : 0.01;
+    baum_status status = baum_simulation_set_state(run, 0.0, q, v);
+    if (far) {
+      ASSERT_SAYS(status, BAUM_ERR_INCONSISTENT, "kinematics: the start is too far from a pose");
+    } else {
+      assert_int_equal(status, BAUM_OK);
+    }
+    assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
+    slider_crank_motion(&data, 1.3, x);
+    ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
+static void a_singular_start_is_refused(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = 0.0, .rate = 1.0};
+  baum_mechanism *mechanism = parallelogram_make(&motor);
+  baum_simulation_options o = kinematic_options();
+  check_refused(mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|singular");
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- words ---- */
+
+static void a_run_explains_itself_and_others_suggest_it(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = 1.0, .rate = 2.0};
+  baum_mechanism *mechanism = four_bar_make(&motor);
+  baum_simulation *run = open_run(mechanism);
+  const char *text = baum_simulation_explain(run);
+  assert_non_null(strstr(text, "integrator    kinematics: Phi(q, t) = 0 is solved to rounding"));
+  assert_non_null(strstr(text, "no freedom is left"));
+  assert_null(strstr(text, "formulation"));
+  assert_null(strstr(text, "nan"));
+  baum_simulation_destroy(run);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  text = baum_simulation_explain(run);
+  assert_non_null(strstr(text, "kinematics gives it exactly"));
+  assert_non_null(strstr(text, "integrator    rk4"));
+  close_run(run, mechanism);
+}
+
+/* At both ends of the last step and inside; outside of it nothing is known. */
+static void poses_are_given_inside_the_last_step_only(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 1.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  integrator_setup setup =
+    integrator_setup_make(mechanism, baum_kinematics(), BAUM_FORMULATION_DEFAULT);
+  integrator_run run;
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  double begin = 0.0;
+  for (int k = 0; k < 3; k++) {
+    begin = run.state.t;
+    assert_int_equal(integrator_run_step(&run), BAUM_OK);
+  }
+  double h = run.state.t - begin;
+  for (int k = 0; k <= 4; k++) {
+    double t = k == 4 ? run.state.t : begin + 0.25 * k * h;
+    double x[3];
+    assert_int_equal(baum_kinematics()->interpolate(run.self, &run.problem, t, run.q, run.v),
+                     BAUM_OK);
+    slider_crank_motion(&data, 0.3 + t, x);
+    ASSERT_NEAR(run.q[SLIDER_X], x[0], 0.0, 1e-14);
+    ASSERT_NEAR(run.v[SLIDER_X], x[1], 0.0, 1e-14);
+  }
+  for (int side = 0; side < 2; side++) {
+    double t = side == 0 ? begin - 0.1 * h : run.state.t + 0.1 * h;
+    ASSERT_SAYS(baum_kinematics()->interpolate(run.self, &run.problem, t, run.q, run.v),
+                BAUM_ERR_INTEGRATOR, "is not inside the last step of kinematics");
+  }
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_rod_too_short_locks_the_crank_whatever_the_start),
+    cmocka_unit_test(outputs_up_to_the_lock_up_are_given),
+    cmocka_unit_test(where_branches_cross_a_run_stops),
+    cmocka_unit_test(a_law_that_fails_leaves_the_last_good_step),
+    cmocka_unit_test(a_law_that_jumps_is_an_error),
+    cmocka_unit_test(a_law_that_stops_is_left_alone),
+    cmocka_unit_test(freedom_is_refused_with_its_number_and_advice),
+    cmocka_unit_test(settings_of_other_integrators_are_refused),
+    cmocka_unit_test(a_start_off_the_constraints_is_solved_or_refused),
+    cmocka_unit_test(a_singular_start_is_refused),
+    cmocka_unit_test(a_run_explains_itself_and_others_suggest_it),
+    cmocka_unit_test(poses_are_given_inside_the_last_step_only),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
