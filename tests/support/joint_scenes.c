@@ -158,6 +158,27 @@ static void driver(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
+#if BAUM_HAVE_GSL
+
+/* Pendulum on a crank that is swung to and fro. */
+static void spline_driver(baum_mechanism *m)
+{
+  static const double times[5] = {0.0, 0.3, 0.7, 1.2, 1.5};
+  static const double angles[5] = {0.0, 0.6, -0.5, 0.2, 0.0};
+  baum_body_id crank = body(m, "crank", (drawn){0.1, 0.0, 0.0, FREE});
+  baum_body_id link = body(m, "link", (drawn){0.35, 0.0, 0.0, 1.0});
+  baum_spline_driver_def def = baum_spline_driver_def_default();
+  def.joint = pin(m, BAUM_GROUND, crank, 0.0, 0.0);
+  (void)pin(m, crank, link, 0.2, 0.0);
+  def.times = times;
+  def.values = angles;
+  def.count = 5;
+  def.periodic = true;
+  need(baum_mechanism_add_spline_driver(m, &def, NULL));
+}
+
+#endif
+
 /* y = 2 x^2 */
 static int parabola(double t, const double *q, double *out, void *user)
 {
@@ -354,6 +375,9 @@ const joint_scene joint_scenes[JOINT_SCENES] = {
   {"coupling", coupling, 1, true},
   {"coupling by a law", cam, 1, true},
   {"point on a curve", curve, 2, true},
+#if BAUM_HAVE_GSL
+  {"spline driver", spline_driver, 1, false},
+#endif
 };
 
 baum_mechanism *joint_scene_make(const joint_scene *scene)
