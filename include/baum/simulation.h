@@ -201,8 +201,9 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
                                                const double *q, const double *v);
 
 /** Change an input from the present time on; it is held until it is changed again, also by
- *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts; a
- *  value that is the present one changes nothing.
+ *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts and
+ *  which costs them small steps: a loop that sets inputs often goes best with a fixed step. A value
+ *  that is the present one changes nothing.
  *  @param value  finite
  *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
  *                BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure

@@ -67,7 +67,7 @@ static baum_status motion_of(const baum_i_joint *joint, baum_i_point *point,
                              baum_i_motion_fn *motion, double s[3])
 {
   const double *numbers = point->parameters + joint->element.parameter;
-  if (!joint->type->replace_law || numbers[BAUM_I_DRIVER_POLYNOMIAL] == 0.0) {
+  if (numbers[BAUM_I_DRIVER_POLYNOMIAL] == 0.0) {
     return motion(joint, point, s);
   }
   polynomial(numbers, point->t, s);

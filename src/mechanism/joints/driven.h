@@ -6,7 +6,7 @@
  * c, c_q and their derivatives are those of the driven joint's type;
  * the driver acts on the same bodies.
  *
- * The numbers of a type with replace_law begin with those of a polynomial in t - t0. Where it is in
+ * The numbers of every driver begin with those of a polynomial in t - t0. Where it is in
  * force it is the motion: from the start when the definition gives one, or because a run has put it
  * in the place of what the definition gives, in a copy of the numbers of its own.
  */

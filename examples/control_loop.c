@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A control loop: every millisecond a controller looks at the crank of the slider-crank and sets the torque of its
+ * motor, so that the speed stays what it is when a brake comes on. Fixed steps make the work of an interval
+ * bounded: ten steps, which allocate nothing. */
+#include <time.h>
+
+#include "slider_crank_model.h"
+
+enum { STEPS = 10 /* of one interval */, INTERVALS = 250 /* of one row */, ROWS = 12 };
+
+static const double STEP = 1e-4;         /* [s] */
+static const double SPEED = 150.0;       /* [rad/s] wanted, and at start */
+static const double PROPORTIONAL = 0.02; /* [N m s/rad] */
+static const double INTEGRAL = 0.1;      /* [N m/rad] */
+static const double BRAKE = -0.2;        /* [N m] */
+static const double BRAKE_TIME = 1.0;    /* [s] when it comes on */
+
+typedef struct loop {
+  baum_simulation *run;
+  baum_joint_id pin;
+  baum_input_id motor;
+  baum_input_id brake;
+  double crank[2]; /* [rad] angle and [rad/s] rate */
+  double work;     /* [J] done by the motor and, negative, by the brake */
+  double longest;  /* [s] wall time of an interval */
+} loop;
+
+/* A torque on the crank as large as an input says. */
+static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, const char *name)
+{
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = crank;
+  load.torque = 1.0;
+  CHECK(baum_mechanism_add_input(mechanism, name, 0.0, &load.input));
+  CHECK(baum_mechanism_add_planar_load(mechanism, &load, NULL));
+  return load.input;
+}
+
+static void look(loop *l)
+{
+  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = l->pin};
+  CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
+}
+
+/* The integral of the speed's error is what the angle lags behind. */
+static double controller(const loop *l, double t)
+{
+  return PROPORTIONAL * (SPEED - l->crank[1]) + INTEGRAL * (SPEED * t - l->crank[0]);
+}
+
+static double seconds(void)
+{
+  struct timespec now;
+  (void)timespec_get(&now, TIME_UTC);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static void interval(loop *l)
+{
+  double begun = seconds();
+  double t = baum_simulation_time(l->run);
+  double motor = controller(l, t);
+  double brake = t < BRAKE_TIME ? 0.0 : BRAKE;
+  CHECK(baum_simulation_set_input(l->run, l->motor, motor));
+  CHECK(baum_simulation_set_input(l->run, l->brake, brake));
+  CHECK(baum_simulation_step(l->run, STEPS));
+  double before = l->crank[0];
+  look(l);
+  l->work += (motor + brake) * (l->crank[0] - before);
+  l->longest = fmax(l->longest, seconds() - begun);
+}
+
+int main(int argc, char **argv)
+{
+  example_begin(argc, argv, "control_loop");
+  slider_crank s = slider_crank_build(false);
+  baum_mechanism *plant = NULL; /* a copy, for s.mechanism is frozen */
+  loop l = {.pin = s.pin_a};
+  CHECK(baum_mechanism_copy(s.mechanism, &plant));
+  l.motor = add_torque(plant, s.crank, "motor");
+  l.brake = add_torque(plant, s.crank, "brake");
+  CHECK(baum_mechanism_freeze(plant));
+
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.step = STEP;
+  CHECK(baum_simulation_create(plant, &options, &l.run));
+  printf("slider-crank kept at %g rad/s, with a brake from %g s on\n\n", SPEED, BRAKE_TIME);
+
+  static const example_column columns[] = {{"t", "t [s]", 'f', 2},
+                                           {"speed", "mean speed [rad/s]", 'f', 2},
+                                           {"work", "net work [J]", 'f', 3}};
+  example_table("speed", columns, 3, true);
+  double speed[ROWS];
+  look(&l);
+  for (int row = 0; row < ROWS; row++) {
+    double begun = l.crank[0];
+    for (int k = 0; k < INTERVALS; k++) {
+      interval(&l);
+    }
+    speed[row] = (l.crank[0] - begun) / (STEP * STEPS * INTERVALS);
+    example_number(baum_simulation_time(l.run));
+    example_number(speed[row]);
+    example_number(l.work);
+  }
+  baum_counters c;
+  CHECK(baum_simulation_counters(l.run, &c, sizeof c));
+  example_counters(l.run);
+  printf("longest interval of the loop: %.0f us\n", 1e6 * l.longest);
+  example_expect("speed change under the brake [rad/s]", speed[4] - speed[3], -2.0);
+  example_expect("speed at the end, off by [rad/s]", fabs(speed[ROWS - 1] - SPEED), 0.005 * SPEED);
+  example_expect("energy change less net work [J]", fabs(c.energy_change - l.work), 1.0);
+  example_expect("largest violation max|Phi| [m]", c.max_phi, 1e-4);
+
+  baum_simulation_destroy(l.run);
+  baum_mechanism_destroy(plant);
+  baum_mechanism_destroy(s.mechanism);
+  return example_end();
+}
