@@ -104,3 +104,8 @@ static const baum_i_joint_type type = {
 };
 
 BAUM_I_DEFINE(joint, planar_fixed, type)
+
+bool baum_i_is_weld(const baum_i_joint *joint)
+{
+  return joint->type == &type;
+}
