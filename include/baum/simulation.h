@@ -220,13 +220,15 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  counts. The state stays: where s or ds differ from it, that is a violation, which the formulation
  *  treats as any other. PROJECTION jumps at the end of the next step, BAUMGARTE goes there at the
  *  rate of its gains (a jump in s with gains of 1/h asks for velocities of about s/h), UNSTABILIZED
- *  keeps the difference. So lead on from where the coordinate is, and change dds, or ds.
+ *  keeps the difference, and kinematics takes the nearest pose on its branch, or refuses where none is
+ *  near. So lead on from where the coordinate is, and change dds, or ds.
  *  @param driver  of the mechanism of the run
  *  @param s       [rad or m] finite
  *  @param ds      [rad/s or m/s] finite
  *  @param dds     [rad/s^2 or m/s^2] finite
- *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- *                 BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
+ *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT (kinematics), BAUM_ERR_SINGULAR,
+ *                 BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
+ *                 unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver,
                                                 double s, double ds, double dds);
@@ -309,7 +311,7 @@ typedef struct baum_counters {
   int64_t evaluations;    /**< [-] of (7) or of the residual. */
   int64_t factorizations; /**< [-] refactorizations of the matrix in (7) and of IDA's or CVODE's. */
   int64_t full_factorizations;  /**< [-] of these those that chose new pivots and may allocate. */
-  int64_t nonlinear_iterations; /**< [-] of CVODE, IDA. */
+  int64_t nonlinear_iterations; /**< [-] of CVODE, IDA, kinematics. */
   int64_t restarts;             /**< [-] of a multistep method. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
   int64_t warnings;             /**< [-] see baum_simulation_warning(). */

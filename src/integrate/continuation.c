@@ -294,6 +294,22 @@ static baum_status differentiate(const baum_i_continuation *path, baum_i_pose *p
 
 /* ---- the step ---- */
 
+static void keep_jacobian(const baum_workspace *w, baum_i_pose *pose)
+{
+  memcpy(pose->jacobian, w->jacobian, (size_t)w->mechanism->jacobian_size * sizeof *pose->jacobian);
+}
+
+baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose)
+{
+  baum_workspace *w = path->workspace;
+  baum_status status = baum_i_position_stage(w, pose->t, pose->q);
+  if (status == BAUM_OK) {
+    memset(pose->turn, 0, (size_t)w->mechanism->nv * sizeof *pose->turn);
+    keep_jacobian(w, pose);
+  }
+  return status;
+}
+
 static bool goes_on(baum_status status, const baum_i_verdict *verdict)
 {
   return status == BAUM_OK && verdict->refusal == BAUM_I_REFUSAL_NONE;
@@ -311,15 +327,14 @@ baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_po
   if (goes_on(status, verdict)) {
     status = sort_out_solution(factor(w), verdict);
   }
-  if (goes_on(status, verdict) && from) {
+  if (goes_on(status, verdict)) {
     status = measure_turning(path, from, pose, verdict);
   }
   if (goes_on(status, verdict)) {
     status = differentiate(path, pose, verdict);
   }
   if (goes_on(status, verdict)) {
-    memcpy(pose->jacobian, w->jacobian,
-           (size_t)w->mechanism->jacobian_size * sizeof *pose->jacobian);
+    keep_jacobian(w, pose);
   }
   return status;
 }

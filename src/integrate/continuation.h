@@ -59,8 +59,11 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* From the guess pose->q at pose->t to the pose: Newton, then v and a, guarded against the pose `from` (NULL: not
- * guarded). BAUM_OK, and then verdict->refusal tells whether the pose is good; or what a function that stops the run
+/* J at pose->q and pose->t, which need not fulfil the constraints, so that it can serve as `from` below. */
+baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
+
+/* From the guess pose->q at pose->t to the pose: Newton, then v and a, guarded against the pose `from`, of which
+ * J and turn are used. BAUM_OK, and then verdict->refusal tells whether the pose is good; or what a function that stops the run
  * returned, BAUM_ERR_MEMORY. */
 baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
                                       baum_i_pose *pose, baum_i_verdict *verdict);

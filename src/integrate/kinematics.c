@@ -326,23 +326,30 @@ static baum_status fail_to_start(kinematics_run *run, double t, const baum_i_ver
   case BAUM_I_REFUSAL_TURNED:
   case BAUM_I_REFUSAL_LEFT_OUT:
   default:
-    return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                       "t = %.9g s: kinematics: the start is too far from a pose that fulfils the "
-                       "constraints; let it be assembled",
-                       t);
+    return baum_i_fail(
+      BAUM_ERR_INCONSISTENT,
+      "t = %.9g s: kinematics: no pose that fulfils the constraints is found close to "
+      "the given state; lead drivers on from where they are, and let a start be "
+      "assembled",
+      t);
   }
 }
 
-/* The pose at a state, which then is both ends of the last step. */
+/* The pose next to a state and on its branch, which then is both ends of the last step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;
   const baum_mechanism *m = problem->workspace->mechanism;
+  size_t size = (size_t)m->nq * sizeof *state->q;
   baum_i_verdict verdict;
+  run->spare->t = state->t;
   run->trial->t = state->t;
-  memcpy(run->trial->q, state->q, (size_t)m->nq * sizeof *state->q);
-  memset(run->trial->turn, 0, (size_t)m->nv * sizeof *run->trial->turn);
-  baum_status status = solve(run, NULL, run->trial, &verdict);
+  memcpy(run->spare->q, state->q, size);
+  memcpy(run->trial->q, state->q, size);
+  baum_status status = baum_i_continuation_mark(&run->path, run->spare);
+  if (status == BAUM_OK) {
+    status = solve(run, run->spare, run->trial, &verdict);
+  }
   if (status != BAUM_OK) {
     return say_when(run->trial, status);
   }

@@ -11,6 +11,7 @@
 
 #include "assert_near.h"
 #include "driven.h"
+#include "mechanism/mechanism.h"
 #include "methods.h"
 #include "models.h"
 #include "sentence.h"
@@ -412,6 +413,33 @@ static void a_state_of_the_other_branch_can_be_set(void **state)
   close_run(there, mirror);
 }
 
+/* The crank is led on at another speed, and then a little ahead of where it is. */
+static void a_driver_can_be_set_in_a_run(void **state)
+{
+  (void)state;
+  slider_crank data = {0.1, 0.1501, 0.05, 1, {.angle = 0.3, .rate = 9.0}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation *run = open_run(mechanism);
+  baum_joint_id motor = baum_i_joint_id(mechanism, 4);
+  double x[3];
+
+  advance(run, 0.5);
+  assert_int_equal(baum_simulation_set_driver(run, motor, 4.8, -2.0, 0.0), BAUM_OK);
+  advance(run, 4.0);
+  slider_crank_motion(&data, 4.8 - 2.0 * 3.5, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
+  assert_int_equal(baum_simulation_set_driver(run, motor, -2.1, 2.0, 0.0), BAUM_OK);
+  advance(run, 5.0);
+  slider_crank_motion(&data, -0.1, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
+  ASSERT_SAYS(baum_simulation_set_driver(run, motor, 1.5, 2.0, 0.0), BAUM_ERR_INCONSISTENT,
+              "t = 5 s: kinematics: no pose|lead drivers on from where they are");
+  advance(run, 6.0);
+  slider_crank_motion(&data, 1.9, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
+  close_run(run, mechanism);
+}
+
 /* ---- cost ---- */
 
 static baum_counters cost_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
@@ -463,6 +491,7 @@ int main(void)
     cmocka_unit_test(outputs_inside_a_motion_that_steps_may_pass_over_are_right),
     cmocka_unit_test(targets_do_not_alter_the_steps),
     cmocka_unit_test(a_state_of_the_other_branch_can_be_set),
+    cmocka_unit_test(a_driver_can_be_set_in_a_run),
     cmocka_unit_test(it_is_cheaper_than_integration),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
