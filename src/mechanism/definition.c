@@ -303,7 +303,7 @@ static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, co
 static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element *element,
                        const void *def)
 {
-  whole_def whole;
+  whole_def whole = {.head = {0}};
   baum_status status = check(mechanism, k, def, element->index, &whole);
   if (status == BAUM_OK) {
     status = check_ties(mechanism, k, &whole, element);
@@ -373,7 +373,7 @@ baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *t
     return fail_no_mechanism(&k);
   }
   int number = mechanism->body_count + 1;
-  whole_def whole;
+  whole_def whole = {.head = {0}};
   baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
@@ -451,7 +451,7 @@ baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type 
     return fail_no_mechanism(&k);
   }
   int number = mechanism->joint_count + 1;
-  whole_def whole;
+  whole_def whole = {.head = {0}};
   baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
@@ -516,7 +516,7 @@ baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type 
     return fail_no_mechanism(&k);
   }
   int number = mechanism->force_count + 1;
-  whole_def whole;
+  whole_def whole = {.head = {0}};
   baum_status status = check(mechanism, &k, def, number, &whole);
   if (status != BAUM_OK) {
     return status;
