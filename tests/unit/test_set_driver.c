@@ -15,7 +15,9 @@
 
 static const double RATE = 2.0; /* [rad/s] of the motor as defined */
 
+/* How the functions of a scene behave. */
 typedef struct faults {
+  bool along_spline; /* instead of the law */
   int law_calls;
   bool force_fails;
 } faults;
@@ -82,6 +84,19 @@ static baum_joint_id add_pin(const scene *s, baum_body_id a, baum_body_id b, dou
   return id;
 }
 
+/* 0.5 t */
+static void add_spline_winch(scene *s)
+{
+  static const double times[3] = {-1.0, 0.0, 1.0};
+  static const double values[3] = {-0.5, 0.0, 0.5};
+  baum_spline_driver_def def = baum_spline_driver_def_default();
+  def.joint = s->guide;
+  def.times = times;
+  def.values = values;
+  def.count = 3;
+  assert_int_equal(baum_mechanism_add_spline_driver(s->mechanism, &def, &s->winch), BAUM_OK);
+}
+
 static void add_drivers(scene *s, faults *f)
 {
   baum_driver_def def = baum_driver_def_default();
@@ -89,6 +104,10 @@ static void add_drivers(scene *s, faults *f)
   def.joint = s->pin;
   def.rate = RATE;
   assert_int_equal(baum_mechanism_add_driver(s->mechanism, &def, &s->motor), BAUM_OK);
+  if (f->along_spline) {
+    add_spline_winch(s);
+    return;
+  }
   def = baum_driver_def_default();
   def.name = "winch";
   def.joint = s->guide;
@@ -265,6 +284,23 @@ static void it_takes_the_place_of_a_users_law_in_this_run_alone(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
+static void it_takes_the_place_of_a_spline(void **state)
+{
+  (void)state;
+  if (!baum_has("gsl")) {
+    skip();
+  }
+  faults f = {.along_spline = true};
+  scene s = make_scene(&f);
+  baum_simulation_options o = options_of(baum_rk4());
+  baum_simulation *run = start(&s, &o);
+  check_at(run, s.guide, 0.2, (motion){0.1, 0.5}, 1e-12); /* projected, here and below */
+  assert_int_equal(baum_simulation_set_driver(run, s.winch, 0.1, 0.5, -1.0), BAUM_OK);
+  check_at(run, s.guide, 0.6, (motion){0.1 + 0.2 - 0.08, 0.5 - 0.4}, 1e-12);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(s.mechanism);
+}
+
 static void time_counts_from_where_it_was_set_both_ways(void **state)
 {
   (void)state;
@@ -397,6 +433,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_law_acts_from_the_present_time_on),
     cmocka_unit_test(it_takes_the_place_of_a_users_law_in_this_run_alone),
+    cmocka_unit_test(it_takes_the_place_of_a_spline),
     cmocka_unit_test(time_counts_from_where_it_was_set_both_ways),
     cmocka_unit_test(the_law_is_called_once_per_evaluation),
     cmocka_unit_test(projection_jumps_with_the_next_step),
