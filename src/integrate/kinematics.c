@@ -310,29 +310,30 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
 
 /* ---- start ---- */
 
-static baum_status fail_to_start(kinematics_run *run, double t, const baum_i_verdict *verdict)
+static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verdict)
 {
-  switch (verdict->refusal) {
-  case BAUM_I_REFUSAL_EVALUATION:
+  double t = run->spare->t;
+  baum_i_impasse at;
+  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
     return baum_i_fail(verdict->evaluation, "t = %.9g s: kinematics: at the start: %.800s", t,
                        run->evaluation.text);
-  case BAUM_I_REFUSAL_SINGULAR:
+  }
+  baum_status status = baum_i_continuation_explain(&run->path, run->spare, &at);
+  if (status != BAUM_OK && status != BAUM_ERR_SINGULAR) {
+    return say_when(run->spare, status);
+  }
+  if (!(at.gain < SINGULAR_GAIN)) {
     return baum_i_fail(BAUM_ERR_SINGULAR,
                        "t = %.9g s: kinematics: the start pose is singular, and the motion may go "
                        "on from it in more than one way; start at another time or pose",
                        t);
-  case BAUM_I_REFUSAL_NONE:
-  case BAUM_I_REFUSAL_FAR:
-  case BAUM_I_REFUSAL_TURNED:
-  case BAUM_I_REFUSAL_LEFT_OUT:
-  default:
-    return baum_i_fail(
-      BAUM_ERR_INCONSISTENT,
-      "t = %.9g s: kinematics: no pose that fulfils the constraints is found close to "
-      "the given state; lead drivers on from where they are, and let a start be "
-      "assembled",
-      t);
   }
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: kinematics: no pose that fulfils the constraints is found close to "
+    "the given state; lead drivers on from where they are, and let a start be "
+    "assembled",
+    t);
 }
 
 /* The pose next to a state and on its branch, which then is both ends of the last step. */
@@ -354,7 +355,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
     return say_when(run->trial, status);
   }
   if (verdict.refusal != BAUM_I_REFUSAL_NONE) {
-    return fail_to_start(run, state->t, &verdict);
+    return fail_to_start(run, &verdict);
   }
   swap(&run->right, &run->trial);
   copy_pose(m, run->right, run->left);

@@ -390,6 +390,28 @@ static void targets_do_not_alter_the_steps(void **state)
   close_run(often, mechanism);
 }
 
+/* In millimetres, grams, milliseconds: the same steps, the same motion. */
+static void units_do_not_matter(void **state)
+{
+  (void)state;
+  const model_units *const units[2] = {NULL, &MODEL_MILLI};
+  double x[2];
+  int64_t steps[2];
+  for (int k = 0; k < 2; k++) {
+    model scene;
+    model_slider_crank options = {.driven = true, .units = units[k]};
+    assert_int_equal(model_slider_crank_build(options, &scene), BAUM_OK);
+    baum_simulation *run = open_run(scene.mechanism);
+    advance(run, k == 0 ? 0.4 : 400.0);
+    x[k] = baum_simulation_q(run)[SLIDER_X];
+    steps[k] = counters_of(run).steps;
+    baum_simulation_destroy(run);
+    model_destroy(&scene);
+  }
+  ASSERT_NEAR(x[1], 1000.0 * x[0], 1e-13, 0.0);
+  assert_int_equal(steps[1], steps[0]);
+}
+
 /* The other branch is a pose as good as this one: a run that is put there stays there. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
@@ -490,6 +512,7 @@ int main(void)
     cmocka_unit_test(a_crank_at_rest_stays_for_any_time),
     cmocka_unit_test(outputs_inside_a_motion_that_steps_may_pass_over_are_right),
     cmocka_unit_test(targets_do_not_alter_the_steps),
+    cmocka_unit_test(units_do_not_matter),
     cmocka_unit_test(a_state_of_the_other_branch_can_be_set),
     cmocka_unit_test(a_driver_can_be_set_in_a_run),
     cmocka_unit_test(it_is_cheaper_than_integration),

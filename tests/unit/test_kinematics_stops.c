@@ -147,6 +147,41 @@ static void where_branches_cross_a_run_stops(void **state)
   }
 }
 
+/* Rows 1 and 3 are the same until 0.5 s, and contradict each other from then on. */
+static int part(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  out[0] = q[0] - t;
+  out[1] = q[1];
+  out[2] = q[0] - t + (t > 0.5 ? (t - 0.5) * (t - 0.5) : 0.0);
+  return 0;
+}
+
+static void rows_left_out_that_do_not_follow_any_longer_stop_the_run(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  baum_body_id point;
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  baum_user_constraint_def rows = baum_user_constraint_def_default();
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &point), BAUM_OK);
+  rows.name = "rows";
+  rows.bodies = &point;
+  rows.body_count = 1;
+  rows.row_count = 3;
+  rows.phi = part;
+  assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &rows, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  baum_simulation *run = open_run(mechanism);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
+              "kinematics: a row of |\"rows\" that was left out as redundant does not follow");
+  /* A violation of 1e-6 passes for none. */
+  ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
+  close_run(run, mechanism);
+}
+
 /* ---- laws that fail ---- */
 
 typedef struct fault {
@@ -299,6 +334,59 @@ static void a_start_off_the_constraints_is_solved_or_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+static void a_restart_that_fails_changes_nothing(void **state)
+{
+  (void)state;
+  fault f = {.after = (double)INFINITY, .answer = 4};
+  slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
+  baum_mechanism *mechanism = slider_crank_make(&data);
+  baum_simulation_options o = kinematic_options();
+  baum_simulation *run = NULL;
+  double q[SLIDER_NV];
+  double v[SLIDER_NV];
+  double x[3];
+  o.start = BAUM_START_AS_GIVEN;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  memcpy(q, baum_simulation_q(run), sizeof q);
+  memcpy(v, baum_simulation_v(run), sizeof v);
+  assert_int_equal(baum_simulation_advance_to(run, 0.5), BAUM_OK);
+  f.after = -1.0;
+  ASSERT_SAYS(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_CALLBACK, "law() returned 4");
+  assert_true(baum_simulation_time(run) == 0.5);
+  f.after = (double)INFINITY;
+  assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_OK);
+  slider_crank_motion(&data, 1.3, x);
+  ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
+  close_run(run, mechanism);
+}
+
+/* Flat at 0.8 s: the state is one of the motion, but nobody knows how to go on. */
+static void a_singular_state_cannot_be_set(void **state)
+{
+  (void)state;
+  const drive motor = {.angle = PI - 0.8, .rate = 1.0};
+  const drive flat = {.angle = PI};
+  double q[PARALLELOGRAM_NV];
+  double v[PARALLELOGRAM_NV];
+  baum_mechanism *mechanism = parallelogram_make(&motor);
+  baum_mechanism *there = parallelogram_make(&flat);
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(there, &w), BAUM_OK);
+  assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
+  memset(v, 0, sizeof v);
+  baum_workspace_destroy(w);
+  baum_simulation_options o = kinematic_options();
+  baum_simulation *run = NULL;
+  o.start = BAUM_START_AS_GIVEN;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
+  ASSERT_SAYS(baum_simulation_set_state(run, 0.8, q, v), BAUM_ERR_SINGULAR,
+              "t = 0.8 s: kinematics: the start pose is singular");
+  assert_true(baum_simulation_advance_to(run, 0.5) >= BAUM_OK);
+  ASSERT_NEAR(baum_simulation_q(run)[5], PI - 0.3, 0.0, 1e-12);
+  close_run(run, mechanism);
+  baum_mechanism_destroy(there);
+}
+
 static void a_singular_start_is_refused(void **state)
 {
   (void)state;
@@ -373,12 +461,15 @@ int main(void)
     cmocka_unit_test(a_rod_too_short_locks_the_crank_whatever_the_start),
     cmocka_unit_test(outputs_up_to_the_lock_up_are_given),
     cmocka_unit_test(where_branches_cross_a_run_stops),
+    cmocka_unit_test(rows_left_out_that_do_not_follow_any_longer_stop_the_run),
     cmocka_unit_test(a_law_that_fails_leaves_the_last_good_step),
     cmocka_unit_test(a_law_that_jumps_is_an_error),
     cmocka_unit_test(a_law_that_stops_is_left_alone),
     cmocka_unit_test(freedom_is_refused_with_its_number_and_advice),
     cmocka_unit_test(settings_of_other_integrators_are_refused),
     cmocka_unit_test(a_start_off_the_constraints_is_solved_or_refused),
+    cmocka_unit_test(a_restart_that_fails_changes_nothing),
+    cmocka_unit_test(a_singular_state_cannot_be_set),
     cmocka_unit_test(a_singular_start_is_refused),
     cmocka_unit_test(a_run_explains_itself_and_others_suggest_it),
     cmocka_unit_test(poses_are_given_inside_the_last_step_only),
