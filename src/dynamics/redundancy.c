@@ -14,6 +14,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/golden.h"
 #include "base/message.h"
 #include "dynamics/dynamics.h"
 
@@ -73,13 +74,6 @@ static void keep_set(baum_i_redundancy *r, const search *s, int rank)
 
 /* ---- neighbours ---- */
 
-/* Deterministic numbers in [-1, 1]: the fractional parts of multiples of the golden ratio. */
-static double scatter(int k)
-{
-  double x = 0.6180339887498949 * (double)(k + 1);
-  return 2.0 * (x - floor(x)) - 1.0;
-}
-
 /* Solve [M J^T; J -S] [x; .] = [M p; r] with the rows' own small S,
  * so that dependent rows do not matter. */
 static baum_status solve_direction(const search *s, const double *p, const double *r)
@@ -116,7 +110,7 @@ static baum_status find_direction(const search *s, double *size)
   double driven = baum_i_scaled_size(m, s->x);
   double push = driven > 0.0 ? driven : 1.0;
   for (int i = 0; i < m->nv; i++) {
-    p[i] = push * scatter(i) * m->scale[i];
+    p[i] = push * baum_i_golden(i + 1) * m->scale[i];
   }
   status = solve_direction(s, p, w->rhs);
   *size = baum_i_scaled_size(m, s->x);

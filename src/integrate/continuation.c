@@ -30,6 +30,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/golden.h"
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
@@ -219,11 +220,10 @@ static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
          violation(path, false, &verdict->row) <= NEGLIGIBLE;
 }
 
-/* Deterministic numbers of size 1/2 to 1 and either sign: the fractional parts of multiples of the golden ratio. */
+/* Of size 1/2 to 1 and either sign. */
 static double scatter(int k)
 {
-  double x = 0.6180339887498949 * (double)(k + 1);
-  x = 2.0 * (x - floor(x)) - 1.0;
+  double x = baum_i_golden(k + 1);
   return x < 0.0 ? 0.5 * x - 0.5 : 0.5 * x + 0.5;
 }
 
