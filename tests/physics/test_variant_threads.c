@@ -1,0 +1,151 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A thousand variants of one mechanism, made by copy, set and freeze in several threads at once. To be
+ * run under the thread sanitizer as well.
+ *
+ * The crank is driven, so that accelerations do not depend on the slider's mass m, and multipliers are
+ * lambda_0 + m lambda_1.
+ *
+ * cmocka's checks are for the main thread: the others only report.
+ */
+#include <math.h>
+#include <pthread.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include <cmocka.h>
+
+#include "variants.h"
+
+enum { VARIANTS = 1000, MOST_THREADS = 8, ROWS = 9, COLUMNS = 9 };
+
+static double mass_of(int k)
+{
+  return 0.05 + 1e-3 * k;
+}
+
+/* Every `threads`-th variant from `first` on. */
+typedef struct share {
+  const variant_plan *plan;
+  int first;
+  int threads;
+  variant_result *results; /* (VARIANTS) */
+  baum_status status;      /* the first failure */
+} share;
+
+static void *make_share(void *argument)
+{
+  share *s = argument;
+  for (int k = s->first; k < VARIANTS && s->status == BAUM_OK; k += s->threads) {
+    s->status = variant_make(s->plan, mass_of(k), &s->results[k]);
+  }
+  return NULL;
+}
+
+/* Wall time [s]. */
+static double make_in_threads(const variant_plan *plan, int threads, variant_result *results)
+{
+  share shares[MOST_THREADS];
+  pthread_t thread[MOST_THREADS];
+  struct timespec start;
+  struct timespec end;
+  (void)clock_gettime(CLOCK_MONOTONIC, &start);
+  for (int k = 0; k < threads; k++) {
+    shares[k] = (share){.plan = plan, .first = k, .threads = threads, .results = results};
+    assert_int_equal(pthread_create(&thread[k], NULL, make_share, &shares[k]), 0);
+  }
+  for (int k = 0; k < threads; k++) {
+    assert_int_equal(pthread_join(thread[k], NULL), 0);
+    assert_int_equal(shares[k].status, BAUM_OK);
+  }
+  (void)clock_gettime(CLOCK_MONOTONIC, &end);
+  return (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);
+}
+
+/* One plan and its variants in one thread. */
+typedef struct fixture {
+  variant_plan plan;
+  variant_result *serial;
+} fixture;
+
+static int set_up(void **state)
+{
+  static fixture f;
+  f.serial = calloc(VARIANTS, sizeof *f.serial);
+  if (!f.serial || variant_plan_make(&f.plan) != BAUM_OK) {
+    return -1;
+  }
+  share all = {.plan = &f.plan, .threads = 1, .results = f.serial};
+  (void)make_share(&all);
+  *state = &f;
+  return all.status == BAUM_OK ? 0 : -1;
+}
+
+static int tear_down(void **state)
+{
+  fixture *f = *state;
+  variant_plan_clear(&f->plan);
+  free(f->serial);
+  return 0;
+}
+
+static double largest(const double *x, int count)
+{
+  double out = 0.0;
+  for (int i = 0; i < count; i++) {
+    out = fmax(out, fabs(x[i]));
+  }
+  return out;
+}
+
+/* 1e-12: two solutions of an ordinary pose. */
+static void each_variant_has_its_own_mass(void **state)
+{
+  const fixture *f = *state;
+  const variant_result *first = &f->serial[0];
+  const variant_result *last = &f->serial[VARIANTS - 1];
+  double a_size = largest(first->a, COLUMNS);
+  double lambda_size = largest(last->lambda, ROWS);
+  assert_true(a_size > 0.0);
+  /* Ten times the mass is seen. */
+  assert_true(lambda_size > 2.0 * largest(first->lambda, ROWS));
+  for (int k = 0; k < VARIANTS; k++) {
+    double part = (mass_of(k) - mass_of(0)) / (mass_of(VARIANTS - 1) - mass_of(0));
+    for (int i = 0; i < COLUMNS; i++) {
+      assert_true(fabs(f->serial[k].a[i] - first->a[i]) <= 1e-12 * a_size);
+    }
+    for (int i = 0; i < ROWS; i++) {
+      double want = (1.0 - part) * first->lambda[i] + part * last->lambda[i];
+      assert_true(fabs(f->serial[k].lambda[i] - want) <= 1e-12 * lambda_size);
+    }
+  }
+}
+
+static void variants_of_threads_are_those_of_one(void **state)
+{
+  const fixture *f = *state;
+  static const int threads[] = {1, 2, 4, MOST_THREADS};
+  variant_result *results = calloc(VARIANTS, sizeof *results);
+  assert_non_null(results);
+  for (size_t k = 0; k < sizeof threads / sizeof threads[0]; k++) {
+    memset(results, 0, VARIANTS * sizeof *results);
+    double wall = make_in_threads(&f->plan, threads[k], results);
+    assert_memory_equal(results, f->serial, VARIANTS * sizeof *results);
+    printf("%d variants in %d threads: %.1f us each\n", VARIANTS, threads[k],
+           1e6 * wall / VARIANTS);
+  }
+  free(results);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(each_variant_has_its_own_mass),
+    cmocka_unit_test(variants_of_threads_are_those_of_one),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}
