@@ -90,7 +90,7 @@ BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, co
 BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *force);
 
-/** Kinetic and potential energy; the latter of gravity, springs, fixed loads and user potentials.
+/** Kinetic and potential energy; the latter of gravity, springs, steady loads and user potentials.
  *  @param[out] kinetic,potential  [J]; each may be NULL
  */
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,

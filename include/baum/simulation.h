@@ -322,7 +322,7 @@ typedef struct baum_counters {
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
   double predicted_phi; /**< [m or rad] (alpha/beta^2) h largest |gamma_i|; NaN: not predicted. */
   double predicted_phi_rate; /**< [m/s or rad/s] (h/2) largest |gamma_i|; NaN likewise. */
-  double energy_change; /**< [J] kinetic and potential since start; drivers and dampers included. */
+  double energy_change; /**< [J] kinetic, potential since start; drivers, inputs, dampers included. */
   double start_change;  /**< [-] largest displacement of the last assembly, of the scale. */
   double alpha;         /**< [1/s] in use. */
   double beta;          /**< [1/s] in use. */
