@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static double worst(const reference *with, double scale, const double *rows, int nq)
@@ -38,14 +39,14 @@ reference_run reference_compare(const reference *with, const baum_mechanism *mec
                                 const baum_simulation_options *options)
 {
   static const baum_channel positions = {.quantity = BAUM_Q};
-  double rows[REFERENCE_SAMPLES * REFERENCE_COORDINATES];
   reference_run out = {.error = (double)NAN};
   double scale = (double)NAN;
   int32_t nq = 0;
   baum_simulation *run = NULL;
   (void)baum_mechanism_get_scale(mechanism, &scale);
   (void)baum_mechanism_sizes(mechanism, &nq, NULL, NULL);
-  out.status = baum_simulation_create(mechanism, options, &run);
+  double *rows = calloc((size_t)with->samples * (size_t)nq, sizeof *rows);
+  out.status = rows ? baum_simulation_create(mechanism, options, &run) : BAUM_ERR_MEMORY;
   if (out.status >= 0) {
     out.status = baum_simulation_sample(run, with->t, with->samples, &positions, 1, rows, NULL);
   }
@@ -54,6 +55,7 @@ reference_run reference_compare(const reference *with, const baum_mechanism *mec
     out.error = worst(with, scale, rows, nq);
   }
   baum_simulation_destroy(run);
+  free(rows);
   return out;
 }
 

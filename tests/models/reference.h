@@ -7,7 +7,7 @@
 
 #include "models.h"
 
-enum { REFERENCE_WIDTH = 9, REFERENCE_SAMPLES = 48, REFERENCE_COORDINATES = 21 };
+enum { REFERENCE_WIDTH = 9 };
 
 /* A trajectory, and how the coordinates of a mechanism are compared with it. */
 typedef struct reference {

@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Chain of three rods against tests/data (17 digits). */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "chain_reference.h"
+#include "reference_test.h"
+
+static const reference NINE = {.name = "chain N = 3",
+                               .samples = CHAIN_SAMPLES,
+                               .width = CHAIN_WIDTH,
+                               .t = CHAIN_T,
+                               .q = CHAIN_Q[0],
+                               .lengths = "mmrmmrmmr"};
+
+static void adams_reaches_the_reference_within_1e_9(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &m), BAUM_OK);
+  baum_simulation_options options = adams_options();
+  assert_reached(&NINE, m.mechanism, &options, 1e-9);
+  model_destroy(&m);
+}
+
+static void rk4_with_projection_reaches_it_too(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &m), BAUM_OK);
+  /* Rates up to 40 rad/s for a moment: (40 h)^4 = 6e-10 there. */
+  assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-9);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(adams_reaches_the_reference_within_1e_9),
+    cmocka_unit_test(rk4_with_projection_reaches_it_too),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
