@@ -17,9 +17,10 @@
  *  Callbacks: q and v hold the coordinates of the named bodies one after the other; matrices are
  *  dense and row-major, zeroed before the call; return 0 when fine, > 0 to ask for a smaller
  *  step, < 0 to stop the run. They must be reentrant when the mechanism is shared between threads.
- *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are only
- *  ever appended: a struct of a program that was compiled with an older version is smaller, and what
- *  it lacks has its default. A larger one, of a newer version, is refused (BAUM_ERR_STRUCT).
+ *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are
+ *  only ever appended: a struct of a program that was compiled with an older version is smaller,
+ *  and what it lacks has its default. A larger one, of a newer version, is refused
+ *  (BAUM_ERR_STRUCT).
  */
 #ifndef BAUM_MECHANISM_H
 #define BAUM_MECHANISM_H
@@ -78,8 +79,8 @@ typedef int baum_q_fn(double t, const double *q, double *out, void *user);
 typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, void *user);
 
 /** Generalized force, as baum_qv_fn.
- *  @param[in] inputs  present values of the mechanism's inputs in the order of adding; NULL while it
- *                     has none
+ *  @param[in] inputs  present values of the mechanism's inputs in the order of adding; NULL while
+ *                     it has none
  */
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);

@@ -469,8 +469,8 @@ BAUM_API baum_status baum_mechanism_set_planar_torsion_spring(
 /* ---- load ------------------------------------------------------------------------------------ */
 
 /** A force at a point of a body and a torque, constant or times an input. The force keeps its
- *  direction in ground axes or turns with the body; the point is always the body's. A load in ground
- *  axes without torque and input has a potential, and its energy is counted as such. */
+ *  direction in ground axes or turns with the body; the point is always the body's. A load in
+ *  ground axes without torque and input has a potential, and its energy is counted as such. */
 typedef struct baum_planar_load_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */

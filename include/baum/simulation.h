@@ -105,9 +105,9 @@ typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *
 
 /* ---- options --------------------------------------------------------------------------------- */
 
-/** How to run. Start from baum_simulation_options_default(); a struct of an older version is taken as
- *  definitions are, see mechanism.h. Variable-step integrators may step over a force or a law that
- *  begins late or does not last: give max_step then. */
+/** How to run. Start from baum_simulation_options_default(); a struct of an older version is taken
+ *  as definitions are, see mechanism.h. Variable-step integrators may step over a force or a law
+ *  that begins late or does not last: give max_step then. */
 typedef struct baum_simulation_options {
   size_t struct_size;                /**< Set by the default. Do not write. */
   const baum_integrator *integrator; /**< Default: NULL, must be set. */
@@ -201,9 +201,9 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
                                                const double *q, const double *v);
 
 /** Change an input from the present time on; it is held until it is changed again, also by
- *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts and
- *  which costs them small steps: a loop that sets inputs often goes best with a fixed step. A value
- *  that is the present one changes nothing.
+ *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts
+ *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step. A
+ *  value that is the present one changes nothing.
  *  @param value  finite
  *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
  *                BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
@@ -215,20 +215,20 @@ BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum
 BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_input_id input);
 
 /** Give a driver another law, for this run only: with the present time t0 the prescribed coordinate
- *  is s + ds (t - t0) + dds (t - t0)^2 / 2, in place of the polynomial or the user law of its
+ *  is s + ds (t - t0) + dds (t - t0)^2 / 2, in place of the polynomial, user law or spline of its
  *  definition, until it is set again. Variable-step methods begin anew, which counters.restarts
- *  counts. The state stays: where s or ds differ from it, that is a violation, which the formulation
- *  treats as any other. PROJECTION jumps at the end of the next step, BAUMGARTE goes there at the
- *  rate of its gains (a jump in s with gains of 1/h asks for velocities of about s/h), UNSTABILIZED
- *  keeps the difference, and kinematics takes the nearest pose on its branch, or refuses where none is
- *  near. So lead on from where the coordinate is, and change dds, or ds.
+ *  counts. The state stays: where s or ds differ from it, that is a violation, which the
+ *  formulation treats as any other. PROJECTION jumps at the end of the next step, BAUMGARTE goes
+ *  there at the rate of its gains (a jump in s with gains of 1/h asks for velocities of about s/h),
+ *  UNSTABILIZED keeps the difference, and kinematics takes the nearest pose on its branch, or
+ *  refuses where none is near. So lead on from where the coordinate is, and change dds, or ds.
  *  @param driver  of the mechanism of the run
  *  @param s       [rad or m] finite
  *  @param ds      [rad/s or m/s] finite
  *  @param dds     [rad/s^2 or m/s^2] finite
- *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT (kinematics), BAUM_ERR_SINGULAR,
- *                 BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
- *                 unchanged on failure
+ *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT (kinematics),
+ *                 BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR,
+ *                 BAUM_ERR_MEMORY; unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver,
                                                 double s, double ds, double dds);
@@ -322,7 +322,7 @@ typedef struct baum_counters {
   baum_joint_id max_phi_rate_joint; /**< Joint of max_phi_rate. */
   double predicted_phi; /**< [m or rad] (alpha/beta^2) h largest |gamma_i|; NaN: not predicted. */
   double predicted_phi_rate; /**< [m/s or rad/s] (h/2) largest |gamma_i|; NaN likewise. */
-  double energy_change; /**< [J] kinetic, potential since start; drivers, inputs, dampers included. */
+  double energy_change; /**< [J] kinetic, potential since start; of drivers, inputs, dampers too. */
   double start_change;  /**< [-] largest displacement of the last assembly, of the scale. */
   double alpha;         /**< [1/s] in use. */
   double beta;          /**< [1/s] in use. */

@@ -98,8 +98,8 @@ static void derivatives_with_an_input_agree_with_differences(void **state)
   }
 }
 
-/* Force of one load on the crank turned by a quarter, and the potential. With an input of that value
- * unless it is NaN. */
+/* Force of one load on the crank turned by a quarter, and the potential. With an input of that
+ * value unless it is NaN. */
 static void evaluate_with(const baum_planar_load_def *given, double input, double force[3],
                           double *potential)
 {

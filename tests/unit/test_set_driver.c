@@ -207,8 +207,8 @@ static void check_at(baum_simulation *run, baum_joint_id joint, double t, motion
 
 /* ---- every method ---- */
 
-/* What a driven coordinate may be off. Both Eulers with gains of 1/h leave up to h^2 |s''| and, of the
- * rate, h |s''| / 2, here with |s''| = 8 and a tenth more. Fixed steps of higher order project.
+/* What a driven coordinate may be off. Both Eulers with gains of 1/h leave up to h^2 |s''| and, of
+ * the rate, h |s''| / 2, here with |s''| = 8 and a tenth more. Fixed steps of higher order project.
  * Variable steps are off by a few hundred times rtol. */
 static motion allowed(const baum_integrator *integrator)
 {
