@@ -2,6 +2,7 @@
 /* Heap memory. The only file that calls malloc and its kin. */
 #include "base/alloc.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,11 +14,21 @@ void *baum_i_alloc(size_t count, size_t size)
 
 void *baum_i_grow(void *old, size_t count, size_t size)
 {
-  if (size > 0 && count > SIZE_MAX / size) {
+  size_t room = 1;
+  while (room < count && room <= SIZE_MAX / 2) {
+    room *= 2;
+  }
+  if (room < count || (size > 0 && room > SIZE_MAX / size)) {
     return NULL;
   }
-  size_t bytes = count * size;
+  size_t bytes = room * size;
   return realloc(old, bytes > 0 ? bytes : 1);
+}
+
+void *baum_i_grow_by_one(void *old, size_t count, size_t size)
+{
+  bool is_full = count <= 2 || ((count - 1) & (count - 2)) == 0; /* a power of two and one more */
+  return old && !is_full ? old : baum_i_grow(old, count, size);
 }
 
 void *baum_i_copy(const void *source, size_t count, size_t size)

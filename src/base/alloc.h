@@ -9,8 +9,13 @@
  * memory". */
 void *baum_i_alloc(size_t count, size_t size);
 
-/* Grow an array to hold count elements; on failure returns NULL and leaves the old one. */
+/* Grow an array to hold count elements, which means room for the least power of two of them; on
+ * failure returns NULL and leaves the old one. */
 void *baum_i_grow(void *old, size_t count, size_t size);
+
+/* Likewise an array that has come from here or from baum_i_grow() with one element less (NULL for
+ * none): it moves seldom, so that many additions cost little more than the last move. */
+void *baum_i_grow_by_one(void *old, size_t count, size_t size);
 
 /* Copy of count elements, or NULL. */
 void *baum_i_copy(const void *source, size_t count, size_t size);

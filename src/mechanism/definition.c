@@ -256,10 +256,10 @@ static void *item_new(const baum_mechanism *mechanism, const kind *k, const void
   return element;
 }
 
-/* Grow an array of pointers to hold count; NULL when out of memory, with the sentence. */
+/* Grow an array of pointers to hold one more, count; NULL when out of memory, with the sentence. */
 static void *grow(void *list, int count)
 {
-  void *grown = baum_i_grow(list, (size_t)count, sizeof(void *));
+  void *grown = baum_i_grow_by_one(list, (size_t)count, sizeof(void *));
   if (!grown) {
     (void)baum_i_fail_memory();
   }

@@ -106,7 +106,7 @@ void baum_mechanism_destroy(baum_mechanism *mechanism)
 
 static void *room(int count)
 {
-  return baum_i_alloc((size_t)count, sizeof(void *));
+  return baum_i_grow(NULL, (size_t)count, sizeof(void *));
 }
 
 static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
