@@ -10,7 +10,9 @@
  * row whose denominator is only the rounding noise of other rows might never pass; such rows are
  * held against the largest row instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once
  * if they are noise of noise, what one refinement makes of them, and when refinement has ended also
- * if they are plain noise.
+ * if they are plain noise. And a residual passes at once that would be nothing beside a row of
+ * rounding (eps^2): rows that rounding alone keeps from zero, such as those of a guide along an axis
+ * of the ground, cannot be met any better.
  */
 #include "linear/residual.h"
 
@@ -20,6 +22,7 @@
 static const double rounding = 100.0 * DBL_EPSILON;
 static const double noise = 1000.0 * DBL_EPSILON; /* times the number of rows */
 static const double noise_of_noise = 1e-27;
+static const double nothing = 1e-30;
 
 static void start(int n, const double *b, double *residual, double *size)
 {
@@ -133,7 +136,8 @@ static bool is_rounding(int n, const double *scale, const double *residual, cons
       largest = largest_scaled(n, scale, size);
     }
     bool is_negligible = scale[i] * size[i] <= negligible * largest;
-    if (!is_negligible || !(scale[i] * fabs(residual[i]) <= rounding * largest)) {
+    double most = is_negligible ? rounding : nothing;
+    if (!(scale[i] * fabs(residual[i]) <= most * largest)) {
       return false;
     }
   }

@@ -144,7 +144,8 @@ static bool begins(const char *text, const char *with)
 static bool may_be_nan(const char *name)
 {
   return begins(name, "velocity") || begins(name, "angular_velocity") || begins(name, "length") ||
-         begins(name, "free_length") || begins(name, "free_angle") || strcmp(name, "angle") == 0;
+         begins(name, "free_length") || begins(name, "free_angle") || begins(name, "offset") ||
+         strcmp(name, "angle") == 0;
 }
 
 static void check_not_finite(every_element *parts, const element_kind *kind)

@@ -157,6 +157,15 @@ static bool is_nothing(const char *text, const char *word, const unsigned char *
   return begins(text, word) && is_zero(bytes, size);
 }
 
+/* Most ids are none; the one that is not is the ground's. */
+static bool id_is(const char *text, const unsigned char *bytes, size_t size)
+{
+  if (begins(text, "BAUM_GROUND")) {
+    return memcmp(bytes, &BAUM_GROUND, size) == 0;
+  }
+  return is_nothing(text, "none", bytes, size);
+}
+
 static bool flag_is(const char *text, unsigned char flag)
 {
   return flag <= 1 && begins(text, flag ? "true" : "false");
@@ -170,7 +179,7 @@ static bool is_as_documented(const element_field *field, const char *text, const
   case FIELD_NAME:
   case FIELD_FUNCTION:
   case FIELD_ARRAY: return is_nothing(text, "NULL", bytes, field->size);
-  case FIELD_ID: return is_nothing(text, "none", bytes, field->size);
+  case FIELD_ID: return id_is(text, bytes, field->size);
   case FIELD_NUMBERS: return numbers_are(text, bytes, field->size);
   case FIELD_INTEGER: return integer_is(text, integer_of(bytes, field->size));
   case FIELD_GAINS: return integer_is(text, integer_of(bytes, sizeof(int32_t)));

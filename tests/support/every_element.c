@@ -15,6 +15,8 @@
 /* ---- functions of the user ---- */
 
 static const double CIRCLE_RADIUS = 0.3;
+static const double CRANK_ANGLE = 0.5;
+static const double BLOCK_ANGLE = 0.1; /* of all blocks: none is level by chance */
 
 /* The answer of a function, after which `out` is spoiled if the fault says so. */
 static int answer(void *user, double t, double *out)
@@ -121,6 +123,25 @@ static int drag_force_v(double t, const double *q, const double *v, const double
   return answer(user, t, out);
 }
 
+/* Where the bead is in the slot of the disc; it depends on no time. */
+static int lead_law(double x, double f[3], void *user)
+{
+  f[0] = 0.05 + 0.02 * sin(x - CRANK_ANGLE);
+  f[1] = 0.02 * cos(x - CRANK_ANGLE);
+  f[2] = -0.02 * sin(x - CRANK_ANGLE);
+  return answer(user, -(double)INFINITY, f);
+}
+
+/* y = 2 x^2 - 0.1; no time either. */
+static int track_curve(const double xy[2], double out[6], void *user)
+{
+  out[0] = xy[1] + 0.1 - 2.0 * xy[0] * xy[0];
+  out[1] = -4.0 * xy[0];
+  out[2] = 1.0;
+  out[3] = -4.0;
+  return answer(user, -(double)INFINITY, out);
+}
+
 /* ---- definitions ---- */
 
 #define GOOD(NAME)                                                 \
@@ -132,8 +153,6 @@ static int drag_force_v(double t, const double *q, const double *v, const double
     memcpy(to, &def, sizeof def);                                  \
   }                                                                \
   static baum_##NAME##_def NAME##_def(const every_element *parts)
-
-static const double CRANK_ANGLE = 0.5;
 
 GOOD(planar_body)
 {
@@ -303,6 +322,74 @@ GOOD(planar_torsion_spring)
   return def;
 }
 
+GOOD(planar_pin_in_slot)
+{
+  baum_planar_pin_in_slot_def def = baum_planar_pin_in_slot_def_default();
+  def.name = "slot";
+  def.body_a = parts->disc;
+  def.body_b = parts->bead;
+  def.point_a[0] = 0.1;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  def.axis[0] = 0.0;
+  def.axis[1] = 1.0;
+  return def;
+}
+
+GOOD(planar_rack_and_pinion)
+{
+  baum_planar_rack_and_pinion_def def = baum_planar_rack_and_pinion_def_default();
+  def.name = "rack";
+  def.body_a = parts->bar;
+  def.body_b = parts->disc;
+  def.point_a[0] = 0.0;
+  def.point_a[1] = 0.25;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = -0.05;
+  def.axis[0] = 0.8;
+  def.axis[1] = 0.6;
+  def.radius = -0.2;
+  return def;
+}
+
+GOOD(planar_gear)
+{
+  baum_planar_gear_def def = baum_planar_gear_def_default();
+  def.name = "teeth";
+  def.body_a = parts->crank;
+  def.body_b = parts->disc;
+  def.radius_a = 0.05;
+  def.radius_b = 0.1;
+  return def;
+}
+
+GOOD(coupling)
+{
+  baum_coupling_def def = baum_coupling_def_default();
+  def.name = "lead";
+  def.joint_a = parts->pin;
+  def.joint_b = parts->slot;
+  def.law = lead_law;
+  def.user = parts->fault;
+  return def;
+}
+
+GOOD(planar_curve)
+{
+  baum_planar_curve_def def = baum_planar_curve_def_default();
+  def.name = "track";
+  def.body_a = parts->bar;
+  def.body_b = parts->pea;
+  def.point_a[0] = 0.0;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  def.curve = track_curve;
+  def.user = parts->fault;
+  return def;
+}
+
 #if BAUM_HAVE_GSL
 
 GOOD(spline_driver)
@@ -331,7 +418,57 @@ static baum_status add_block(every_element *parts, const char *name, double x, d
   def.inertia = 2e-3;
   def.position[0] = x;
   def.position[1] = y;
+  def.angle = BLOCK_ANGLE;
   return baum_mechanism_add_planar_body(parts->mechanism, &def, id);
+}
+
+/* A particle, drawn in the axes of a block. */
+static baum_status add_bead(every_element *parts, const char *name, const double block[2],
+                            const double at[2], baum_body_id *id)
+{
+  baum_planar_particle_def def = baum_planar_particle_def_default();
+  def.name = name;
+  def.mass = 0.1;
+  def.position[0] = block[0] + cos(BLOCK_ANGLE) * at[0] - sin(BLOCK_ANGLE) * at[1];
+  def.position[1] = block[1] + sin(BLOCK_ANGLE) * at[0] + cos(BLOCK_ANGLE) * at[1];
+  return baum_mechanism_add_planar_particle(parts->mechanism, &def, id);
+}
+
+/* What hangs on the gear. */
+static baum_status add_train(every_element *parts)
+{
+  baum_planar_revolute_def axle = baum_planar_revolute_def_default();
+  baum_planar_translational_def rail = baum_planar_translational_def_default();
+  static const double disc[2] = {-0.3, 0.5};
+  static const double bar[2] = {-0.6, 0.2};
+  baum_status status = add_block(parts, "disc", disc[0], disc[1], &parts->disc);
+  if (status == BAUM_OK) {
+    status = add_block(parts, "bar", bar[0], bar[1], &parts->bar);
+  }
+  if (status == BAUM_OK) {
+    status = add_bead(parts, "bead", disc, (const double[2]){0.1, 0.05}, &parts->bead);
+  }
+  if (status == BAUM_OK) {
+    status = add_bead(parts, "pea", bar, (const double[2]){0.05, -0.095}, &parts->pea);
+  }
+  axle.name = "axle";
+  axle.body_a = BAUM_GROUND;
+  axle.body_b = parts->disc;
+  axle.point[0] = -0.3;
+  axle.point[1] = 0.45;
+  if (status == BAUM_OK) {
+    status = baum_mechanism_add_planar_revolute(parts->mechanism, &axle, &parts->axle);
+  }
+  rail.name = "rail";
+  rail.body_a = BAUM_GROUND;
+  rail.body_b = parts->bar;
+  rail.point[0] = bar[0];
+  rail.point[1] = bar[1];
+  rail.axis[0] = 0.8;
+  rail.axis[1] = 0.6;
+  return status == BAUM_OK
+           ? baum_mechanism_add_planar_translational(parts->mechanism, &rail, &parts->rail)
+           : status;
 }
 
 #if BAUM_HAVE_GSL
@@ -376,8 +513,11 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
   return status;
 }
 
-/* Kinds before the spline driver, the last. */
-enum { EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - BAUM_HAVE_GSL };
+/* Kinds before the spline driver, the last, and before the joints of the train. */
+enum {
+  EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - BAUM_HAVE_GSL,
+  EVERY_WITHOUT_TRAIN = EVERY_WITHOUT_WHEEL - 5
+};
 
 static baum_status add_all(every_element *parts)
 {
@@ -386,6 +526,9 @@ static baum_status add_all(every_element *parts)
     status = baum_mechanism_add_input(parts->mechanism, "throttle", 1.0, &parts->throttle);
   }
   for (int k = 0; k < ELEMENT_KINDS && status == BAUM_OK; k++) {
+    if (k == EVERY_WITHOUT_TRAIN) {
+      status = add_train(parts);
+    }
     if (k == EVERY_WITHOUT_WHEEL) {
       status = add_wheel(parts);
     }

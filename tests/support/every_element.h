@@ -4,10 +4,12 @@
  *
  *   crank, pinned to the ground and driven; rod; slider on a guide, tool welded to it; bob on
  *   a circle about the slider (user constraint); two masses in a row (user coordinates);
- *   spring, load, drag (user force), torsion spring; where there is GSL, a wheel on a hinge that
- *   is driven along a spline (cam).
+ *   spring, load, drag (user force), torsion spring; disc on an axle, geared with the crank; bar
+ *   on a rail, a rack on the disc; bead in a slot of the disc, where the crank's angle puts it
+ *   (coupling); pea on a curve of the bar; where there is GSL, a wheel on a hinge that is driven
+ *   along a spline (cam).
  *
- * 13 coordinates and 10 rows without the wheel, 3 freedoms; drawn in its exact start pose.
+ * 23 coordinates and 19 rows without the wheel, 4 freedoms; drawn in its exact start pose.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -36,6 +38,10 @@ typedef struct every_element {
   baum_body_id tool;
   baum_body_id bob;
   baum_body_id masses;
+  baum_body_id disc;
+  baum_body_id bar;
+  baum_body_id bead;
+  baum_body_id pea;
   baum_body_id wheel;
   baum_joint_id pin;
   baum_joint_id rod;
@@ -43,6 +49,13 @@ typedef struct every_element {
   baum_joint_id weld;
   baum_joint_id motor;
   baum_joint_id circle;
+  baum_joint_id axle;
+  baum_joint_id rail;
+  baum_joint_id slot;
+  baum_joint_id rack;
+  baum_joint_id teeth;
+  baum_joint_id lead;
+  baum_joint_id track;
   baum_joint_id hinge;
   baum_joint_id cam;
   baum_force_id spring;
@@ -55,7 +68,7 @@ typedef struct every_element {
   baum_body_id drag_bodies[1];
 } every_element;
 
-enum { EVERY_NV = 13 + 3 * BAUM_HAVE_GSL, EVERY_NC = 10 + 3 * BAUM_HAVE_GSL, EVERY_DEF_SIZE = 256 };
+enum { EVERY_NV = 23 + 3 * BAUM_HAVE_GSL, EVERY_NC = 19 + 3 * BAUM_HAVE_GSL, EVERY_DEF_SIZE = 256 };
 
 /* A definition of any kind. */
 typedef union any_def {
@@ -102,7 +115,7 @@ typedef struct element_kind {
   int field_count;
 } element_kind;
 
-enum { ELEMENT_KINDS = 13 + BAUM_HAVE_GSL };
+enum { ELEMENT_KINDS = 18 + BAUM_HAVE_GSL };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
 enum { OPTION_FIELDS = 17 };

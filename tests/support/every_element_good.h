@@ -18,6 +18,11 @@ void good_planar_spring(const every_element *parts, any_def *to);
 void good_planar_load(const every_element *parts, any_def *to);
 void good_user_force(const every_element *parts, any_def *to);
 void good_planar_torsion_spring(const every_element *parts, any_def *to);
+void good_planar_pin_in_slot(const every_element *parts, any_def *to);
+void good_planar_rack_and_pinion(const every_element *parts, any_def *to);
+void good_planar_gear(const every_element *parts, any_def *to);
+void good_coupling(const every_element *parts, any_def *to);
+void good_planar_curve(const every_element *parts, any_def *to);
 void good_spline_driver(const every_element *parts, any_def *to);
 
 #endif

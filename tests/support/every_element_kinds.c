@@ -152,6 +152,52 @@ static const element_field planar_torsion_spring_fields[] = {
   FIELD(baum_planar_torsion_spring_def, user, FUNCTION),
 };
 
+static const element_field planar_pin_in_slot_fields[] = {
+  FIELD(baum_planar_pin_in_slot_def, struct_size, SIZE),
+  FIELD(baum_planar_pin_in_slot_def, name, NAME),
+  FIELD(baum_planar_pin_in_slot_def, body_a, ID),
+  FIELD(baum_planar_pin_in_slot_def, body_b, ID),
+  FIELD(baum_planar_pin_in_slot_def, point, NUMBERS),
+  FIELD(baum_planar_pin_in_slot_def, point_a, NUMBERS),
+  FIELD(baum_planar_pin_in_slot_def, point_b, NUMBERS),
+  FIELD(baum_planar_pin_in_slot_def, axis, NUMBERS),
+};
+
+static const element_field planar_rack_and_pinion_fields[] = {
+  FIELD(baum_planar_rack_and_pinion_def, struct_size, SIZE),
+  FIELD(baum_planar_rack_and_pinion_def, name, NAME),
+  FIELD(baum_planar_rack_and_pinion_def, body_a, ID),
+  FIELD(baum_planar_rack_and_pinion_def, body_b, ID),
+  FIELD(baum_planar_rack_and_pinion_def, point, NUMBERS),
+  FIELD(baum_planar_rack_and_pinion_def, point_a, NUMBERS),
+  FIELD(baum_planar_rack_and_pinion_def, point_b, NUMBERS),
+  FIELD(baum_planar_rack_and_pinion_def, axis, NUMBERS),
+  FIELD(baum_planar_rack_and_pinion_def, radius, NUMBERS),
+  FIELD(baum_planar_rack_and_pinion_def, offset, NUMBERS),
+};
+
+static const element_field planar_gear_fields[] = {
+  FIELD(baum_planar_gear_def, struct_size, SIZE), FIELD(baum_planar_gear_def, name, NAME),
+  FIELD(baum_planar_gear_def, body_a, ID),        FIELD(baum_planar_gear_def, body_b, ID),
+  FIELD(baum_planar_gear_def, carrier, ID),       FIELD(baum_planar_gear_def, radius_a, NUMBERS),
+  FIELD(baum_planar_gear_def, radius_b, NUMBERS), FIELD(baum_planar_gear_def, offset, NUMBERS),
+};
+
+static const element_field coupling_fields[] = {
+  FIELD(baum_coupling_def, struct_size, SIZE), FIELD(baum_coupling_def, name, NAME),
+  FIELD(baum_coupling_def, joint_a, ID),       FIELD(baum_coupling_def, joint_b, ID),
+  FIELD(baum_coupling_def, ratio, NUMBERS),    FIELD(baum_coupling_def, offset, NUMBERS),
+  FIELD(baum_coupling_def, law, FUNCTION),     FIELD(baum_coupling_def, user, FUNCTION),
+};
+
+static const element_field planar_curve_fields[] = {
+  FIELD(baum_planar_curve_def, struct_size, SIZE), FIELD(baum_planar_curve_def, name, NAME),
+  FIELD(baum_planar_curve_def, body_a, ID),        FIELD(baum_planar_curve_def, body_b, ID),
+  FIELD(baum_planar_curve_def, point, NUMBERS),    FIELD(baum_planar_curve_def, point_a, NUMBERS),
+  FIELD(baum_planar_curve_def, point_b, NUMBERS),  FIELD(baum_planar_curve_def, curve, FUNCTION),
+  FIELD(baum_planar_curve_def, user, FUNCTION),
+};
+
 #if BAUM_HAVE_GSL
 
 static const element_field spline_driver_fields[] = {
@@ -232,6 +278,11 @@ KIND_FUNCTIONS(force, planar_spring)
 KIND_FUNCTIONS(force, planar_load)
 KIND_FUNCTIONS(force, user_force)
 KIND_FUNCTIONS(force, planar_torsion_spring)
+KIND_FUNCTIONS(joint, planar_pin_in_slot)
+KIND_FUNCTIONS(joint, planar_rack_and_pinion)
+KIND_FUNCTIONS(joint, planar_gear)
+KIND_FUNCTIONS(joint, coupling)
+KIND_FUNCTIONS(joint, planar_curve)
 #if BAUM_HAVE_GSL
 KIND_FUNCTIONS(joint, spline_driver)
 #endif
@@ -250,6 +301,11 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(force, planar_load, "planar load", load),
   KIND(force, user_force, "user force", drag),
   KIND(force, planar_torsion_spring, "planar torsion spring", twist),
+  KIND(joint, planar_pin_in_slot, "planar pin in a slot", slot),
+  KIND(joint, planar_rack_and_pinion, "planar rack and pinion", rack),
+  KIND(joint, planar_gear, "planar gear", teeth),
+  KIND(joint, coupling, "coupling", lead),
+  KIND(joint, planar_curve, "planar point on a curve", track),
 #if BAUM_HAVE_GSL
   KIND(joint, spline_driver, "spline driver", cam),
 #endif

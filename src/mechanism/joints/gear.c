@@ -24,8 +24,6 @@ enum { A, B, CARRIER, BODY_COUNT };
 static const baum_planar_gear_def defaults = {
   .struct_size = sizeof(baum_planar_gear_def),
   .carrier = {-1, 0}, /* BAUM_GROUND */
-  .radius_a = BAUM_I_NOT_GIVEN,
-  .radius_b = BAUM_I_NOT_GIVEN,
   .offset = BAUM_I_NOT_GIVEN,
 };
 

@@ -24,7 +24,6 @@ static const baum_planar_rack_and_pinion_def defaults = {
   .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
   .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
   .axis = {1.0, 0.0},
-  .radius = BAUM_I_NOT_GIVEN,
   .offset = BAUM_I_NOT_GIVEN,
 };
 
