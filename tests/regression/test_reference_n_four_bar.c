@@ -39,16 +39,17 @@ static void angle_and_departure(const double *q, double *out)
   }
 }
 
-/* The last sample is the flat position itself, the one before it is 0.0076 rad away. */
-static const reference NEARLY_FLAT = {.name = "four-bar N = 40",
-                                      .samples = N_FOUR_BAR_SAMPLES - 1,
-                                      .width = N_FOUR_BAR_WIDTH,
-                                      .t = N_FOUR_BAR_T,
-                                      .q = N_FOUR_BAR_Q[0],
-                                      .lengths = "rr",
-                                      .columns = angle_and_departure};
+/* The last sample is 5e-6 rad away from flat. On the flat position itself no digits can be promised:
+ * whether a step ends there is chance, and there J has lost rank to rounding. */
+static const reference TO_FLAT = {.name = "four-bar N = 40",
+                                  .samples = N_FOUR_BAR_SAMPLES,
+                                  .width = N_FOUR_BAR_WIDTH,
+                                  .t = N_FOUR_BAR_T,
+                                  .q = N_FOUR_BAR_Q[0],
+                                  .lengths = "rr",
+                                  .columns = angle_and_departure};
 
-static void adams_comes_near_the_flat_position_within_1e_8(void **state)
+static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
 {
   (void)state;
   need_sundials();
@@ -56,35 +57,14 @@ static void adams_comes_near_the_flat_position_within_1e_8(void **state)
   model_n_four_bar data = model_n_four_bar_a02(LOOPS);
   assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
   baum_simulation_options options = adams_options();
-  assert_reached(&NEARLY_FLAT, m.mechanism, &options, 1e-8);
-  model_destroy(&m);
-}
-
-/* By a step from one side to the other. Steps of tighter tolerances end where J has lost rank to
- * rounding, and lose digits there. */
-static void adams_passes_the_flat_position_within_1e_8(void **state)
-{
-  (void)state;
-  need_sundials();
-  model m;
-  model_n_four_bar data = model_n_four_bar_a02(LOOPS);
-  assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
-  reference to_flat = NEARLY_FLAT;
-  to_flat.samples = N_FOUR_BAR_SAMPLES;
-  baum_simulation_options options = adams_options();
-  options.rtol = 1e-11;
-  reference_run run = reference_compare(&to_flat, m.mechanism, &options);
-  printf("\nup to flat: cvode_adams, rtol 1e-11: error %.2e, steps %lld %s\n", run.error,
-         (long long)run.counters.steps, run.message);
-  assert_true(run.error <= 1e-8);
+  assert_reached(&TO_FLAT, m.mechanism, &options, 1e-8);
   model_destroy(&m);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(adams_comes_near_the_flat_position_within_1e_8),
-    cmocka_unit_test(adams_passes_the_flat_position_within_1e_8),
+    cmocka_unit_test(adams_reaches_the_first_flat_position_within_1e_8),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
