@@ -108,8 +108,8 @@ BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, doub
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
 
-/** Force and moment of a joint on its body_b: see planar.h. For a user constraint: -J^T lambda over
- *  its bodies.
+/** Force and moment of a joint on its body_b: see planar.h. For others, such as user constraints,
+ *  gears and couplings: -J^T lambda over its bodies.
  *  @param[in]  lambda    (nc)
  *  @param[out] reaction  (width) as the channel BAUM_JOINT_REACTION, 3 for planar joints
  */

@@ -210,13 +210,13 @@ BAUM_API baum_status baum_mechanism_set_user_constraint(baum_mechanism *mechanis
 /* ---- drivers --------------------------------------------------------------------------------- */
 
 /** One row that prescribes a joint's coordinate: coordinate(q) - s(t) = 0. The coordinate of a
- *  revolute joint is angle_b - angle_a, continuous over turns; that of a translational joint the
- *  displacement of body_b's point from body_a's along the axis.
+ *  revolute joint is angle_b - angle_a, continuous over turns; that of a translational joint and of
+ *  a pin in a slot the displacement of body_b's point from body_a's along the axis.
  *  s(t) = value + rate t + acceleration t^2 / 2, or a user law. */
 typedef struct baum_driver_def {
   size_t struct_size;  /**< Set by the default. Do not write. */
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
-  baum_joint_id joint; /**< Revolute or translational. Default: none, must be set. */
+  baum_joint_id joint; /**< With a coordinate. Default: none, must be set. */
   double value;        /**< [rad or m] s at t = 0. Default: 0. */
   double rate;         /**< [rad/s or m/s] s' at t = 0. Default: 0. */
   double acceleration; /**< [rad/s^2 or m/s^2] s'', constant. Default: 0. */

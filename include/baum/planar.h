@@ -14,6 +14,8 @@
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, ground axes, about the joint's point
  *  on body_b.
+ *
+ *  More joints are in planar_joints.h.
  */
 #ifndef BAUM_PLANAR_H
 #define BAUM_PLANAR_H

@@ -257,7 +257,8 @@ typedef enum baum_quantity {
   BAUM_ENERGY = 7,    /**< Kinetic and potential energy [J] (2). */
   BAUM_BODY_POSE = 8, /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
   BAUM_BODY_VELOCITY = 9,      /**< Likewise velocities. */
-  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3); user constraint: -J^T lambda. */
+  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3); of others, such as user
+                                    constraints, gears and couplings, -J^T lambda. */
   BAUM_JOINT_COORDINATE = 11,  /**< Coordinate and rate of a joint that has one (2). */
   BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_POSE: x'', y'' and angular acceleration. */
   BAUM_DRIVE_EFFORT = 13       /**< Effort of the driver `joint` (1). */
