@@ -24,6 +24,26 @@ endif()
 check_c_compiler_flag(-ffp-contract=off BAUM_KNOWS_fp_contract)
 check_linker_flag(C LINKER:--as-needed BAUM_KNOWS_as_needed)
 
+# Hot files (src/base/hot.h): vectorized, and free of what errno and traps would cost; twice where the
+# compiler knows wide vectors.
+set(BAUM_HOT_OPTIONS "")
+foreach(flag -O3 -fno-math-errno -fno-trapping-math)
+  string(MAKE_C_IDENTIFIER "BAUM_KNOWS${flag}" known)
+  check_c_compiler_flag(${flag} ${known})
+  if(${known})
+    list(APPEND BAUM_HOT_OPTIONS ${flag})
+  endif()
+endforeach()
+if(CMAKE_BUILD_TYPE STREQUAL "Debug" OR BAUM_SANITIZE)
+  list(REMOVE_ITEM BAUM_HOT_OPTIONS -O3)
+endif()
+set(BAUM_WIDE OFF)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  check_c_compiler_flag("-mavx2 -mfma -ffp-contract=fast" BAUM_KNOWS_wide)
+  set(BAUM_WIDE ${BAUM_KNOWS_wide})
+  set(BAUM_WIDE_OPTIONS ${BAUM_HOT_OPTIONS} -mavx2 -mfma -ffp-contract=fast)
+endif()
+
 check_linker_flag(C LINKER:-z,defs BAUM_KNOWS_z_defs)
 
 # A symbol that nobody defines is found here and not by the first user; sanitizers leave theirs open.

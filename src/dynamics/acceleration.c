@@ -15,7 +15,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "dynamics/dynamics.h"
+#include "dynamics/block_path.h"
 
 /* Without a solution the largest right side is all there is to name a joint by: a hint, no
  * proof. */
@@ -63,8 +63,9 @@ static baum_status solve(baum_workspace *w)
   return translate(w, status);
 }
 
-baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,
-                                double alpha, double beta)
+/* By the solver of the whole system. */
+static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
+                              double alpha, double beta)
 {
   baum_status status = baum_i_velocity_stage(w, t, q, v);
   if (status != BAUM_OK) {
@@ -74,6 +75,19 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
     w->rhs[i] = w->gamma[i] - 2.0 * alpha * w->phi_rate[i] - beta * beta * w->phi[i];
   }
   return solve(w);
+}
+
+baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,
+                                double alpha, double beta)
+{
+  if (w->path) {
+    baum_status status = baum_i_block_path_solve(w, t, q, v, alpha, beta);
+    if (status != BAUM_ERR_SINGULAR) {
+      w->evaluations += status == BAUM_OK ? 1 : 0;
+      return status;
+    }
+  }
+  return accelerate(w, t, q, v, alpha, beta);
 }
 
 static void make_multipliers_least(baum_workspace *w)
@@ -97,12 +111,17 @@ static void make_multipliers_least(baum_workspace *w)
 baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const double *q,
                                          const double *v)
 {
-  baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
-  if (status == BAUM_OK && w->redundancy.count > 0) {
+  /* The null space of J^T needs the whole system. */
+  if (w->redundancy.count == 0) {
+    baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
+    return status == BAUM_OK ? baum_i_need_jacobian(w) : status;
+  }
+  baum_status status = accelerate(w, t, q, v, 0.0, 0.0);
+  if (status == BAUM_OK) {
     status = translate(w, baum_i_find_combinations(w));
-    if (status == BAUM_OK) {
-      make_multipliers_least(w);
-    }
+  }
+  if (status == BAUM_OK) {
+    make_multipliers_least(w);
   }
   return status;
 }

@@ -30,13 +30,18 @@ typedef struct baum_i_redundancy {
   double *row_scale; /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
 } baum_i_redundancy;
 
+typedef struct baum_i_block_path baum_i_block_path;
+
 struct baum_workspace {
   const baum_mechanism *mechanism;
   baum_i_point point;
   baum_i_kkt_structure structure;
   baum_i_kkt *kkt;
+  baum_i_kkt_choice choice;
+  baum_i_block_path *path; /* NULL: every solution is kkt's */
   baum_i_redundancy redundancy;
-  bool mass_ready; /* a constant M has been evaluated */
+  bool mass_ready;     /* a constant M has been evaluated */
+  bool jacobian_ready; /* the last evaluation has set all blocks of J */
 
   double *mass;     /* block values */
   double *jacobian; /* block values */
@@ -71,6 +76,13 @@ struct baum_workspace {
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,
                                     baum_workspace **out);
 
+/* Once the redundancy is known: accelerations by blocks from now on, where these suit. Also
+ * BAUM_ERR_MEMORY. */
+baum_status baum_i_use_blocks(baum_workspace *workspace);
+
+/* What solvers have done for accelerations, projection and assembly. */
+baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
+
 /* ---- stages.c, acceleration.c ---- */
 
 baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);
@@ -82,11 +94,13 @@ baum_status baum_i_evaluate_mass(baum_workspace *workspace);
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be
- * negative (backward in time). Also BAUM_ERR_SINGULAR (the sentence names a joint),
+ * negative (backward in time). J is there only after baum_i_need_jacobian(). Also BAUM_ERR_SINGULAR (the sentence names a joint),
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* As reported: (5), multipliers of least norm where they are not unique. */
+/* Blocks of J at the point of the last evaluation, where that did without. */
+baum_status baum_i_need_jacobian(baum_workspace *workspace);
+/* As reported: (5), multipliers of least norm where they are not unique; J is there. */
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 

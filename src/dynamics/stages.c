@@ -21,11 +21,22 @@ static void evaluate_rate(baum_workspace *w, const double *v)
   baum_i_jacobian_times(&w->structure, w->jacobian, v, w->phi_rate);
 }
 
+baum_status baum_i_need_jacobian(baum_workspace *w)
+{
+  if (w->jacobian_ready) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_mechanism_jacobian(&w->point, w->jacobian);
+  w->jacobian_ready = status == BAUM_OK;
+  return status;
+}
+
 baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
 {
   baum_i_point_set(&w->point, t, q, NULL);
   const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu};
   baum_status status = baum_i_mechanism_rows(&w->point, &rows);
+  w->jacobian_ready = status == BAUM_OK;
   return status == BAUM_OK ? baum_i_evaluate_mass(w) : status;
 }
 
@@ -36,6 +47,7 @@ static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, c
   baum_i_point_set(&w->point, t, q, v);
   const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = gamma};
   baum_status status = baum_i_mechanism_rows(&w->point, &rows);
+  w->jacobian_ready = status == BAUM_OK;
   if (status == BAUM_OK) {
     evaluate_rate(w, v);
   }

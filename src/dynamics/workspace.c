@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "dynamics/dynamics.h"
+#include "dynamics/block_path.h"
 
 /* One array of the workspace; the list below is the one place that knows them. */
 typedef struct array {
@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 25 };
+enum { ARRAY_COUNT = 24 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -42,7 +42,6 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->jtl_q, m->joint_square_size},
     {&w->force_q, m->force_square_size},
     {&w->force_v, m->force_square_size},
-    {&w->point.scratch, m->scratch_size},
     {&w->inputs, m->input_count},
   };
   memcpy(list, all, sizeof all);
@@ -58,11 +57,9 @@ static baum_status make_arrays(baum_workspace *w)
       return baum_i_fail_memory();
     }
   }
-  w->point.frames = baum_i_alloc((size_t)w->mechanism->body_count + 1, sizeof *w->point.frames);
   w->redundancy.dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
   w->redundancy.row_scale = baum_i_alloc((size_t)w->mechanism->nc, sizeof(double));
-  return w->point.frames && w->redundancy.dropped && w->redundancy.row_scale ? BAUM_OK
-                                                                             : baum_i_fail_memory();
+  return w->redundancy.dropped && w->redundancy.row_scale ? BAUM_OK : baum_i_fail_memory();
 }
 
 static baum_status make_structure(baum_workspace *w)
@@ -105,9 +102,11 @@ static void hold_inputs(baum_workspace *w)
 
 static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
 {
-  w->point.mechanism = w->mechanism;
-  w->point.parameters = w->mechanism->parameters;
-  baum_status status = make_arrays(w);
+  w->choice = choice;
+  baum_status status = baum_i_point_create(w->mechanism, &w->point);
+  if (status == BAUM_OK) {
+    status = make_arrays(w);
+  }
   if (status == BAUM_OK) {
     hold_inputs(w);
     status = make_structure(w);
@@ -136,6 +135,30 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
   return BAUM_OK;
 }
 
+baum_status baum_i_use_blocks(baum_workspace *w)
+{
+  baum_i_block_path_destroy(w->path);
+  w->path = NULL;
+  bool wanted = w->choice == BAUM_I_KKT_AUTO && w->mechanism->nc > 0;
+  if (!wanted) {
+    return BAUM_OK;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_status status = baum_i_block_path_create(w, &w->path);
+  return status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
+}
+
+baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
+{
+  baum_i_kkt_counters sum = baum_i_kkt_get_counters(w->kkt);
+  if (w->path) {
+    sum.factorizations += w->path->factorizations;
+    sum.refinements += w->path->refinements;
+  }
+  return sum;
+}
+
 void baum_workspace_destroy(baum_workspace *workspace)
 {
   if (!workspace) {
@@ -146,7 +169,8 @@ void baum_workspace_destroy(baum_workspace *workspace)
   for (int i = 0; i < ARRAY_COUNT; i++) {
     baum_i_free(*list[i].place);
   }
-  baum_i_free(workspace->point.frames);
+  baum_i_point_release(&workspace->point);
+  baum_i_block_path_destroy(workspace->path);
   baum_i_free(workspace->redundancy.dropped);
   baum_i_free(workspace->redundancy.row_scale);
   baum_i_free(workspace->redundancy.combination);

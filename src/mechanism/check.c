@@ -24,6 +24,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/golden.h"
 #include "base/message.h"
 
 static const double tolerance = 1e-6;
@@ -230,31 +231,25 @@ typedef struct place {
 
 static void release_place(place *p)
 {
-  baum_i_free(p->point.frames);
-  baum_i_free(p->point.scratch);
+  baum_i_point_release(&p->point);
   baum_i_free(p->q);
   baum_i_free(p->v);
 }
 
 static baum_status make_place(const baum_mechanism *mechanism, place *p)
 {
-  *p = (place){.point = {.mechanism = mechanism,
-                         .parameters = mechanism->parameters,
-                         .inputs = baum_i_initial_inputs(mechanism)}};
-  p->point.frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
-  p->point.scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof(double));
+  *p = (place){.q = NULL};
+  baum_status status = baum_i_point_create(mechanism, &p->point);
   p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));
   p->v = baum_i_alloc((size_t)mechanism->nv, sizeof(double));
-  return p->point.frames && p->point.scratch && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
+  return status == BAUM_OK && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* A number in (-1, 1) away from 0, the same in every run:
- * steps of the golden ratio fill the interval evenly. */
+/* A number in (-1, 1) away from 0. */
 static double spread(int k)
 {
-  double turns = 0.6180339887498949 * k;
-  double fraction = turns - floor(turns);
-  return k % 2 == 0 ? 0.2 + 0.8 * fraction : -0.2 - 0.8 * fraction;
+  double size = 0.6 + 0.4 * baum_i_golden(k);
+  return k % 2 == 0 ? size : -size;
 }
 
 enum { POSE_COUNT = 4 };

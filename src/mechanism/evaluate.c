@@ -3,7 +3,10 @@
 #include <math.h>
 #include <string.h>
 
-#include "mechanism/mechanism.h"
+#include "base/alloc.h"
+#include "base/hot.h"
+#include "base/message.h"
+#include "mechanism/frames.h"
 
 /* ---- frames ---- */
 
@@ -26,18 +29,38 @@ baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const doub
   return frame;
 }
 
+baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point)
+{
+  *point = (baum_i_point){.mechanism = mechanism,
+                          .parameters = mechanism->parameters,
+                          .inputs = baum_i_initial_inputs(mechanism),
+                          .kernel = BAUM_I_HOT_TABLE(baum_i_frames_kernel)};
+  point->frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->frames);
+  point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
+  point->turn = baum_i_alloc(3 * (size_t)baum_i_turn_size(mechanism), sizeof *point->turn);
+  if (!point->frames || !point->scratch || !point->turn) {
+    return baum_i_fail_memory();
+  }
+  for (int i = 0; i <= mechanism->body_count; i++) {
+    point->frames[i].c = 1.0;
+  }
+  return BAUM_OK;
+}
+
+void baum_i_point_release(baum_i_point *point)
+{
+  baum_i_free(point->frames);
+  baum_i_free(point->scratch);
+  baum_i_free(point->turn);
+}
+
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
-  const baum_mechanism *mechanism = point->mechanism;
   point->t = t;
   point->q = q;
   point->v = v;
   point->retry = false;
-  point->frames[0] = baum_i_frame_at(BAUM_I_FRAME_GROUND, NULL, NULL);
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    const baum_i_body *body = mechanism->bodies[i];
-    point->frames[i] = baum_i_frame_at(body->type->frame, q + body->q, v ? v + body->v : NULL);
-  }
+  point->kernel->set(point->mechanism, q, v, point->frames, point->turn);
 }
 
 /* ---- joints ---- */

@@ -52,6 +52,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->drawn_v);
   baum_i_free(mechanism->held);
   baum_i_free(mechanism->scale);
+  baum_i_free(mechanism->places);
   mechanism->body_groups = NULL;
   mechanism->joint_groups = NULL;
   mechanism->force_groups = NULL;
@@ -63,6 +64,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   mechanism->drawn_v = NULL;
   mechanism->held = NULL;
   mechanism->scale = NULL;
+  mechanism->places = NULL;
   mechanism->frozen = false;
 }
 
@@ -352,8 +354,9 @@ static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
   mechanism->drawn_v = baum_i_alloc(nv, sizeof(double));
   mechanism->held = baum_i_alloc(nv, sizeof(bool));
   mechanism->scale = baum_i_alloc(nv, sizeof(double));
+  mechanism->places = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof(baum_i_body_place));
   bool complete = mechanism->parameters && mechanism->drawn_q && mechanism->drawn_v &&
-                  mechanism->held && mechanism->scale;
+                  mechanism->held && mechanism->scale && mechanism->places;
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
@@ -367,6 +370,7 @@ static void draw_bodies(baum_mechanism *mechanism)
     if (body->type->lower) {
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
+    mechanism->places[i] = (baum_i_body_place){.q = body->q, .kind = body->type->frame};
     body->type->drawn(body->element.def, mechanism->drawn_q + body->q, mechanism->drawn_v + body->v,
                       &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);

@@ -124,13 +124,22 @@ typedef struct baum_i_force_group {
 
 /* ---- a point in state space ---- */
 
-/* Place of a body's axes: every planar element reads this instead of q. */
+/* Place of a body's axes: every planar element reads this instead of q. One cache line. */
 typedef struct baum_i_frame {
-  double x, y;      /* origin */
-  double c, s;      /* cos, sin of the angle */
-  double angle;     /* continuous */
-  double vx, vy, w; /* velocities; zero at position level */
+  double x, y;   /* origin */
+  double vx, vy; /* velocities; zero at position level */
+  double c, s;   /* cos, sin of the angle */
+  double w;      /* angular velocity; zero at position level */
+  double angle;  /* continuous */
 } baum_i_frame;
+
+/* Where a body's frame comes from. */
+typedef struct baum_i_body_place {
+  int32_t q;    /* first position */
+  int32_t kind; /* baum_i_frame_kind */
+} baum_i_body_place;
+
+typedef struct baum_i_frames_kernel baum_i_frames_kernel;
 
 /* Frame of a body at its q, and its v or NULL for rest; those without a place are at the origin. */
 baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v);
@@ -143,10 +152,17 @@ typedef struct baum_i_point {
   const double *q;
   const double *v;      /* NULL at position level */
   baum_i_frame *frames; /* (body_count + 1), ground first */
+  double *turn;         /* room for sines and cosines, see frames.h */
+  const baum_i_frames_kernel *kernel;
   const double *inputs; /* (input_count) present values; NULL while there are none */
   double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
   bool retry;           /* set when the last failure may vanish with a smaller step */
 } baum_i_point;
+
+/* Memory of a point, with the mechanism's own numbers and initial inputs. BAUM_OK or
+ * BAUM_ERR_MEMORY; then, too, what there is has to be released. */
+baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
+void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
 /* Set t, q (and v, may be NULL) and the frames. q and v are referred to, not copied. */
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v);
@@ -191,6 +207,7 @@ struct baum_i_body_type {
   baum_i_frame_kind frame;
   int parameter_count;
   bool scleronomic;             /* mass and force of the type never depend on t */
+  bool constant_force;          /* force of the type depends on parameters only */
   int (*size)(const void *def); /* nv */
   bool (*constant_mass)(const void *def);
   /* Numbers of this body; NULL: none. */
@@ -308,7 +325,8 @@ struct baum_mechanism {
   int scratch_size;
   int parameter_count;
   bool constant_mass;
-  double length; /* scale L */
+  double length;             /* scale L */
+  baum_i_body_place *places; /* (body_count + 1) */
   double *parameters;
   double *drawn_q; /* (nq) */
   double *drawn_v; /* (nv) NaN where free */

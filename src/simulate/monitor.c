@@ -110,11 +110,21 @@ static void observe_singular(baum_simulation *run, double t)
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double OF_ROOT = 10.0;
 
+/* A function of the user that has just answered may fail now; then it will soon be reported. */
+static bool has_jacobian(baum_workspace *w)
+{
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_status status = baum_i_need_jacobian(w);
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  return status == BAUM_OK;
+}
+
 static void observe_redundant(baum_simulation *run, double t)
 {
-  const baum_workspace *w = run->workspace;
+  baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
-  if (w->redundancy.count == 0 || run->redundant_seen) {
+  if (w->redundancy.count == 0 || run->redundant_seen || !has_jacobian(w)) {
     return;
   }
   double *distance = w->work_c;
@@ -150,12 +160,15 @@ static const double LARGE = 0.05;
 /* Judged anew only when the largest violation has doubled, for it costs a pass over J. */
 static void observe_large(baum_simulation *run, double t)
 {
-  const baum_workspace *w = run->workspace;
+  baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
   if (run->large_seen || run->counters.max_phi <= 2.0 * run->judged_phi) {
     return;
   }
   run->judged_phi = run->counters.max_phi;
+  if (!has_jacobian(w)) {
+    return;
+  }
   double *distance = w->work_c;
   baum_i_row_displacements(w, distance);
   for (int i = 0; i < m->nc && !run->large_seen; i++) {
@@ -190,7 +203,7 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 static void count_work(baum_simulation *run, baum_counters *c)
 {
-  baum_i_kkt_counters kkt = baum_i_kkt_get_counters(run->workspace->kkt);
+  baum_i_kkt_counters kkt = baum_i_workspace_work(run->workspace);
   baum_i_statistics statistics = {0};
   if (run->integrator->statistics && run->self) {
     run->integrator->statistics(run->self, &statistics);

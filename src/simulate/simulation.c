@@ -183,6 +183,9 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
     status = baum_i_find_redundancy(run->workspace, run->trial.t, run->trial.q);
   }
   if (status == BAUM_OK) {
+    status = baum_i_use_blocks(run->workspace);
+  }
+  if (status == BAUM_OK) {
     status = choose_problem(run);
   }
   if (status == BAUM_OK && run->integrator->create) {

@@ -3,7 +3,6 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -18,21 +17,14 @@ void test_point_open(test_point *p, baum_mechanism *mechanism)
   p->nv = mechanism->nv;
   p->nc = mechanism->nc;
   assert_true(p->nv <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
-  p->point.mechanism = mechanism;
-  p->point.parameters = mechanism->parameters;
-  p->point.inputs = baum_i_initial_inputs(mechanism);
-  p->point.frames = calloc((size_t)mechanism->body_count + 1, sizeof *p->point.frames);
-  p->point.scratch = calloc((size_t)mechanism->scratch_size + 1, sizeof(double));
-  assert_non_null(p->point.frames);
-  assert_non_null(p->point.scratch);
+  assert_int_equal(baum_i_point_create(mechanism, &p->point), BAUM_OK);
   memcpy(p->q, mechanism->drawn_q, (size_t)p->nv * sizeof(double));
   test_point_update(p);
 }
 
 void test_point_close(test_point *p)
 {
-  free(p->point.frames);
-  free(p->point.scratch);
+  baum_i_point_release(&p->point);
   baum_mechanism_destroy(p->mechanism);
 }
 

@@ -98,6 +98,7 @@ static const baum_i_body_type type = {
   .frame = BAUM_I_FRAME_PARTICLE,
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
+  .constant_force = true,
   .size = size,
   .constant_mass = constant_mass,
   .lower = lower,

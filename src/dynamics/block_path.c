@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Accelerations by blocks; see block_path.h. */
+#include "dynamics/block_path.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/hot.h"
+#include "base/message.h"
+
+/* Rounding grows along chains while no pivot becomes small; above this many nodes the residual is
+ * looked at in every evaluation. */
+enum { FEW_NODES = 128, MOST_REFINEMENTS = 3 };
+
+/* Changes of the multipliers by a refinement: nothing more to gain; still a solution. */
+static const double SETTLED = 0x1p-48;
+static const double SETTLING = 1e-9;
+
+/* ---- create ---- */
+
+static bool is_diagonal(const baum_i_body *body)
+{
+  return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
+}
+
+/* What the solver asks about bodies and joints. */
+typedef struct traits {
+  baum_i_block_pin *pins;
+  unsigned char *diagonal;
+} traits;
+
+static void find_traits(const baum_mechanism *m, traits *out)
+{
+  for (int i = 0; i < m->body_count; i++) {
+    out->diagonal[i] = is_diagonal(m->bodies[i + 1]) ? 1 : 0;
+  }
+  for (int i = 0; i < m->joint_count; i++) {
+    const baum_i_joint *joint = m->joints[i];
+    if (joint->type->is_pin) {
+      out->pins[i] = (baum_i_block_pin){
+        .is_pin = true, .body_a = joint->span.bodies[0] - 1, .body_b = joint->span.bodies[1] - 1};
+    }
+  }
+}
+
+static baum_status make_block(const baum_workspace *w, baum_i_block_path *path)
+{
+  const baum_mechanism *m = w->mechanism;
+  traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
+              .diagonal = baum_i_alloc((size_t)m->body_count, 1)};
+  baum_status status = BAUM_ERR_MEMORY;
+  if (t.pins && t.diagonal) {
+    find_traits(m, &t);
+    const baum_i_block_layout layout = {.structure = &w->structure,
+                                        .pins = t.pins,
+                                        .diagonal = t.diagonal,
+                                        .dropped =
+                                          w->redundancy.count > 0 ? w->redundancy.dropped : NULL};
+    status = baum_i_block_create(&layout, &path->block);
+  }
+  baum_i_free(t.pins);
+  baum_i_free(t.diagonal);
+  return status;
+}
+
+/* Points of the pins in the solver's order; marks their first rows. */
+static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
+                                unsigned char *is_pin_row)
+{
+  const baum_i_block *block = path->block;
+  path->points = baum_i_alloc(4 * (size_t)block->pin_count, sizeof *path->points);
+  if (!path->points) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int i = 0; i < block->pin_count; i++) {
+    int joint = baum_i_row_joint(w->mechanism, block->pins[i].row);
+    is_pin_row[block->pins[i].row] = 1;
+    const double *points = w->point.parameters + w->mechanism->joints[joint]->element.parameter;
+    memcpy(path->points + 4 * (size_t)i, points, 4 * sizeof *points);
+  }
+  return BAUM_OK;
+}
+
+/* The groups of the mechanism without the pins of the block. */
+static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_pin_row,
+                               baum_i_block_path *path)
+{
+  path->groups = baum_i_alloc((size_t)m->joint_group_count, sizeof *path->groups);
+  path->joints = baum_i_alloc((size_t)m->joint_count, sizeof(baum_i_joint *));
+  if (!path->groups || !path->joints) {
+    return BAUM_ERR_MEMORY;
+  }
+  const baum_i_joint **next = path->joints;
+  for (int k = 0; k < m->joint_group_count; k++) {
+    const baum_i_joint_group *all = &m->joint_groups[k];
+    baum_i_joint_group *group = &path->groups[path->group_count];
+    *group = (baum_i_joint_group){.type = all->type, .joints = next};
+    for (int i = 0; i < all->count; i++) {
+      if (!is_pin_row[all->joints[i]->row]) {
+        next[group->count++] = all->joints[i];
+      }
+    }
+    next += group->count;
+    path->group_count += group->count > 0 ? 1 : 0;
+  }
+  return BAUM_OK;
+}
+
+static baum_status arrange_joints(const baum_workspace *w, baum_i_block_path *path)
+{
+  unsigned char *is_pin_row = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  baum_status status = is_pin_row ? place_points(w, path, is_pin_row) : BAUM_ERR_MEMORY;
+  if (status == BAUM_OK) {
+    status = make_groups(w->mechanism, is_pin_row, path);
+  }
+  baum_i_free(is_pin_row);
+  return status;
+}
+
+/* Forces of bodies, either those that depend on nothing or all others, added to `force`. */
+static baum_status add_body_forces(baum_workspace *w, bool constant, double *force)
+{
+  const baum_mechanism *m = w->mechanism;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < m->body_group_count && status == BAUM_OK; k++) {
+    const baum_i_body_group *group = &m->body_groups[k];
+    if (group->type->constant_force == constant) {
+      status = group->type->force(group, &w->point, force);
+    }
+  }
+  return status;
+}
+
+static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
+{
+  const baum_mechanism *m = w->mechanism;
+  path->constant_force = baum_i_alloc((size_t)m->nv, sizeof *path->constant_force);
+  if (!path->constant_force) {
+    return BAUM_ERR_MEMORY;
+  }
+  path->force_is_constant = m->force_count == 0;
+  for (int k = 0; k < m->body_group_count; k++) {
+    path->force_is_constant = path->force_is_constant && m->body_groups[k].type->constant_force;
+  }
+  baum_status status = add_body_forces(w, true, path->constant_force);
+  if (status == BAUM_OK && path->force_is_constant) {
+    memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
+    baum_i_block_set_force(path->block, w->force);
+  }
+  return status;
+}
+
+/* Masses that do not change are inverted here. BAUM_ERR_SINGULAR where M is not positive. */
+static baum_status prepare_masses(baum_workspace *w, baum_i_block_path *path)
+{
+  path->mass_is_constant = w->mechanism->constant_mass;
+  baum_i_point_set(&w->point, 0.0, w->mechanism->drawn_q, NULL);
+  baum_status status = baum_i_evaluate_mass(w);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  bool positive = baum_i_block_set_mass(path->block, w->mass);
+  if (path->mass_is_constant) {
+    positive = positive && baum_i_block_factor_dense(path->block, w->mass);
+  }
+  return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
+}
+
+static baum_status fill(baum_workspace *w, baum_i_block_path *path)
+{
+  baum_status status = make_block(w, path);
+  if (status == BAUM_OK) {
+    status = arrange_joints(w, path);
+  }
+  if (status == BAUM_OK) {
+    status = prepare_masses(w, path);
+  }
+  if (status == BAUM_OK) {
+    status = prepare_forces(w, path);
+  }
+  path->always_check = path->block && path->block->node_count > FEW_NODES;
+  return status;
+}
+
+baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_path **out)
+{
+  *out = NULL;
+  baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
+  if (!path) {
+    return baum_i_fail_memory();
+  }
+  path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
+  baum_status status = fill(w, path);
+  if (status != BAUM_OK) {
+    baum_i_block_path_destroy(path);
+    if (status == BAUM_ERR_MEMORY) {
+      return baum_i_fail_memory();
+    }
+    return status == BAUM_ERR_SINGULAR ? BAUM_OK : status;
+  }
+  *out = path;
+  return BAUM_OK;
+}
+
+void baum_i_block_path_destroy(baum_i_block_path *path)
+{
+  if (!path) {
+    return;
+  }
+  baum_i_block_destroy(path->block);
+  baum_i_free(path->points);
+  baum_i_free(path->groups);
+  baum_i_free(path->joints);
+  baum_i_free(path->constant_force);
+  baum_i_free(path);
+}
+
+/* ---- solve ---- */
+
+/* Phi' = J v - nu (3) of joints that are not pins. */
+static void set_rates(baum_workspace *w, const baum_i_joint_group *group, const double *v)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_joint *joint = group->joints[i];
+    const double *value = w->jacobian + joint->jacobian;
+    for (int r = joint->row; r < joint->row + joint->rows; r++) {
+      double sum = -w->nu[r];
+      for (int c = 0; c < joint->span.nl; c++) {
+        sum += *value++ * v[joint->span.columns[c]];
+      }
+      w->phi_rate[r] = sum;
+    }
+  }
+}
+
+static baum_status evaluate_joints(baum_workspace *w, const double *v)
+{
+  const baum_i_block_path *path = w->path;
+  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = w->gamma};
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < path->group_count && status == BAUM_OK; k++) {
+    const baum_i_joint_group *group = &path->groups[k];
+    status = group->type->evaluate(group, &w->point, &rows);
+    if (status == BAUM_OK) {
+      set_rates(w, group, v);
+    }
+  }
+  return status;
+}
+
+static baum_status evaluate_forces(baum_workspace *w)
+{
+  const baum_i_block_path *path = w->path;
+  const baum_mechanism *m = w->mechanism;
+  if (path->force_is_constant) {
+    return BAUM_OK;
+  }
+  memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
+  baum_status status = add_body_forces(w, false, w->force);
+  for (int k = 0; k < m->force_group_count && status == BAUM_OK; k++) {
+    const baum_i_force_group *group = &m->force_groups[k];
+    status = group->type->force(group, &w->point, w->force);
+  }
+  if (status == BAUM_OK) {
+    baum_i_block_set_force(path->block, w->force);
+  }
+  return status;
+}
+
+static baum_status evaluate_masses(baum_workspace *w)
+{
+  if (w->path->mass_is_constant) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_evaluate_mass(w);
+  if (status == BAUM_OK && !baum_i_block_factor_dense(w->path->block, w->mass)) {
+    return BAUM_ERR_SINGULAR;
+  }
+  return status;
+}
+
+/* r of the nodes that are not pins. */
+static void set_right(const baum_workspace *w, double alpha, double beta)
+{
+  baum_i_block *block = w->path->block;
+  for (int i = 0; i < block->full_count; i++) {
+    const baum_i_full_node *full = &block->fulls[i];
+    for (int k = 0; k < 2; k++) {
+      int32_t r = full->row[k];
+      if (r >= 0) {
+        block->right[2 * (size_t)full->node + (size_t)k] =
+          w->gamma[r] - 2.0 * alpha * w->phi_rate[r] - beta * beta * w->phi[r];
+      }
+    }
+  }
+}
+
+static void set_nodes(baum_workspace *w, double alpha, double beta)
+{
+  const baum_i_block_path *path = w->path;
+  const baum_i_pins pins = {.points = path->points,
+                            .frames = w->point.frames,
+                            .damping = 2.0 * alpha,
+                            .stiffness = beta * beta,
+                            .phi = w->phi,
+                            .phi_rate = w->phi_rate,
+                            .gamma = w->gamma};
+  baum_i_pins_set(path->block, &pins);
+  set_right(w, alpha, beta);
+  path->kernel->set_full(path->block, w->jacobian);
+}
+
+/* Pivots that are not bad let every refinement gain six digits at least. What weak ones lose a
+ * residual at rounding level need not show: close to a singular pose J a is right and the multipliers
+ * are not. So weak pivots are refined in any case, good ones where the residual asks for it. */
+static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
+{
+  bool done = path->kernel->check(path->block) && pivots == BAUM_I_PIVOTS_GOOD;
+  double change = 0.0;
+  for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
+    path->refinements++;
+    baum_i_block_find_residual(path->block);
+    change = path->kernel->correct(path->block);
+    done = path->kernel->check(path->block) || change <= SETTLED;
+  }
+  return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
+}
+
+static baum_status solve(baum_i_block_path *path)
+{
+  const baum_i_block_kernel *kernel = path->kernel;
+  baum_i_block *block = path->block;
+  kernel->couple(block);
+  path->factorizations++;
+  baum_i_pivots pivots = kernel->eliminate(block);
+  if (pivots == BAUM_I_PIVOTS_BAD) {
+    return BAUM_ERR_SINGULAR;
+  }
+  kernel->substitute(block);
+  bool look = pivots != BAUM_I_PIVOTS_GOOD || path->always_check;
+  return look ? refine(path, pivots) : BAUM_OK;
+}
+
+static void get_multipliers(const baum_i_block *block, double *lambda)
+{
+  for (int i = 0; i < block->pin_count; i++) {
+    const baum_i_pin_node *pin = &block->pins[i];
+    memcpy(lambda + pin->row, block->lambda + 2 * (size_t)pin->node, 2 * sizeof *lambda);
+  }
+  for (int i = 0; i < block->full_count; i++) {
+    const baum_i_full_node *full = &block->fulls[i];
+    for (int k = 0; k < 2; k++) {
+      if (full->row[k] >= 0) {
+        lambda[full->row[k]] = block->lambda[2 * (size_t)full->node + (size_t)k];
+      }
+    }
+  }
+}
+
+static void clear_dropped(baum_workspace *w)
+{
+  for (int i = 0; w->redundancy.count > 0 && i < w->mechanism->nc; i++) {
+    w->lambda[i] = w->redundancy.dropped[i] ? 0.0 : w->lambda[i];
+  }
+}
+
+static bool is_finite(const double *x, int count)
+{
+  /* A sum of zeros, or NaN. */
+  double sum = 0.0;
+  for (int i = 0; i < count; i++) {
+    sum += 0.0 * x[i];
+  }
+  return sum == 0.0;
+}
+
+baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q, const double *v,
+                                    double alpha, double beta)
+{
+  baum_i_point_set(&w->point, t, q, v);
+  baum_status status = evaluate_joints(w, v);
+  if (status == BAUM_OK) {
+    status = evaluate_masses(w);
+  }
+  if (status == BAUM_OK) {
+    status = evaluate_forces(w);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  w->jacobian_ready = w->path->block->pin_count == 0;
+  set_nodes(w, alpha, beta);
+  status = solve(w->path);
+  if (status == BAUM_OK) {
+    baum_i_block_get_motion(w->path->block, w->a);
+    get_multipliers(w->path->block, w->lambda);
+    clear_dropped(w);
+    status = is_finite(w->a, w->mechanism->nv) ? BAUM_OK : BAUM_ERR_SINGULAR;
+  }
+  return status;
+}

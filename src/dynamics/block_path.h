@@ -1,0 +1,39 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Accelerations by blocks: the way that most evaluations take.
+ *
+ * Revolute joints go straight from frames into the solver (pins.h); other joints come as blocks of
+ * J. Masses and forces that do not change are there already. What the path cannot solve with
+ * confidence it hands over, without a sentence: then the whole system is factored as kkt.h does it.
+ */
+#ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
+#define BAUM_I_DYNAMICS_BLOCK_PATH_H
+
+#include "dynamics/dynamics.h"
+#include "dynamics/pins.h"
+
+struct baum_i_block_path {
+  baum_i_block *block;
+  const baum_i_block_kernel *kernel;
+  double *points;              /* (pin_count x 4) */
+  int group_count;             /* joints that are not pins of the block */
+  baum_i_joint_group *groups;  /* (group_count) */
+  const baum_i_joint **joints; /* behind the groups */
+  double *constant_force;      /* (nv) of the bodies whose force depends on nothing */
+  bool force_is_constant;      /* and there is no other */
+  bool mass_is_constant;
+  bool always_check; /* many nodes: the residual is looked at whatever the pivots are */
+  int64_t factorizations;
+  int64_t refinements;
+};
+
+/* For the redundant rows as they are known now. BAUM_OK also where blocks do not suit; then *out is
+ * NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_block_path_create(baum_workspace *workspace, baum_i_block_path **out);
+void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
+
+/* a, lambda, Phi, Phi' and gamma of the workspace, as baum_i_acceleration(); J only for joints that
+ * are not pins. BAUM_ERR_SINGULAR: handed over. */
+baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const double *q,
+                                    const double *v, double alpha, double beta);
+
+#endif

@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The geometry of all revolute joints in one pass, straight into the solver by blocks. */
+#ifndef BAUM_I_DYNAMICS_PINS_H
+#define BAUM_I_DYNAMICS_PINS_H
+
+#include "linear/block.h"
+#include "mechanism/mechanism.h"
+
+/* Where and how. */
+typedef struct baum_i_pins {
+  const double *points; /* (pin_count x 4) on body a and on body b, in the order of block->pins */
+  const baum_i_frame *frames;
+  double damping;   /* 2 alpha */
+  double stiffness; /* beta^2 */
+  double *phi;      /* (nc) rows of pins are set */
+  double *phi_rate; /* (nc) */
+  double *gamma;    /* (nc) */
+} baum_i_pins;
+
+/* Arms, right sides, pivots and lambda[] of the pins; free[] must be there. */
+void baum_i_pins_set(baum_i_block *block, const baum_i_pins *pins);
+
+#endif

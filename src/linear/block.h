@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The saddle-point system by its Schur complement in blocks of two by two:
+ *
+ *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
+ *
+ * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot. Columns
+ * go in *triples*: a planar body is one, W diagonal; user coordinates with M = L L^T take as many as
+ * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. A triple that a
+ * node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
+ *
+ *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
+ *
+ * so that only c, its *arm*, is stored. Two nodes that share a triple are coupled; S is sparse, and
+ * its order of elimination, fill and every index are fixed when the solver is made.
+ *
+ * Structure here; the arithmetic is block_hot.c.
+ */
+#ifndef BAUM_I_LINEAR_BLOCK_H
+#define BAUM_I_LINEAR_BLOCK_H
+
+#include "linear/elimination.h"
+#include "linear/kkt.h"
+
+/* Two row, the first of them here, that say: a point of one body is a point of another one. */
+typedef struct baum_i_block_pin {
+  bool is_pin;
+  int body_a; /* mass block, -1: ground */
+  int body_b;
+} baum_i_block_pin;
+
+/* What is to be solved. All must outlive the solver but pins, diagonal and dropped. */
+typedef struct baum_i_block_layout {
+  const baum_i_kkt_structure *structure;
+  const baum_i_block_pin *pins;  /* (row_block_count) */
+  const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant there */
+  const unsigned char *dropped;  /* (nc) or NULL, see baum_i_kkt_values */
+} baum_i_block_layout;
+
+/* A node with two sides of the shape of a pin. */
+typedef struct baum_i_pin_node {
+  int32_t node;
+  int32_t row;       /* first of its two */
+  int32_t triple[2]; /* of body a and b */
+} baum_i_pin_node;
+
+/* A node of any other shape. */
+typedef struct baum_i_full_node {
+  int32_t node;
+  int32_t row[2];     /* -1: a missing or dropped one */
+  int32_t first_side; /* of all full sides */
+  int32_t side_count;
+} baum_i_full_node;
+
+/* One number of J in a full side. */
+typedef struct baum_i_side_entry {
+  int32_t to;   /* in side[] */
+  int32_t from; /* in the values of J */
+} baum_i_side_entry;
+
+/* A coupling of two pins by one body. */
+typedef struct baum_i_pin_pair {
+  int32_t off;
+  int32_t arm[2]; /* of the later and of the earlier node */
+  int32_t triple;
+} baum_i_pin_pair;
+
+/* A coupling by one triple of which one side at least is full; ~arm stands for a pin's side. */
+typedef struct baum_i_full_pair {
+  int32_t off;
+  int32_t side[2]; /* of the later and of the earlier node */
+  int32_t triple;
+} baum_i_full_pair;
+
+/* A body whose M is not diagonal, or not constant. */
+typedef struct baum_i_dense_body {
+  int mass_block;
+  int32_t triple; /* first of its own */
+  int factor;     /* start of L in factor[] */
+} baum_i_dense_body;
+
+/* Where a node touches a dense body: sides of all its triples, one after the other. */
+typedef struct baum_i_dense_side {
+  int32_t body; /* in dense[] */
+  int32_t side; /* first */
+} baum_i_dense_side;
+
+typedef struct baum_i_block {
+  const baum_i_kkt_structure *structure;
+  baum_i_elimination order;
+
+  int node_count;
+  int triple_count; /* with ground */
+  int pin_count;
+  int full_count;
+  int side_count;
+  int entry_count;
+  int alike_count;    /* pin pairs of arms a and a, or b and b */
+  int opposite_count; /* pin pairs of arms a and b */
+  int full_pair_count;
+  int zero_count;
+  int off_count;
+  int dense_count;
+  int dense_side_count;
+  int most_later;  /* couplings of one node */
+  int factor_size; /* numbers in factor[] */
+
+  baum_i_pin_node *pins;        /* (pin_count) */
+  baum_i_full_node *fulls;      /* (full_count) */
+  int32_t *side_triple;         /* (side_count) */
+  baum_i_side_entry *entries;   /* (entry_count) */
+  baum_i_pin_pair *alike;       /* (alike_count) set their block */
+  baum_i_pin_pair *opposite;    /* (opposite_count) likewise */
+  baum_i_full_pair *full_pairs; /* (full_pair_count) add to it */
+  int32_t *zeros;               /* (zero_count) blocks to clear first */
+  int32_t *target_start;        /* (node_count) */
+  int32_t *target;              /* blocks that pairs of couplings of a node go to */
+  int32_t *column;              /* (triple_count) first column of v, -1: none of its own */
+  int32_t *width;               /* (triple_count) columns */
+  baum_i_dense_body *dense;     /* (dense_count) */
+  baum_i_dense_side *dense_sides;
+
+  double *numbers;  /* behind all arrays below */
+  double *weight;   /* (triple_count x 4) W; the last is padding */
+  double *mass;     /* (triple_count x 4) M, for refinement: W is rounded */
+  double *force;    /* (triple_count x 4) f */
+  double *free;     /* (triple_count x 4) a0 */
+  double *motion;   /* (triple_count x 4) a */
+  double *pull;     /* (triple_count x 4) W (f - M a - J^T lambda) */
+  double *pull_low; /* (triple_count x 4) what pull[] lacks while it is made */
+  double *arm;      /* (pin_count x 4) c_a, c_b */
+  double *side;     /* (side_count x 6) row-major */
+  double *right;    /* (node_count x 2) r */
+  double *size;     /* (node_count) product of the diagonal of S */
+  double *pivot;    /* (node_count x 3) D, then its inverse */
+  double *off;      /* (off_count x 4) S below the diagonal, then L */
+  double *lambda;   /* (node_count x 2) J a0 - r, then lambda */
+  double *rest;     /* (node_count x 2) r - J a, then the correction of lambda */
+  double *rest_low; /* (node_count x 2) as pull_low */
+  double *factor;   /* L of the dense bodies */
+  double *work;     /* (4 x most_later) */
+} baum_i_block;
+
+/* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
+ * many joints, or so much fill, that blocks would be slow. */
+baum_status baum_i_block_create(const baum_i_block_layout *layout, baum_i_block **out);
+void baum_i_block_destroy(baum_i_block *block); /* NULL is fine */
+
+/* The weights of the diagonal bodies. False where M is not positive. */
+bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
+/* Factors of the dense bodies; their M may change. False likewise. */
+bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
+
+/* a0 = W f into free[]. */
+void baum_i_block_set_force(baum_i_block *block, const double *force);
+
+/* motion[] to a (nv). */
+void baum_i_block_get_motion(const baum_i_block *block, double *a);
+
+/* pull[] and rest[], in twice the precision. */
+void baum_i_block_find_residual(baum_i_block *block);
+
+/* How good the pivots of a factorization were. */
+typedef enum baum_i_pivots {
+  BAUM_I_PIVOTS_GOOD,
+  BAUM_I_PIVOTS_WEAK,
+  BAUM_I_PIVOTS_BAD
+} baum_i_pivots;
+
+/* The hot part. */
+typedef struct baum_i_block_kernel {
+  /* Sides, pivots and lambda[] of the full nodes from J and right[]; pins are set by the caller. */
+  void (*set_full)(baum_i_block *block, const double *jacobian);
+  /* Off-diagonal blocks. */
+  void (*couple)(baum_i_block *block);
+  /* L D L^T, and lambda[] forward. */
+  baum_i_pivots (*eliminate)(baum_i_block *block);
+  /* lambda[] backward, and motion[]. */
+  void (*substitute)(baum_i_block *block);
+  /* Whether every row of r - J a is rounding. */
+  bool (*check)(const baum_i_block *block);
+  /* One correction of a and lambda by the residual in pull[] and rest[]. Returns the largest change
+   * of a multiplier against the largest multiplier. */
+  double (*correct)(baum_i_block *block);
+} baum_i_block_kernel;
+
+extern const baum_i_block_kernel baum_i_block_kernel_plain;
+extern const baum_i_block_kernel baum_i_block_kernel_wide;
+
+#endif

@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Residual of the whole system in twice the working precision, for refinement
+ *
+ *   W (f - M a - J^T lambda)  and  r - J a
+ *
+ * Close to a singular pose both are tiny differences of large numbers, and the multipliers depend on
+ * every digit of them. Sums and products keep what they round off (T. Ogita, S. M. Rump, S. Oishi,
+ * 2005, Dot2).
+ */
+#include <math.h>
+#include <string.h>
+
+#include "linear/block.h"
+
+/* A number and what it lacks. */
+typedef struct twofold {
+  double high;
+  double low;
+} twofold;
+
+static inline void add(twofold *sum, double x)
+{
+  double high = sum->high + x;
+  double moved = high - sum->high;
+  sum->low += (sum->high - (high - moved)) + (x - moved);
+  sum->high = high;
+}
+
+static inline void subtract_product(twofold *sum, double x, double y)
+{
+  double product = x * y;
+  sum->low -= fma(x, y, -product);
+  add(sum, -product);
+}
+
+/* What a node has on one triple. */
+typedef struct side {
+  int32_t triple;
+  double g[6];
+} side;
+
+typedef void side_fn(baum_i_block *b, int32_t node, const side *s);
+
+static void for_sides(baum_i_block *b, side_fn *visit)
+{
+  for (int i = 0; i < b->pin_count; i++) {
+    const baum_i_pin_node *pin = &b->pins[i];
+    const double *c = b->arm + 4 * (size_t)i;
+    const side on_a = {pin->triple[0], {1.0, 0.0, c[0], 0.0, 1.0, c[1]}};
+    const side on_b = {pin->triple[1], {-1.0, 0.0, c[2], 0.0, -1.0, c[3]}};
+    visit(b, pin->node, &on_a);
+    visit(b, pin->node, &on_b);
+  }
+  for (int i = 0; i < b->full_count; i++) {
+    const baum_i_full_node *full = &b->fulls[i];
+    for (int k = full->first_side; k < full->first_side + full->side_count; k++) {
+      side s = {.triple = b->side_triple[k]};
+      memcpy(s.g, b->side + 6 * (size_t)k, sizeof s.g);
+      visit(b, full->node, &s);
+    }
+  }
+}
+
+static void subtract_from_motion(baum_i_block *b, int32_t node, const side *s)
+{
+  const double *l = b->lambda + 2 * (size_t)node;
+  for (int c = 0; c < 3; c++) {
+    size_t at = 4 * (size_t)s->triple + (size_t)c;
+    twofold sum = {b->pull[at], b->pull_low[at]};
+    subtract_product(&sum, s->g[c], l[0]);
+    subtract_product(&sum, s->g[3 + c], l[1]);
+    b->pull[at] = sum.high;
+    b->pull_low[at] = sum.low;
+  }
+}
+
+static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
+{
+  const double *x = b->motion + 4 * (size_t)s->triple;
+  for (int r = 0; r < 2; r++) {
+    size_t at = 2 * (size_t)node + (size_t)r;
+    twofold sum = {b->rest[at], b->rest_low[at]};
+    for (int c = 0; c < 3; c++) {
+      subtract_product(&sum, s->g[3 * r + c], x[c]);
+    }
+    b->rest[at] = sum.high;
+    b->rest_low[at] = sum.low;
+  }
+}
+
+void baum_i_block_find_residual(baum_i_block *b)
+{
+  size_t triples = 4 * (size_t)b->triple_count;
+  size_t rows = 2 * (size_t)b->node_count;
+  for (size_t i = 0; i < triples; i++) {
+    twofold sum = {b->force[i], 0.0};
+    subtract_product(&sum, b->mass[i], b->motion[i]);
+    b->pull[i] = sum.high;
+    b->pull_low[i] = sum.low;
+  }
+  memcpy(b->rest, b->right, rows * sizeof *b->rest);
+  memset(b->rest_low, 0, rows * sizeof *b->rest_low);
+  for_sides(b, subtract_from_motion);
+  for_sides(b, subtract_from_rows);
+  for (size_t i = 0; i < triples; i++) {
+    b->pull[i] = b->weight[i] * (b->pull[i] + b->pull_low[i]);
+  }
+  for (size_t i = 0; i < rows; i++) {
+    b->rest[i] += b->rest_low[i];
+  }
+}

@@ -1,0 +1,597 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Structure of the Schur complement in blocks: nodes, sides, couplings, and where each number goes.
+ *
+ * Rows in their order make nodes with sides; sides of one triple couple their nodes; the graph of
+ * nodes gives the order of elimination, and only then nodes get their final numbers, their places.
+ */
+#include "linear/block_structure.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+/* A body with more sides than the first makes a clique, and so many couplings for each node make
+ * fill, so that sparse elimination of the whole system, bodies or joints first as it likes, is the
+ * better way. */
+enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
+
+/* A growing array. */
+typedef struct vector {
+  void *items;
+  int count;
+  int room;
+  size_t size; /* of an item */
+} vector;
+
+/* A node before it has its place. */
+typedef struct raw_node {
+  int32_t row[2]; /* -1: none */
+  int32_t first_side;
+  int32_t side_count;
+  bool is_pin;
+} raw_node;
+
+/* A side before its node has its place. `number` as in baum_i_full_pair, but that arms are counted
+ * in the order of the rows. */
+typedef struct raw_side {
+  int32_t node;
+  int32_t triple;
+  int32_t number;
+} raw_side;
+
+typedef struct builder {
+  const baum_i_block_layout *layout;
+  baum_i_block *block;
+  int32_t *column_body; /* (nv) mass block of each column */
+  int32_t *triple_of;   /* (mass_block_count) first triple */
+  int32_t *dense_of;    /* (mass_block_count) in dense[], -1: diagonal */
+  vector nodes;         /* raw_node */
+  vector sides;         /* raw_side */
+  vector full_sides;    /* int32_t triple */
+  vector entries;       /* baum_i_side_entry */
+  vector dense_sides;   /* baum_i_dense_side */
+  int raw_pins;
+  int32_t *sorted_start; /* (triple_count + 1) sides of a triple */
+  int32_t *sorted;       /* (sides.count) */
+  int32_t *graph_start;  /* (nodes.count + 1) */
+  vector neighbours;     /* int32_t */
+  int32_t *arm_of;       /* (nodes.count) pin's number in the order of places */
+  unsigned char *is_set; /* (off_count) by a pair of pins */
+  vector alike, opposite, full_pairs, zeros, targets;
+} builder;
+
+/* A new item at the end, zeroed; NULL: out of memory. */
+static void *append(vector *v)
+{
+  if (v->count == v->room) {
+    int room = v->room > 0 ? 2 * v->room : 16;
+    void *grown = baum_i_grow(v->items, (size_t)room, v->size);
+    if (!grown) {
+      return NULL;
+    }
+    v->items = grown;
+    v->room = room;
+  }
+  void *item = (char *)v->items + (size_t)v->count++ * v->size;
+  memset(item, 0, v->size);
+  return item;
+}
+
+static baum_status append_number(vector *v, int32_t number)
+{
+  int32_t *item = append(v);
+  if (!item) {
+    return BAUM_ERR_MEMORY;
+  }
+  *item = number;
+  return BAUM_OK;
+}
+
+/* The array becomes the caller's. */
+static void *give(vector *v, int *count)
+{
+  void *items = v->items;
+  *count = v->count;
+  v->items = NULL;
+  return items;
+}
+
+/* ---- bodies ---- */
+
+static int triples_for(int size)
+{
+  return (size + 2) / 3;
+}
+
+static int count_triples(const baum_i_block_layout *layout, int *dense)
+{
+  const baum_i_kkt_structure *s = layout->structure;
+  int count = 1 + s->mass_block_count;
+  *dense = 0;
+  for (int i = 0; i < s->mass_block_count; i++) {
+    if (!layout->diagonal[i]) {
+      ++*dense;
+      count += triples_for(s->mass_blocks[i].size);
+    }
+  }
+  return count;
+}
+
+static baum_status make_bodies(builder *u)
+{
+  const baum_i_kkt_structure *s = u->layout->structure;
+  baum_i_block *b = u->block;
+  b->triple_count = count_triples(u->layout, &b->dense_count);
+  b->dense = baum_i_alloc((size_t)b->dense_count, sizeof *b->dense);
+  b->column = baum_i_alloc(2 * (size_t)b->triple_count, sizeof *b->column);
+  u->column_body = baum_i_alloc((size_t)s->nv, sizeof *u->column_body);
+  u->triple_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->triple_of);
+  u->dense_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->dense_of);
+  if (!b->dense || !b->column || !u->column_body || !u->triple_of || !u->dense_of) {
+    return BAUM_ERR_MEMORY;
+  }
+  b->width = b->column + b->triple_count;
+  return BAUM_OK;
+}
+
+/* A diagonal body i is triple 1 + i, so that triples and bodies of the plane have one numbering. */
+static void place_bodies(builder *u)
+{
+  const baum_i_kkt_structure *s = u->layout->structure;
+  baum_i_block *b = u->block;
+  int32_t next = 1 + s->mass_block_count;
+  int dense = 0;
+  for (int32_t i = 0; i < s->mass_block_count; i++) {
+    const baum_i_mass_block *body = &s->mass_blocks[i];
+    bool diagonal = u->layout->diagonal[i] != 0;
+    u->triple_of[i] = diagonal ? 1 + i : next;
+    u->dense_of[i] = diagonal ? -1 : dense;
+    for (int c = 0; c < body->size; c++) {
+      u->column_body[body->first + c] = i;
+    }
+    if (diagonal) {
+      b->column[1 + i] = body->first;
+      b->width[1 + i] = body->size;
+    } else {
+      b->dense[dense++] =
+        (baum_i_dense_body){.mass_block = i, .triple = next, .factor = b->factor_size};
+      b->factor_size += body->size * body->size;
+      next += triples_for(body->size);
+    }
+  }
+}
+
+/* ---- nodes and sides ---- */
+
+static bool is_dropped(const builder *u, int row)
+{
+  return u->layout->dropped && u->layout->dropped[row] != 0;
+}
+
+static baum_status add_side(builder *u, int32_t triple, int32_t number)
+{
+  raw_side *side = append(&u->sides);
+  if (!side) {
+    return BAUM_ERR_MEMORY;
+  }
+  *side = (raw_side){.node = u->nodes.count - 1, .triple = triple, .number = number};
+  raw_node *nodes = u->nodes.items;
+  nodes[u->nodes.count - 1].side_count++;
+  return BAUM_OK;
+}
+
+static raw_node *add_node(builder *u)
+{
+  raw_node *node = append(&u->nodes);
+  if (node) {
+    node->row[0] = -1;
+    node->row[1] = -1;
+    node->first_side = u->sides.count;
+  }
+  return node;
+}
+
+static baum_status add_pin(builder *u, int row, const baum_i_block_pin *pin)
+{
+  raw_node *node = add_node(u);
+  if (!node) {
+    return BAUM_ERR_MEMORY;
+  }
+  node->row[0] = row;
+  node->row[1] = row + 1;
+  node->is_pin = true;
+  int32_t arm = 2 * u->raw_pins++;
+  int32_t a = pin->body_a < 0 ? 0 : u->triple_of[pin->body_a];
+  int32_t b = pin->body_b < 0 ? 0 : u->triple_of[pin->body_b];
+  baum_status status = add_side(u, a, ~arm);
+  return status == BAUM_OK ? add_side(u, b, ~(arm + 1)) : status;
+}
+
+/* The full side of the present node on a triple, made when there is none. */
+static baum_status find_side(builder *u, int32_t triple, int32_t *number)
+{
+  const raw_node *node = (raw_node *)u->nodes.items + u->nodes.count - 1;
+  const raw_side *sides = (raw_side *)u->sides.items + node->first_side;
+  for (int i = 0; i < node->side_count; i++) {
+    if (sides[i].triple == triple) {
+      *number = sides[i].number;
+      return BAUM_OK;
+    }
+  }
+  *number = u->full_sides.count;
+  baum_status status = append_number(&u->full_sides, triple);
+  return status == BAUM_OK ? add_side(u, triple, *number) : status;
+}
+
+/* A dense body's sides are made together, so that they stand one after the other. */
+static baum_status find_dense_sides(builder *u, int32_t body)
+{
+  int before = u->full_sides.count;
+  int32_t first = 0;
+  int size = u->layout->structure->mass_blocks[body].size;
+  for (int k = 0; k < triples_for(size); k++) {
+    int32_t number;
+    if (find_side(u, u->triple_of[body] + k, &number) != BAUM_OK) {
+      return BAUM_ERR_MEMORY;
+    }
+    first = k == 0 ? number : first;
+  }
+  if (u->full_sides.count == before) {
+    return BAUM_OK;
+  }
+  baum_i_dense_side *side = append(&u->dense_sides);
+  if (!side) {
+    return BAUM_ERR_MEMORY;
+  }
+  *side = (baum_i_dense_side){.body = u->dense_of[body], .side = first};
+  return BAUM_OK;
+}
+
+/* One column of J over the rows of the present node. */
+static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
+{
+  int32_t body = u->column_body[rows->col[c]];
+  int j = rows->col[c] - u->layout->structure->mass_blocks[body].first;
+  baum_status status = u->dense_of[body] >= 0 ? find_dense_sides(u, body) : BAUM_OK;
+  int32_t number = 0;
+  if (status == BAUM_OK) {
+    status = find_side(u, u->triple_of[body] + j / 3, &number);
+  }
+  const raw_node *node = (raw_node *)u->nodes.items + u->nodes.count - 1;
+  for (int r = 0; r < 2 && status == BAUM_OK; r++) {
+    if (node->row[r] >= 0) {
+      baum_i_side_entry *entry = append(&u->entries);
+      if (!entry) {
+        return BAUM_ERR_MEMORY;
+      }
+      entry->to = 6 * number + 3 * r + j % 3;
+      entry->from = rows->value + (node->row[r] - rows->row) * rows->cols + c;
+    }
+  }
+  return status;
+}
+
+static baum_status add_full(builder *u, const baum_i_row_block *rows, const int32_t row[2])
+{
+  raw_node *node = add_node(u);
+  if (!node) {
+    return BAUM_ERR_MEMORY;
+  }
+  node->row[0] = row[0];
+  node->row[1] = row[1];
+  baum_status status = BAUM_OK;
+  for (int c = 0; c < rows->cols && status == BAUM_OK; c++) {
+    status = add_column(u, rows, c);
+  }
+  return status;
+}
+
+/* Rows that are left, two by two. */
+static baum_status add_rows(builder *u, const baum_i_row_block *rows)
+{
+  int32_t pair[2] = {-1, -1};
+  int have = 0;
+  baum_status status = BAUM_OK;
+  for (int r = rows->row; r < rows->row + rows->rows && status == BAUM_OK; r++) {
+    if (!is_dropped(u, r)) {
+      pair[have++] = r;
+    }
+    bool last = r == rows->row + rows->rows - 1;
+    if (have == 2 || (have == 1 && last)) {
+      status = add_full(u, rows, pair);
+      pair[0] = -1;
+      pair[1] = -1;
+      have = 0;
+    }
+  }
+  return status;
+}
+
+static baum_status make_nodes(builder *u)
+{
+  const baum_i_kkt_structure *s = u->layout->structure;
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < s->row_block_count && status == BAUM_OK; i++) {
+    const baum_i_row_block *rows = &s->row_blocks[i];
+    const baum_i_block_pin *pin = &u->layout->pins[i];
+    bool whole = pin->is_pin && !is_dropped(u, rows->row) && !is_dropped(u, rows->row + 1);
+    status = whole ? add_pin(u, rows->row, pin) : add_rows(u, rows);
+  }
+  return status;
+}
+
+/* ---- the graph ---- */
+
+/* Sides, triple by triple. */
+static baum_status sort_sides(builder *u)
+{
+  int triples = u->block->triple_count;
+  u->sorted_start = baum_i_alloc((size_t)triples + 2, sizeof *u->sorted_start);
+  u->sorted = baum_i_alloc((size_t)u->sides.count, sizeof *u->sorted);
+  if (!u->sorted_start || !u->sorted) {
+    return BAUM_ERR_MEMORY;
+  }
+  const raw_side *sides = u->sides.items;
+  int32_t *place = u->sorted_start + 1; /* one ahead: filling moves it to its own end */
+  for (int i = 0; i < u->sides.count; i++) {
+    place[sides[i].triple + 1]++;
+  }
+  for (int t = 0; t < triples; t++) {
+    if (t > 0 && place[t + 1] > MOST_SIDES) {
+      return BAUM_ERR_SINGULAR;
+    }
+    place[t + 1] += place[t];
+  }
+  for (int32_t i = 0; i < u->sides.count; i++) {
+    u->sorted[place[sides[i].triple]++] = i;
+  }
+  return BAUM_OK;
+}
+
+static baum_status add_neighbours(builder *u, int32_t node, int32_t *mark)
+{
+  const raw_node *nodes = u->nodes.items;
+  const raw_side *sides = u->sides.items;
+  mark[node] = node + 1;
+  for (int s = 0; s < nodes[node].side_count; s++) {
+    int32_t triple = sides[nodes[node].first_side + s].triple;
+    for (int32_t k = u->sorted_start[triple]; triple > 0 && k < u->sorted_start[triple + 1]; k++) {
+      int32_t other = sides[u->sorted[k]].node;
+      if (mark[other] != node + 1) {
+        mark[other] = node + 1;
+        if (append_number(&u->neighbours, other) != BAUM_OK) {
+          return BAUM_ERR_MEMORY;
+        }
+      }
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status make_graph(builder *u)
+{
+  int count = u->nodes.count;
+  u->graph_start = baum_i_alloc((size_t)count + 1, sizeof *u->graph_start);
+  int32_t *mark = baum_i_alloc((size_t)count, sizeof *mark);
+  baum_status status = u->graph_start && mark ? BAUM_OK : BAUM_ERR_MEMORY;
+  for (int32_t i = 0; i < count && status == BAUM_OK; i++) {
+    status = add_neighbours(u, i, mark);
+    u->graph_start[i + 1] = u->neighbours.count;
+  }
+  baum_i_free(mark);
+  return status;
+}
+
+static baum_status find_order(builder *u)
+{
+  baum_i_block *b = u->block;
+  const baum_i_graph graph = {u->nodes.count, u->graph_start, u->neighbours.items};
+  int most = MOST_COUPLINGS * (u->nodes.count + SMALL);
+  baum_status status = baum_i_elimination_create(&graph, most, &b->order);
+  if (status == BAUM_OK) {
+    b->node_count = u->nodes.count;
+    b->off_count = b->order.start[b->node_count];
+  }
+  return status;
+}
+
+/* ---- nodes at their places ---- */
+
+static baum_status place_nodes(builder *u)
+{
+  baum_i_block *b = u->block;
+  const raw_node *nodes = u->nodes.items;
+  const raw_side *sides = u->sides.items;
+  b->pins = baum_i_alloc((size_t)u->raw_pins, sizeof *b->pins);
+  b->fulls = baum_i_alloc((size_t)(b->node_count - u->raw_pins), sizeof *b->fulls);
+  u->arm_of = baum_i_alloc((size_t)b->node_count, sizeof *u->arm_of);
+  if (!b->pins || !b->fulls || !u->arm_of) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int32_t k = 0; k < b->node_count; k++) {
+    int32_t raw = b->order.node[k];
+    const raw_node *node = &nodes[raw];
+    const raw_side *side = &sides[node->first_side];
+    if (node->is_pin) {
+      u->arm_of[raw] = 2 * b->pin_count;
+      b->pins[b->pin_count++] = (baum_i_pin_node){
+        .node = k, .row = node->row[0], .triple = {side[0].triple, side[1].triple}};
+    } else {
+      b->fulls[b->full_count++] =
+        (baum_i_full_node){.node = k,
+                           .row = {node->row[0], node->row[1]},
+                           .first_side = node->side_count > 0 ? side[0].number : 0,
+                           .side_count = node->side_count};
+    }
+  }
+  return BAUM_OK;
+}
+
+/* ---- couplings ---- */
+
+/* Block below the diagonal of two nodes at their places. */
+static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
+{
+  int32_t low = order->start[earlier];
+  int32_t high = order->start[earlier + 1] - 1;
+  while (low < high) {
+    int32_t middle = (low + high) / 2;
+    if (order->later[middle] < later) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+/* Number of a side with arms counted by places. */
+static int32_t number_of(const builder *u, const raw_side *side)
+{
+  return side->number >= 0 ? side->number : ~(u->arm_of[side->node] + (~side->number) % 2);
+}
+
+static baum_status add_pair(builder *u, const raw_side *x, const raw_side *y)
+{
+  const baum_i_elimination *order = &u->block->order;
+  bool in_order = order->place[x->node] < order->place[y->node];
+  const raw_side *earlier = in_order ? x : y;
+  const raw_side *later = in_order ? y : x;
+  int32_t off = find_off(order, order->place[earlier->node], order->place[later->node]);
+  int32_t k = number_of(u, earlier);
+  int32_t n = number_of(u, later);
+  if (k < 0 && n < 0 && !u->is_set[off]) {
+    u->is_set[off] = 1;
+    bool alike = (~k) % 2 == (~n) % 2;
+    baum_i_pin_pair *pair = append(alike ? &u->alike : &u->opposite);
+    if (pair) {
+      *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .triple = x->triple};
+    }
+    return pair ? BAUM_OK : BAUM_ERR_MEMORY;
+  }
+  baum_i_full_pair *pair = append(&u->full_pairs);
+  if (pair) {
+    *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
+  }
+  return pair ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+static int by_off(const void *a, const void *b)
+{
+  /* Both kinds of pair begin with it. */
+  int32_t x = *(const int32_t *)a;
+  int32_t y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+static void sort_pairs(vector *pairs)
+{
+  if (pairs->count > 1) {
+    qsort(pairs->items, (size_t)pairs->count, pairs->size, by_off);
+  }
+}
+
+static baum_status make_pairs(builder *u)
+{
+  const raw_side *sides = u->sides.items;
+  u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
+  baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
+  for (int t = 1; t < u->block->triple_count; t++) {
+    for (int32_t i = u->sorted_start[t]; i < u->sorted_start[t + 1]; i++) {
+      for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {
+        status = add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]);
+      }
+    }
+  }
+  for (int32_t i = 0; i < u->block->off_count && status == BAUM_OK; i++) {
+    status = u->is_set[i] ? BAUM_OK : append_number(&u->zeros, i);
+  }
+  sort_pairs(&u->alike);
+  sort_pairs(&u->opposite);
+  sort_pairs(&u->full_pairs);
+  return status;
+}
+
+/* Blocks that the products of a node's couplings go to: of the f-th with those before it. */
+static baum_status make_targets(builder *u)
+{
+  baum_i_block *b = u->block;
+  const baum_i_elimination *order = &b->order;
+  b->target_start = baum_i_alloc((size_t)b->node_count, sizeof *b->target_start);
+  baum_status status = b->target_start ? BAUM_OK : BAUM_ERR_MEMORY;
+  for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
+    const int32_t *later = order->later + order->start[k];
+    int count = order->start[k + 1] - order->start[k];
+    b->target_start[k] = u->targets.count;
+    b->most_later = count > b->most_later ? count : b->most_later;
+    for (int f = 1; f < count; f++) {
+      for (int e = 0; e < f && status == BAUM_OK; e++) {
+        status = append_number(&u->targets, find_off(order, later[e], later[f]));
+      }
+    }
+  }
+  return status;
+}
+
+/* ---- all ---- */
+
+static void give_all(builder *u)
+{
+  baum_i_block *b = u->block;
+  int ignored;
+  b->side_triple = give(&u->full_sides, &b->side_count);
+  b->entries = give(&u->entries, &b->entry_count);
+  b->dense_sides = give(&u->dense_sides, &b->dense_side_count);
+  b->alike = give(&u->alike, &b->alike_count);
+  b->opposite = give(&u->opposite, &b->opposite_count);
+  b->full_pairs = give(&u->full_pairs, &b->full_pair_count);
+  b->zeros = give(&u->zeros, &b->zero_count);
+  b->target = give(&u->targets, &ignored);
+}
+
+static void clear(builder *u)
+{
+  const vector *vectors[] = {&u->nodes,      &u->sides,   &u->full_sides, &u->entries,
+                             &u->neighbours, &u->alike,   &u->opposite,   &u->full_pairs,
+                             &u->zeros,      &u->targets, &u->dense_sides};
+  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
+    baum_i_free(vectors[i]->items);
+  }
+  const void *arrays[] = {u->column_body, u->triple_of,   u->dense_of, u->sorted_start,
+                          u->sorted,      u->graph_start, u->arm_of,   u->is_set};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+    baum_i_free(arrays[i]);
+  }
+}
+
+typedef baum_status step(builder *u);
+
+baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block)
+{
+  static step *const steps[] = {make_nodes,  sort_sides, make_graph,  find_order,
+                                place_nodes, make_pairs, make_targets};
+  builder u = {.layout = layout,
+               .block = block,
+               .nodes = {.size = sizeof(raw_node)},
+               .sides = {.size = sizeof(raw_side)},
+               .full_sides = {.size = sizeof(int32_t)},
+               .entries = {.size = sizeof(baum_i_side_entry)},
+               .dense_sides = {.size = sizeof(baum_i_dense_side)},
+               .neighbours = {.size = sizeof(int32_t)},
+               .alike = {.size = sizeof(baum_i_pin_pair)},
+               .opposite = {.size = sizeof(baum_i_pin_pair)},
+               .full_pairs = {.size = sizeof(baum_i_full_pair)},
+               .zeros = {.size = sizeof(int32_t)},
+               .targets = {.size = sizeof(int32_t)}};
+  baum_status status = make_bodies(&u);
+  if (status == BAUM_OK) {
+    place_bodies(&u);
+  }
+  for (size_t i = 0; i < sizeof steps / sizeof *steps && status == BAUM_OK; i++) {
+    status = steps[i](&u);
+  }
+  give_all(&u);
+  clear(&u);
+  return status;
+}

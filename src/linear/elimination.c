@@ -1,0 +1,273 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent nodes:
+ * J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. The graphs of
+ * joints are sparse and stay so; where they do not, the caller wants another solver anyway.
+ */
+#include "linear/elimination.h"
+
+#include <stdlib.h>
+
+#include "base/alloc.h"
+
+/* A growing list of nodes. */
+typedef struct list {
+  int32_t *item;
+  int32_t count;
+  int32_t room;
+} list;
+
+/* Everything while the order is being found. Nodes not yet eliminated stand in a bucket by degree;
+ * those that a round has touched wait for the next one. */
+typedef struct search {
+  int count;
+  list *coupled;     /* (count) */
+  int32_t *head;     /* (count) first of each bucket, -1: empty */
+  int32_t *next;     /* (count) */
+  int32_t *previous; /* (count) -1: first */
+  int32_t *touched;  /* (count) round */
+  int32_t *mark;     /* (count) */
+  int32_t stamp;
+  int32_t round;
+  int most;
+  list waiting; /* touched in this round */
+  list later;   /* of all eliminated ones, as nodes */
+  baum_i_elimination *out;
+} search;
+
+static baum_status push(list *l, int32_t item)
+{
+  if (l->count == l->room) {
+    int32_t room = l->room > 0 ? 2 * l->room : 4;
+    int32_t *grown = baum_i_grow(l->item, (size_t)room, sizeof *grown);
+    if (!grown) {
+      return BAUM_ERR_MEMORY;
+    }
+    l->item = grown;
+    l->room = room;
+  }
+  l->item[l->count++] = item;
+  return BAUM_OK;
+}
+
+/* ---- buckets ---- */
+
+static void enter(search *s, int32_t node)
+{
+  int32_t degree = s->coupled[node].count;
+  int32_t first = s->head[degree];
+  s->next[node] = first;
+  s->previous[node] = -1;
+  if (first >= 0) {
+    s->previous[first] = node;
+  }
+  s->head[degree] = node;
+}
+
+static void leave(search *s, int32_t node)
+{
+  int32_t before = s->previous[node];
+  int32_t after = s->next[node];
+  if (before >= 0) {
+    s->next[before] = after;
+  } else {
+    s->head[s->coupled[node].count] = after;
+  }
+  if (after >= 0) {
+    s->previous[after] = before;
+  }
+}
+
+/* ---- elimination ---- */
+
+/* The neighbours of `node`, which goes, become neighbours of `other`, which is one of them. */
+static baum_status couple(search *s, int32_t node, int32_t other)
+{
+  const list *gone = &s->coupled[node];
+  list *mine = &s->coupled[other];
+  s->stamp++;
+  s->mark[other] = s->stamp;
+  int32_t kept = 0;
+  for (int32_t i = 0; i < mine->count; i++) {
+    if (mine->item[i] != node) {
+      s->mark[mine->item[i]] = s->stamp;
+      mine->item[kept++] = mine->item[i];
+    }
+  }
+  mine->count = kept;
+  baum_status status = BAUM_OK;
+  for (int32_t i = 0; i < gone->count && status == BAUM_OK; i++) {
+    if (s->mark[gone->item[i]] != s->stamp) {
+      status = push(mine, gone->item[i]);
+    }
+  }
+  return status;
+}
+
+/* Out of its bucket until the next round. */
+static baum_status touch(search *s, int32_t node)
+{
+  if (s->touched[node] == s->round) {
+    return BAUM_OK;
+  }
+  leave(s, node);
+  s->touched[node] = s->round;
+  return push(&s->waiting, node);
+}
+
+static baum_status eliminate(search *s, int32_t node)
+{
+  baum_i_elimination *out = s->out;
+  list *gone = &s->coupled[node];
+  baum_status status = BAUM_OK;
+  for (int32_t i = 0; i < gone->count && status == BAUM_OK; i++) {
+    int32_t other = gone->item[i];
+    status = touch(s, other);
+    if (status == BAUM_OK) {
+      status = couple(s, node, other);
+    }
+    if (status == BAUM_OK) {
+      status = push(&s->later, other);
+    }
+  }
+  out->place[node] = out->count;
+  out->node[out->count++] = node;
+  out->start[out->count] = s->later.count;
+  baum_i_free(gone->item);
+  *gone = (list){0};
+  return status == BAUM_OK && s->later.count > s->most ? BAUM_ERR_SINGULAR : status;
+}
+
+static baum_status take_round(search *s, int32_t degree)
+{
+  baum_status status = BAUM_OK;
+  s->round++;
+  s->waiting.count = 0;
+  while (s->head[degree] >= 0 && status == BAUM_OK) {
+    int32_t node = s->head[degree];
+    leave(s, node);
+    status = eliminate(s, node);
+  }
+  for (int32_t i = 0; i < s->waiting.count; i++) {
+    enter(s, s->waiting.item[i]);
+  }
+  return status;
+}
+
+static baum_status take_rounds(search *s)
+{
+  baum_status status = BAUM_OK;
+  int32_t degree = 0;
+  while (s->out->count < s->count && status == BAUM_OK) {
+    while (s->head[degree] < 0) {
+      degree++;
+    }
+    status = take_round(s, degree);
+    /* What was eliminated leaves its neighbours with at least its own degree less one. */
+    degree = degree > 0 ? degree - 1 : 0;
+  }
+  return status;
+}
+
+/* ---- before and after ---- */
+
+static baum_status begin(search *s, const baum_i_graph *graph)
+{
+  for (int i = 0; i < s->count; i++) {
+    s->head[i] = -1;
+  }
+  for (int32_t i = 0; i < s->count; i++) {
+    for (int32_t k = graph->start[i]; k < graph->start[i + 1]; k++) {
+      if (push(&s->coupled[i], graph->neighbour[k]) != BAUM_OK) {
+        return BAUM_ERR_MEMORY;
+      }
+    }
+  }
+  /* The last to enter a bucket is the first to leave it. */
+  for (int32_t i = (int32_t)s->count - 1; i >= 0; i--) {
+    enter(s, i);
+  }
+  return BAUM_OK;
+}
+
+static int ascending(const void *a, const void *b)
+{
+  int32_t x = *(const int32_t *)a;
+  int32_t y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+static void order_later(search *s)
+{
+  baum_i_elimination *out = s->out;
+  out->later = s->later.item;
+  s->later.item = NULL;
+  for (int32_t i = 0; i < out->start[out->count]; i++) {
+    out->later[i] = out->place[out->later[i]];
+  }
+  for (int k = 0; k < out->count; k++) {
+    int32_t count = out->start[k + 1] - out->start[k];
+    if (count > 1) {
+      qsort(out->later + out->start[k], (size_t)count, sizeof *out->later, ascending);
+    }
+  }
+}
+
+static baum_status make_room(search *s)
+{
+  size_t n = (size_t)s->count;
+  baum_i_elimination *out = s->out;
+  out->node = baum_i_alloc(n, sizeof *out->node);
+  out->place = baum_i_alloc(n, sizeof *out->place);
+  out->start = baum_i_alloc(n + 1, sizeof *out->start);
+  s->coupled = baum_i_alloc(n, sizeof *s->coupled);
+  s->head = baum_i_alloc(5 * n + 1, sizeof *s->head);
+  if (!out->node || !out->place || !out->start || !s->coupled || !s->head) {
+    return BAUM_ERR_MEMORY;
+  }
+  s->next = s->head + n;
+  s->previous = s->next + n;
+  s->touched = s->previous + n;
+  s->mark = s->touched + n;
+  return BAUM_OK;
+}
+
+static void clear_search(search *s)
+{
+  for (int i = 0; s->coupled && i < s->count; i++) {
+    baum_i_free(s->coupled[i].item);
+  }
+  baum_i_free(s->coupled);
+  baum_i_free(s->head);
+  baum_i_free(s->waiting.item);
+  baum_i_free(s->later.item);
+}
+
+baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out)
+{
+  *out = (baum_i_elimination){0};
+  search s = {.count = graph->count, .most = most, .out = out};
+  baum_status status = make_room(&s);
+  if (status == BAUM_OK) {
+    status = begin(&s, graph);
+  }
+  if (status == BAUM_OK) {
+    status = take_rounds(&s);
+  }
+  if (status == BAUM_OK) {
+    order_later(&s);
+  }
+  clear_search(&s);
+  if (status != BAUM_OK) {
+    baum_i_elimination_clear(out);
+  }
+  return status;
+}
+
+void baum_i_elimination_clear(baum_i_elimination *elimination)
+{
+  baum_i_free(elimination->node);
+  baum_i_free(elimination->place);
+  baum_i_free(elimination->start);
+  baum_i_free(elimination->later);
+  *elimination = (baum_i_elimination){0};
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Order of elimination of a sparse symmetric matrix, with the fill that it makes. */
+#ifndef BAUM_I_LINEAR_ELIMINATION_H
+#define BAUM_I_LINEAR_ELIMINATION_H
+
+#include <stdint.h>
+
+#include <baum/status.h>
+
+/* The graph of a matrix: what each node is coupled with, both ways, itself left out. */
+typedef struct baum_i_graph {
+  int count;
+  const int32_t *start;     /* (count + 1) */
+  const int32_t *neighbour; /* (start[count]) each once per node, any order */
+} baum_i_graph;
+
+/* Places are positions in the order of elimination. */
+typedef struct baum_i_elimination {
+  int count;
+  int32_t *node;  /* (count) at each place */
+  int32_t *place; /* (count) of each node */
+  int32_t *start; /* (count + 1) */
+  int32_t
+    *later; /* (start[count]) places a place is coupled with when it is eliminated, ascending */
+} baum_i_elimination;
+
+/* Minimum degree in rounds: all nodes of the smallest degree that do not touch each other, then
+ * anew. So a chain is eliminated from both ends in turn, and what does not depend on each other
+ * stands side by side. Gives up with BAUM_ERR_SINGULAR where more than `most` couplings would arise.
+ * BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
+baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
+void baum_i_elimination_clear(baum_i_elimination *elimination); /* a zeroed one is fine */
+
+#endif
