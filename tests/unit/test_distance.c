@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "balance.h"
 #include "definitions.h"
 #include "derivatives.h"
 #include "planar_scene.h"
@@ -36,6 +37,12 @@ static void derivatives_agree_with_differences(void **state)
 {
   (void)state;
   for_each_planar_pair(add_rod, true, check_joint_derivatives);
+}
+
+static void reactions_balance(void **state)
+{
+  (void)state;
+  for_each_planar_pair(add_rod, true, check_rows_balance);
 }
 
 static void the_row_is_the_change_of_length_to_first_order(void **state)
@@ -157,6 +164,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(derivatives_agree_with_differences),
+    cmocka_unit_test(reactions_balance),
     cmocka_unit_test(the_row_is_the_change_of_length_to_first_order),
     cmocka_unit_test(the_length_is_drawn_unless_given),
     cmocka_unit_test(points_at_one_place_have_finite_rows),
