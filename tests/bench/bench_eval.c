@@ -69,11 +69,10 @@ static int create_all(scene *at, measured all[MOST_SOLVERS])
 
 static void time_round(measured *m)
 {
-  for (int phase = 0; phase < PHASE_SOLVE && m->way->has_phases; phase++) {
+  for (int phase = 0; phase < PHASE_COUNT && m->way->has_phases; phase++) {
     m->upto[phase] = smaller(timing_round(m->way->run, m->self, phase), m->upto[phase]);
   }
-  m->whole = smaller(timing_round(m->way->run, m->self, PHASE_SOLVE), m->whole);
-  m->upto[PHASE_SOLVE] = m->whole;
+  m->whole = smaller(timing_round(m->way->run, m->self, PHASE_WHOLE), m->whole);
 }
 
 /* Do they find the same? */
@@ -86,7 +85,7 @@ static void compare_solutions(const scene *at, measured *all, int count)
     double *mine = k == 0 ? a : a + nv;
     double size = 0.0;
     double apart = 0.0;
-    if (!all[k].way->run(all[k].self, PHASE_SOLVE)) {
+    if (!all[k].way->run(all[k].self, PHASE_WHOLE)) {
       continue;
     }
     all[k].way->read(all[k].self, mine, a + 2 * nv);
@@ -111,11 +110,16 @@ static void print_phases(const measured *m)
   double before = 0.0;
   for (int phase = 0; phase < PHASE_COUNT; phase++) {
     if (m->way->has_phases) {
-      printf(" %10.0f", 1e9 * (m->upto[phase] - before));
+      printf(" %9.0f", 1e9 * (m->upto[phase] - before));
       before = m->upto[phase];
     } else {
-      printf(" %10s", "-");
+      printf(" %9s", "-");
     }
+  }
+  if (m->way->has_phases) {
+    printf(" %9.0f", 1e9 * (m->whole - before));
+  } else {
+    printf(" %9s", "-");
   }
 }
 
@@ -123,32 +127,33 @@ static void print_cost(const measured *m, int bodies)
 {
   solver_cost cost = m->way->cost ? m->way->cost(m->self) : (solver_cost){0};
   if (cost.bytes > 0.0) {
-    printf(" %9.0f %9.0f %7.1f %7.2f", cost.bytes / bodies, cost.flops / bodies,
+    printf(" %7.0f %7.0f %6.1f %7.2f", cost.bytes / bodies, cost.flops / bodies,
            1e-9 * cost.bytes / m->whole, 1e-9 * cost.flops / m->whole);
   } else {
-    printf(" %9s %9s %7s %7s", "-", "-", "-", "-");
+    printf(" %7s %7s %6s %7s", "-", "-", "-", "-");
   }
 }
 
 static void print_row(const scene *at, const measured *m, double reference)
 {
-  printf("%-12s %6d %-8s %12.0f %9.1f %6.2f", scene_name(at->kind), at->n, m->way->name,
+  printf("%-12s %6d %-11s %10.0f %8.1f %6.2f", scene_name(at->kind), at->n, m->way->name,
          1e9 * m->whole, 1e9 * m->whole / at->bodies, m->whole / reference);
   print_phases(m);
   print_cost(m, at->bodies);
-  printf(" %8.0e\n", m->apart);
+  printf(" %6.0e\n", m->apart);
   (void)fflush(stdout);
 }
 
 static void print_head(void)
 {
   printf(
-    "\nns of CPU time per evaluation; `rel` is the time over that of the first solver; phases in "
-    "ns;\nbytes and flops per body, and what they come to in GB/s and Gflop/s; `apart`: largest "
-    "relative difference of a\n");
-  printf("%-12s %6s %-8s %12s %9s %6s %10s %10s %10s %10s %9s %9s %7s %7s %8s\n", "case", "n",
-         "solver", "ns", "per body", "rel", "geometry", "assembly", "factor", "solve", "B/body",
-         "flop/body", "GB/s", "Gflop/s", "apart");
+    "\nns of CPU time per evaluation. rel: over that of the first solver. Phases in ns; other: "
+    "what "
+    "the whole\ntakes beyond them: checks, refinement, copies. Bytes (each once) and flops per "
+    "body by count, and the\nrates they come to. apart: largest relative difference of a\n");
+  printf("%-12s %6s %-11s %10s %8s %6s %9s %9s %9s %9s %9s %7s %7s %6s %7s %6s\n", "case", "n",
+         "solver", "ns", "per body", "rel", "geometry", "assembly", "factor", "solve", "other",
+         "B/body", "fl/body", "GB/s", "Gflop/s", "apart");
 }
 
 /* False: something failed, or solvers disagree. */
@@ -256,9 +261,9 @@ static double time_library(scene_kind kind)
   scene at;
   double best = (double)NAN;
   if (scene_make(kind, 1, &at)) {
-    void *self = solver_at(0)->create(&at);
-    best = self ? timing_best(solver_at(0)->run, self, PHASE_SOLVE) : best;
-    solver_at(0)->destroy(self);
+    void *self = solver_block.create(&at);
+    best = self ? timing_best(solver_block.run, self, PHASE_WHOLE) : best;
+    solver_block.destroy(self);
     scene_clear(&at);
   }
   return best;

@@ -9,41 +9,47 @@
 #include "linear/pattern.h"
 #include "linear/scale.h"
 
-/* alpha and beta of an ordinary run; their values do not matter here. */
-static const double GAIN = 10.0;
-
-/* ---- the library's own way, with all its checks ---- */
-
-static void *library_create(scene *at)
+void solver_read_workspace(const baum_workspace *w, double *a, double *lambda)
 {
-  return at;
-}
-
-static bool library_run(void *self, int last_phase)
-{
-  (void)last_phase;
-  scene *at = self;
-  return baum_i_acceleration(at->workspace, 0.0, at->q, at->v, GAIN, GAIN) == BAUM_OK;
-}
-
-static void library_read(const void *self, double *a, double *lambda)
-{
-  const scene *at = self;
-  const baum_workspace *w = at->workspace;
   memcpy(a, w->a, (size_t)w->mechanism->nv * sizeof *a);
   memcpy(lambda, w->lambda, (size_t)w->mechanism->nc * sizeof *lambda);
 }
 
-static void library_destroy(void *self)
+/* ---- the library without blocks: KLU, scaled, checked and refined ---- */
+
+static void *front_create(scene *at)
+{
+  return at;
+}
+
+static bool front_run(void *self, int last_phase)
+{
+  (void)last_phase;
+  scene *at = self;
+  baum_i_block_path *path = at->workspace->path;
+  at->workspace->path = NULL;
+  baum_status status =
+    baum_i_acceleration(at->workspace, 0.0, at->q, at->v, SOLVER_GAIN, SOLVER_GAIN);
+  at->workspace->path = path;
+  return status == BAUM_OK;
+}
+
+static void front_read(const void *self, double *a, double *lambda)
+{
+  const scene *at = self;
+  solver_read_workspace(at->workspace, a, lambda);
+}
+
+static void front_destroy(void *self)
 {
   (void)self; /* the scene's */
 }
 
-static const solver LIBRARY = {.name = "front",
-                               .create = library_create,
-                               .run = library_run,
-                               .read = library_read,
-                               .destroy = library_destroy};
+static const solver FRONT = {.name = "klu_checked",
+                             .create = front_create,
+                             .run = front_run,
+                             .read = front_read,
+                             .destroy = front_destroy};
 
 /* ---- what KLU and the dense oracle have in common ---- */
 
@@ -76,7 +82,8 @@ static bool run_geometry(common *c)
   double *right = c->x + c->nv;
   for (int i = 0; i < c->n - c->nv; i++) {
     bool dropped = c->values.dropped && c->values.dropped[i];
-    double r = w->gamma[i] - 2.0 * GAIN * w->phi_rate[i] - GAIN * GAIN * w->phi[i];
+    double r =
+      w->gamma[i] - 2.0 * SOLVER_GAIN * w->phi_rate[i] - SOLVER_GAIN * SOLVER_GAIN * w->phi[i];
     right[i] = dropped ? 0.0 : r;
   }
   return true;
@@ -340,6 +347,6 @@ static const solver DENSE = {.name = "dense",
 
 const solver *solver_at(int k)
 {
-  static const solver *const all[] = {&LIBRARY, &KLU, &DENSE};
+  static const solver *const all[] = {&solver_block, &solver_block_plain, &KLU, &FRONT, &DENSE};
   return k < (int)(sizeof all / sizeof all[0]) ? all[k] : NULL;
 }

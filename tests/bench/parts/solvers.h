@@ -13,8 +13,12 @@ typedef enum solver_phase {
   PHASE_ASSEMBLY, /* the matrix that is factored */
   PHASE_FACTOR,
   PHASE_SOLVE,
-  PHASE_COUNT
+  PHASE_COUNT,
+  PHASE_WHOLE = PHASE_COUNT /* all, and what else belongs to a solution: checks, copies */
 } solver_phase;
+
+/* alpha and beta [1/s] of an ordinary run; their values do not matter here. */
+static const double SOLVER_GAIN = 10.0;
 
 /* What an evaluation costs by count; 0: not known. */
 typedef struct solver_cost {
@@ -24,16 +28,22 @@ typedef struct solver_cost {
 
 typedef struct solver {
   const char *name;
-  bool has_phases; /* else only the whole evaluation can be run */
+  bool has_phases; /* else only PHASE_WHOLE can be run */
   /* NULL: not for this scene. The scene outlives it. */
   void *(*create)(scene *at);
-  /* From the start up to and with a phase; PHASE_SOLVE leaves a and lambda. False: failed. */
+  /* From the start up to and with a phase; PHASE_WHOLE leaves a and lambda. False: failed. */
   bool (*run)(void *self, int last_phase);
   /* The solution after a whole run: (nv), (nc). */
   void (*read)(const void *self, double *a, double *lambda);
   solver_cost (*cost)(const void *self); /* NULL: not known */
   void (*destroy)(void *self);           /* NULL is fine */
 } solver;
+
+/* a and lambda of a workspace. */
+void solver_read_workspace(const baum_workspace *workspace, double *a, double *lambda);
+
+extern const solver solver_block;
+extern const solver solver_block_plain;
 
 /* 0, 1, ...; NULL past the end. */
 const solver *solver_at(int k);
