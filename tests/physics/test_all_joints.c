@@ -187,6 +187,95 @@ static void scenes_have_their_freedoms_and_move_far(void **state)
   }
 }
 
+/* ---- without freedom ---- */
+
+/* The first joint whose coordinate is not driven by a driver at the end; -1: none. */
+static int find_free_joint(const baum_mechanism *m)
+{
+  for (int k = 0; k < m->joint_count; k++) {
+    bool driven = k + 1 < m->joint_count && !m->joints[m->joint_count - 1]->type->scleronomic &&
+                  m->joints[m->joint_count - 1]->span.bodies[1] == m->joints[k]->span.bodies[1];
+    if (m->joints[k]->type->coordinate && !driven) {
+      return k;
+    }
+  }
+  return -1;
+}
+
+/* Value and rate of a joint's coordinate at start. */
+static void read_start(const baum_mechanism *m, int joint, double out[2])
+{
+  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE,
+                                .joint = baum_i_joint_id(m, joint)};
+  baum_simulation_options options = reference_options(1e-3);
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(m, &options, &run));
+  check(baum_simulation_get(run, &channel, 1, out));
+  baum_simulation_destroy(run);
+}
+
+/* A scene of one freedom with a driver that takes it and goes on from its start; NULL where there is
+ * no joint for it. */
+static baum_mechanism *make_driven(const joint_scene *scene)
+{
+  baum_mechanism *free_one = joint_scene_make(scene);
+  baum_mechanism *driven = NULL;
+  int joint = find_free_joint(free_one);
+  if (joint >= 0) {
+    double start[2];
+    read_start(free_one, joint, start);
+    baum_driver_def def = baum_driver_def_default();
+    def.joint = baum_i_joint_id(free_one, joint);
+    def.value = start[0];
+    def.rate = start[1];
+    def.acceleration = 0.4;
+    check(baum_mechanism_copy(free_one, &driven));
+    check(baum_mechanism_add_driver(driven, &def, NULL));
+    check(baum_mechanism_freeze(driven));
+  }
+  baum_mechanism_destroy(free_one);
+  return driven;
+}
+
+static outcome run_driven(const baum_mechanism *mechanism, const baum_simulation_options *options)
+{
+  outcome out = {0};
+  baum_simulation *run = NULL;
+  check(baum_mechanism_sizes(mechanism, NULL, &out.nv, NULL));
+  check(baum_simulation_create(mechanism, options, &run));
+  memcpy(out.start, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
+  check(baum_simulation_advance_to(run, END));
+  memcpy(out.q, baum_simulation_q(run), (size_t)out.nv * sizeof *out.q);
+  baum_simulation_destroy(run);
+  return out;
+}
+
+/* Positions follow from Phi = 0 alone: kinematics and projection differ by rounding. */
+static void kinematics_carries_every_joint(void **state)
+{
+  (void)state;
+  int tried = 0;
+  for (int k = 0; k < JOINT_SCENES; k++) {
+    baum_mechanism *mechanism =
+      joint_scenes[k].freedoms == 1 ? make_driven(&joint_scenes[k]) : NULL;
+    if (!mechanism) {
+      continue;
+    }
+    baum_simulation_options options = baum_simulation_options_default();
+    options.integrator = baum_kinematics();
+    outcome got = run_driven(mechanism, &options);
+    options = reference_options(1e-3);
+    outcome want = run_driven(mechanism, &options);
+    assert_true(difference(&got, got.start) > 0.1);
+    if (!(difference(&got, want.q) <= 1e-12)) {
+      fail_msg("%s: off by %.3g", joint_scenes[k].name, difference(&got, want.q));
+    }
+    baum_mechanism_destroy(mechanism);
+    tried++;
+  }
+  assert_true(tried >= 8); /* one for each new joint, and those of old */
+}
+
 /* ---- reactions ---- */
 
 /* A mechanism in motion, and what is left of M a - g when reactions are taken off. */
@@ -301,6 +390,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(scenes_have_their_freedoms_and_move_far),
     cmocka_unit_test(every_method_carries_every_joint),
+    cmocka_unit_test(kinematics_carries_every_joint),
     cmocka_unit_test(reactions_explain_the_motion_and_do_no_work),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
