@@ -94,7 +94,7 @@ class Building(unittest.TestCase):
 
     def test_printing_tells_what_it_is(self):
         m = slider_crank()
-        self.assertEqual(repr(m), "<mechanism: 3 bodies, 4 joints, 0 forces, frozen>")
+        self.assertEqual(repr(m), "<mechanism: 3 bodies, 4 joints, 0 forces, 0 inputs, frozen>")
         self.assertEqual(repr(m["B"]), "<planar_revolute 'B'>")
         self.assertEqual(repr(m.ground), "<body 'ground'>")
 

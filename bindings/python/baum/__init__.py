@@ -15,7 +15,7 @@ loader; the environment variable BAUM_LIBRARY names another.
 """
 from . import _abi, _lib
 from .channels import Channel, a, energy, lambda_, phi, phi_rate, q, v
-from .elements import Body, Force, Joint
+from .elements import Body, Force, Input, Joint
 from .errors import Error, Retry, Status, Warning
 from .gains import Gains, auto, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
@@ -38,9 +38,10 @@ def has(feature):
 
 
 __all__ = [
-    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Integrator",
-    "Joint", "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes", "Status", "Warning",
-    "Workspace", "a", "auto", "deadbeat", "energy", "fixed", "frequency", "has", "integrators",
-    "lambda_", "library", "library_version", "phi", "phi_rate", "q", "scaled", "stability",
-    "stability_deadbeat", "stability_limit", "stability_nearest", "taylor", "v",
+    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Input",
+    "Integrator", "Joint", "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes",
+    "Status", "Warning", "Workspace", "a", "auto", "deadbeat", "energy", "fixed", "frequency",
+    "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate", "q",
+    "scaled", "stability", "stability_deadbeat", "stability_limit", "stability_nearest", "taylor",
+    "v",
 ]

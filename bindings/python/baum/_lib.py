@@ -86,12 +86,13 @@ def _declare(library, path):
 
 
 def _check_structs(library, path):
-    """Compare the size of every definition with that of the library."""
+    """Compare the size of every definition with that of the library. One of the library may have
+    grown since: what the shorter one lacks has its default."""
     for struct, name in _abi.DEFAULTS.items():
         room = (ctypes.c_char * (4 * ctypes.sizeof(struct)))()
         getattr(library, name)(ctypes.cast(room, ctypes.POINTER(struct)), len(room))
         size = struct.from_buffer(room).struct_size
-        if size != ctypes.sizeof(struct):
+        if size < ctypes.sizeof(struct):
             raise ImportError(
                 f"baum: {struct.__name__} has {size} bytes in the library {path} "
                 f"and {ctypes.sizeof(struct)} in this Python package"

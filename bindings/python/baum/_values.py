@@ -1,6 +1,8 @@
-# SPDX-License-Identifier: BSD-3-Clause "Numbers, points and arrays on their way to the library:
-# checked here, so that messages name them."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Numbers, points and arrays on their way to the library and back: checked here, so that messages
+name them."""
 
+import ctypes
 import operator
 
 import numpy as np
@@ -40,3 +42,8 @@ def vector(value, size, label):
 def address(array):
     """Where the numbers of an array are; None stays None."""
     return None if array is None else array.ctypes.data
+
+
+def numbers(place, size):
+    """A copy of the numbers at an address; None for NULL."""
+    return None if place is None else np.array((ctypes.c_double * size).from_address(place))

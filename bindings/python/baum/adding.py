@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Adding bodies, joints and forces to a mechanism."""
+"""Adding bodies, joints, forces and inputs to a mechanism."""
 import ctypes
 
+from . import _abi
 from .definitions import KINDS, Definition
-from .elements import Entry
+from .elements import Entry, one
+from ._lib import lib
+from ._values import number
 
 
 class Adding:
@@ -62,12 +65,13 @@ class Adding:
         potential=None,
         constant_mass=None,
         held=None,
+        inputs=None,
         user=None,
     ):
         """Add `size` generalized coordinates: mass(t, q) gives M (size x size), force(t, q, v) the
         force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
         energy [J]. q, v, scale: (size) drawn positions, velocities at start, a relevant change of
-        each."""
+        each. inputs: those that force, force_q and force_v are given after v."""
         return self._add(
             "coordinates",
             name,
@@ -82,6 +86,7 @@ class Adding:
             potential=potential,
             constant_mass=constant_mass,
             held=held,
+            inputs=inputs,
             user=user,
         )
 
@@ -260,6 +265,15 @@ class Adding:
             user=user,
         )
 
+    def spline_driver(self, name, joint, times, values, *, periodic=None):
+        """Prescribe a coordinate as driver() does, by a cubic spline through `values` [rad] or [m]
+        at rising `times` [s], at least 3. It goes on straight before the first and after the last
+        time; periodic: it repeats itself, and first and last value are the same. One row. Needs a
+        library with GSL, see baum.has()."""
+        return self._add(
+            "spline_driver", name, joint=joint, times=times, values=values, periodic=periodic
+        )
+
     def constraint(self, name, bodies, rows, phi, *, jacobian=None, nu=None, gamma=None, user=None):
         """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`: phi(t, q) gives Phi
         (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows), gamma(t, q, v) the right
@@ -289,9 +303,12 @@ class Adding:
         stiffness=None,
         damping=None,
         free_length=None,
+        law=None,
+        user=None,
     ):
         """Add a spring [N/m] and damper [N s/m] between two points; free_length [m], default that
-        of the drawing."""
+        of the drawing. Or law(length, rate), which returns the tension [N] and its derivatives by
+        length and by rate, and has no potential energy."""
         return self._add(
             "planar_spring",
             name,
@@ -302,11 +319,44 @@ class Adding:
             stiffness=stiffness,
             damping=damping,
             free_length=free_length,
+            law=law,
+            user=user,
         )
 
-    def load(self, name, body, *, force=None, point=None, torque=None, follows_body=None):
+    def torsion_spring(
+        self,
+        name,
+        body_a,
+        body_b,
+        *,
+        stiffness=None,
+        damping=None,
+        free_angle=None,
+        law=None,
+        user=None,
+    ):
+        """Add a spring [N m/rad] and damper [N m s/rad] on angle_b - angle_a, which goes on over
+        turns; free_angle [rad], default that of the drawing. Or law(angle, rate), which returns the
+        torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
+        potential energy."""
+        return self._add(
+            "planar_torsion_spring",
+            name,
+            body_a=body_a,
+            body_b=body_b,
+            stiffness=stiffness,
+            damping=damping,
+            free_angle=free_angle,
+            law=law,
+            user=user,
+        )
+
+    def load(
+        self, name, body, *, force=None, point=None, torque=None, follows_body=None, input=None
+    ):
         """Add a force [N] at a point of a body (body axes [m]) and a torque [N m]. follows_body:
-        the force turns with the body, else it keeps to ground axes."""
+        the force turns with the body, else it keeps to ground axes. input: its value multiplies
+        both."""
         return self._add(
             "planar_load",
             name,
@@ -315,11 +365,25 @@ class Adding:
             point=point,
             torque=torque,
             follows_body=follows_body,
+            input=input,
         )
 
-    def force(self, name, bodies, force, *, force_q=None, force_v=None, potential=None, user=None):
+    def force(
+        self,
+        name,
+        bodies,
+        force,
+        *,
+        force_q=None,
+        force_v=None,
+        potential=None,
+        inputs=None,
+        user=None,
+    ):
         """Add a generalized force on `bodies`: force(t, q, v) gives it (nv), force_q and force_v
-        its derivatives (nv x nv), potential(t, q) an energy [J]."""
+        its derivatives (nv x nv), potential(t, q) an energy [J]. inputs: those that force, force_q
+        and force_v are given after v: with inputs=["torque"] they are called as force(t, q, v,
+        torque)."""
         return self._add(
             "user_force",
             name,
@@ -328,8 +392,22 @@ class Adding:
             force_q=force_q,
             force_v=force_v,
             potential=potential,
+            inputs=inputs,
             user=user,
         )
+
+    # ---- inputs ----------------------------------------------------------------------------------
+
+    def input(self, name=None, initial=0.0):
+        """Add an input: a number that acts from outside, such as the torque of a motor. Loads and
+        force functions name it. Every run and workspace begins with the initial value and holds it
+        until set_input() there."""
+        name = self._new_name(name, "input")
+        initial = number(initial, f'input "{name}": initial')
+        id = _abi.baum_input_id()
+        self._owner.call(lib.baum_mechanism_add_input, name.encode(), initial, ctypes.byref(id))
+        self._entries[name] = Entry("input", None, id, 0, 0)
+        return self[name]
 
     # ---- how -------------------------------------------------------------------------------------
 
@@ -349,9 +427,9 @@ class Adding:
         if name is None:
             name = f"{family}{1 + self._count(family)}"
         if not isinstance(name, str):
-            raise TypeError(f"the name of a {family} is a string, not {name!r}")
+            raise TypeError(f"the name of {one(family)} is a string, not {name!r}")
         if name in self._entries:
-            raise ValueError(f'there is already a {self._entries[name].family} "{name}"')
+            raise ValueError(f'there is already {one(self._entries[name].family)} "{name}"')
         return name
 
     def _hold(self, definition):

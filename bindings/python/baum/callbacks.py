@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Functions of the user as the library wants them.
 
-A Python function takes (t, q), (t, q, v), (t), a number or a point and returns its value. Here it
-gets a shell that the library can call: it shows q and v as read-only arrays, checks what comes back
-and writes it where it belongs, and keeps an exception until the run that it stopped is back. q and
-v are only valid during the call.
+A Python function takes (t, q), (t, q, v), (t), a number or two or a point and returns its value.
+Here it gets a shell that the library can call: it shows q and v as read-only arrays, checks what
+comes back and writes it where it belongs, and keeps an exception until the run that it stopped is
+back. q and v are only valid during the call. A force function that names inputs gets their present
+values after v, as floats.
 
 Instead of a Python function there may be the address of a compiled one (an int, a ctypes function
 pointer, or an object with an integer `address`, as Numba's cfunc); it is passed on as it is and
-costs nothing.
+costs nothing. A compiled force function is given all inputs of the mechanism, in the order of
+adding.
 """
 
 import ctypes
@@ -120,6 +122,27 @@ def _shell_force(function, write, nq, nv):
     return shell
 
 
+def _shell_force_of(inputs):
+    """A maker of shells for functions that take the inputs at these places after v."""
+
+    def make(function, write, nq, nv):
+        q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
+        # As many as are there for certain: a copy of the mechanism may have more.
+        inputs_at = _Views((1 + max(inputs),), writeable=False)
+
+        def shell(t, q, v, given, out, user):
+            try:
+                values = inputs_at[given].tolist()
+                write(out, function(t, q_at[q], v_at[v], *[values[k] for k in inputs]))
+                return FINE
+            except BaseException as error:
+                return _answer(error)
+
+        return shell
+
+    return make
+
+
 def _shell_law(function, write, nq, nv):
     def shell(t, s, user):
         try:
@@ -135,6 +158,17 @@ def _shell_coupling(function, write, nq, nv):
     def shell(x, f, user):
         try:
             write(f, function(x))
+            return FINE
+        except BaseException as error:
+            return _answer(error)
+
+    return shell
+
+
+def _shell_spring(function, write, nq, nv):
+    def shell(length, rate, out, user):
+        try:
+            write(out, function(length, rate))
             return FINE
         except BaseException as error:
             return _answer(error)
@@ -168,6 +202,7 @@ SHELLS = {
     _abi.baum_force_fn: _shell_force,
     _abi.baum_law_fn: _shell_law,
     _abi.baum_coupling_fn: _shell_coupling,
+    _abi.baum_spring_fn: _shell_spring,
     _abi.baum_curve_fn: _shell_curve,
 }
 
@@ -182,16 +217,18 @@ def address_of(function):
     return address if isinstance(address, int) else None
 
 
-def wrap(kind, function, label, shape, nq=0, nv=0):
+def wrap(kind, function, label, shape, nq=0, nv=0, inputs=()):
     """A function pointer of type `kind` for a Python function or an address. The caller keeps it
     alive.
 
     label names the function in messages; shape is that of its value; nq, nv are the lengths of q
-    and v.
+    and v; inputs are the places of those that a force function takes.
     """
     address = address_of(function)
     if address is not None:
         return kind(address)
     if not callable(function):
         raise TypeError(f"{label}: a function or the address of one is wanted, not {function!r}")
-    return kind(SHELLS[kind](function, _writer(shape, label), nq, nv))
+    takes_inputs = inputs and kind is _abi.baum_force_fn
+    make = _shell_force_of(inputs) if takes_inputs else SHELLS[kind]
+    return kind(make(function, _writer(shape, label), nq, nv))

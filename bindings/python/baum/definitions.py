@@ -8,9 +8,11 @@ given".
 import ctypes
 from dataclasses import dataclass
 
+import numpy as np
+
 from . import _abi, callbacks
 from ._lib import default, lib
-from ._values import address, integer, number, vector
+from ._values import address, integer, number, numbers, vector
 
 
 @dataclass(frozen=True)
@@ -51,14 +53,21 @@ KINDS = {
         Kind("planar_curve", "joint"),
         Kind("coupling", "joint"),
         Kind("driver", "joint"),
+        Kind("spline_driver", "joint"),
         Kind("user_constraint", "joint"),
         Kind("planar_spring", "force"),
+        Kind("planar_torsion_spring", "force"),
         Kind("planar_load", "force"),
         Kind("user_force", "force"),
     )
 }
 
-HIDDEN = ("struct_size", "body_count")
+HIDDEN = ("struct_size", "body_count", "count")
+FAMILIES = {
+    _abi.baum_body_id: "body",
+    _abi.baum_joint_id: "joint",
+    _abi.baum_input_id: "input",
+}
 
 
 class Definition:
@@ -76,25 +85,40 @@ class Definition:
         self._label = label
         self._find = find
         self._types = dict(kind.struct._fields_)
+        self._names = [name for name in self._types if name not in HIDDEN]
+        if _abi.baum_force_fn in self._types.values():
+            self._names.append("inputs")
 
     def fill(self, fields):
         """Set the fields that are not None, functions last because their shapes follow from the
         others."""
-        unknown = [name for name in fields if name not in self._types or name in HIDDEN]
+        unknown = [name for name in fields if name not in self._names]
         if unknown:
             raise TypeError(
-                f"{self._label} has no {unknown[0]}; there are: "
-                + ", ".join(name for name in self._types if name not in HIDDEN)
+                f"{self._label} has no {unknown[0]}; there are: " + ", ".join(self._names)
             )
         given = {name: value for name, value in fields.items() if value is not None}
+        inputs = self._places(given.pop("inputs", ()))
         functions = {
             name: given.pop(name) for name in list(given) if self._types[name] in callbacks.SHELLS
         }
+        if inputs and not functions:
+            raise TypeError(f"{self._label}: inputs are given together with the functions of them")
+        self._set_count(given)
         for name, value in given.items():
             self._set(name, value)
         for name, function in functions.items():
-            self._set_function(name, function)
+            self._set_function(name, function, inputs)
         return self
+
+    def _places(self, inputs):
+        """Where inputs are among those of the mechanism."""
+        return tuple(self._find("input", one).id.index1 - 1 for one in inputs)
+
+    def _set_count(self, given):
+        """The number of points of a spline follows from its times when both lists are new."""
+        if "times" in given and "values" in given:
+            self.struct.count = np.size(given["times"])
 
     def _set(self, name, value):
         label, kind = f"{self._label}: {name}", self._types[name]
@@ -110,9 +134,8 @@ class Definition:
             setattr(self.struct, name, bool(value))
         elif kind is ctypes.c_char_p:
             setattr(self.struct, name, str(value).encode())
-        elif kind in (_abi.baum_body_id, _abi.baum_joint_id):
-            family = "body" if kind is _abi.baum_body_id else "joint"
-            setattr(self.struct, name, self._find(family, value).id)
+        elif kind in FAMILIES:
+            setattr(self.struct, name, self._find(FAMILIES[kind], value).id)
         else:
             setattr(self.struct, name, kind(*vector(value, kind._length_, label)))
 
@@ -122,15 +145,15 @@ class Definition:
         self.struct.body_count = len(handles)
 
     def _pointer(self, name, value, label):
-        """`user` is an address or something of ctypes; the others are arrays of `size` numbers."""
+        """`user` is an address or something of ctypes; the others are arrays of numbers."""
         if name == "user":
             self.keep.append(value)
             return value if isinstance(value, int) else ctypes.cast(value, ctypes.c_void_p).value
-        array = vector(value, self.struct.size, label)
+        array = vector(value, length(self.struct), label)
         self.keep.append(array)
         return address(array)
 
-    def _set_function(self, name, function):
+    def _set_function(self, name, function, inputs):
         nq, nv = self._sizes()
         rows = self.struct.row_count if self.kind.name == "user_constraint" else nv
         shape = {
@@ -147,7 +170,7 @@ class Definition:
             "curve": (6,),
         }[name]
         label = f"{self._label}: {name}"
-        wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv)
+        wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv, inputs)
         self.keep.append((wrapped, function))
         self.has_python |= callbacks.address_of(function) is None
         setattr(self.struct, name, wrapped)
@@ -163,20 +186,22 @@ class Definition:
         return sum(body.nq for body in bodies), sum(body.nv for body in bodies)
 
 
+def length(definition):
+    """Number of entries of a definition's arrays."""
+    return definition.size if hasattr(definition, "size") else definition.count
+
+
 def as_dict(definition, find):
-    """What a definition says, as Python values; functions and their pointers are left out."""
+    """What a definition says, as Python values; functions and their `user` are left out."""
     values = {}
     for name, kind in definition._fields_:
         value = getattr(definition, name)
-        if (
-            name in HIDDEN
-            or kind in callbacks.SHELLS
-            or kind is ctypes.c_void_p
-            or name == "bodies"
-        ):
+        if name in HIDDEN or kind in callbacks.SHELLS or name in ("bodies", "user"):
             continue
-        if kind in (_abi.baum_body_id, _abi.baum_joint_id):
-            value = find("body" if kind is _abi.baum_body_id else "joint", value)
+        if kind in FAMILIES:
+            value = find(FAMILIES[kind], value)
+        elif kind is ctypes.c_void_p:
+            value = numbers(value, length(definition))
         elif kind is ctypes.c_char_p:
             value = None if value is None else value.decode()
         elif isinstance(value, ctypes.Array):

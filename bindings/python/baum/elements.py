@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: BSD-3-Clause "Bodies, joints and forces of a mechanism, as handles. Those
-# of a mechanism and its copies are equal."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Bodies, joints, forces and inputs of a mechanism, as handles. Those of a mechanism and its copies
+are equal."""
 
 from collections import namedtuple
 
@@ -11,15 +12,21 @@ from ._values import vector
 _Q = _abi.baum_quantity
 
 
-# What a mechanism knows about an element: its Kind (None for ground), the library's id, and of a
-# body the sizes of q and v. Copies of a mechanism share it; a handle is made when it is asked for.
+# What a mechanism knows about an element: its Kind (None for ground and inputs), the library's id,
+# and of a body the sizes of q and v. Copies of a mechanism share it; a handle is made when it is
+# asked for.
 Entry = namedtuple("Entry", "family kind id nq nv")
 
 GROUND = Entry("body", None, _abi.BAUM_GROUND, 0, 0)
 
 
+def one(family):
+    """The name of a family with its article: a body, an input."""
+    return f"an {family}" if family[0] in "aeiou" else f"a {family}"
+
+
 class Element:
-    """What bodies, joints and forces have in common."""
+    """What bodies, joints, forces and inputs have in common."""
 
     def __init__(self, mechanism, name, entry):
         self.mechanism = mechanism
@@ -73,6 +80,11 @@ class Body(Element):
         """Channel: velocities [m/s], [rad/s] that belong to `pose`."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY)
 
+    @property
+    def acceleration(self):
+        """Channel: accelerations [m/s^2], [rad/s^2] that belong to `pose`."""
+        return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION)
+
     def pose_of(self, point):
         """Channel: `pose` with x, y of a point, given in body axes [m]."""
         return self._channel("pose", _Q.BAUM_BODY_POSE, point)
@@ -80,6 +92,10 @@ class Body(Element):
     def velocity_of(self, point):
         """Channel: `velocity` of a point, given in body axes [m]."""
         return self._channel("velocity", _Q.BAUM_BODY_VELOCITY, point)
+
+    def acceleration_of(self, point):
+        """Channel: `acceleration` of a point, given in body axes [m]."""
+        return self._channel("acceleration", _Q.BAUM_BODY_ACCELERATION, point)
 
     def _channel(self, attribute, quantity, point=None):
         key, at = f"{self.name}.{attribute}", (0.0, 0.0)
@@ -126,6 +142,12 @@ class Joint(Element):
         in a slot [m]."""
         return self._channel("coordinate", _Q.BAUM_JOINT_COORDINATE)
 
+    @property
+    def effort(self):
+        """Channel: force [N] or torque [N m] of a driver on the coordinate that it drives; times
+        the coordinate's rate the power that it puts in."""
+        return self._channel("effort", _Q.BAUM_DRIVE_EFFORT)
+
     def _channel(self, attribute, quantity):
         return Channel(f"{self.name}.{attribute}", quantity, joint=self.id)
 
@@ -136,4 +158,20 @@ class Force(Element):
     family = "force"
 
 
-CLASSES = {"body": Body, "joint": Joint, "force": Force}
+class Input(Element):
+    """A number that acts from outside and that runs and workspaces set; see Mechanism.input()."""
+
+    family = "input"
+
+    @property
+    def initial(self):
+        """What every run and workspace begins with."""
+        return self.mechanism.initial(self)
+
+    @property
+    def definition(self):
+        """Name and initial value as a dict."""
+        return {"name": self.name, "initial": self.initial}
+
+
+CLASSES = {"body": Body, "joint": Joint, "force": Force, "input": Input}

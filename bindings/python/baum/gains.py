@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: BSD-3-Clause "Baumgarte's gains: how alpha and beta [1/s] in Phi'' + 2
-# alpha Phi' + beta^2 Phi = 0 are chosen."""
+# SPDX-License-Identifier: BSD-3-Clause
+"""Baumgarte's gains: how alpha and beta [1/s] in Phi'' + 2 alpha Phi' + beta^2 Phi = 0 are
+chosen."""
 
 from ._lib import lib
 from ._values import number

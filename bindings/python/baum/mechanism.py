@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is simulated: bodies, joints and forces."""
+"""What is simulated: bodies, joints, forces and inputs."""
 
 import ctypes
 from collections import namedtuple
@@ -10,7 +10,7 @@ from . import _abi, _calls
 from .adding import Adding
 from .channels import WHOLE, Channel
 from .definitions import Definition
-from .elements import CLASSES, GROUND, Element
+from .elements import CLASSES, GROUND, Element, one
 from ._lib import lib
 from ._values import number
 
@@ -28,7 +28,8 @@ class Mobility(namedtuple("Mobility", [name for name, _ in _abi.baum_mobility._f
 
 
 class Mechanism(Adding):
-    """Bodies, joints and forces: added, then frozen, then constant and shared between threads.
+    """Bodies, joints, forces and inputs: added, then frozen, then constant and shared between
+    threads.
 
     gravity: (x, y) or (x, y, z) [m/s^2], default (0, -9.81); scale: length [m] that tolerances
     refer to, default the size of the drawing. Any consistent set of units will do; angles are in
@@ -60,7 +61,7 @@ class Mechanism(Adding):
     def __repr__(self):
         counts = [self._count(family) for family in CLASSES]
         state = "frozen" if self.frozen else "not frozen"
-        return "<mechanism: {} bodies, {} joints, {} forces, {}>".format(*counts, state)
+        return "<mechanism: {} bodies, {} joints, {} forces, {} inputs, {}>".format(*counts, state)
 
     def _count(self, family):
         return sum(
@@ -70,7 +71,7 @@ class Mechanism(Adding):
     # ---- finding and changing --------------------------------------------------------------------
 
     def __getitem__(self, name):
-        """The body, joint or force of that name."""
+        """The body, joint, force or input of that name."""
         try:
             entry = self._entries[name]
         except KeyError:
@@ -92,13 +93,13 @@ class Mechanism(Adding):
         return self["ground"]
 
     def find(self, family, value):
-        """The body or joint for a handle, a name or an id of the library; None for the id
+        """The body, joint or input for a handle, a name or an id of the library; None for the id
         "none"."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
         element = self[value] if isinstance(value, str) else value
         if not isinstance(element, Element) or element.family != family:
-            raise TypeError(f"a {family} or its name is wanted, not {value!r}")
+            raise TypeError(f"{one(family)} or its name is wanted, not {value!r}")
         return element
 
     def _of_id(self, family, id):
@@ -125,12 +126,40 @@ class Mechanism(Adding):
         """Replace some fields of a definition, before freezing. None changes nothing."""
         if "name" in fields:
             raise TypeError(f'{element.family} "{element.name}": names stay')
+        if element.family == "input":
+            self._change_input(element, fields)
+            return
         definition = Definition(
             element.kind, f'{element.family} "{element.name}"', self.find, self.read(element)
         )
         definition.fill(fields)
         self._hold(definition)
         self._owner.call(element.kind.function("set"), element.id, ctypes.byref(definition.struct))
+
+    def _change_input(self, element, fields):
+        label = f'input "{element.name}"'
+        unknown = [name for name in fields if name != "initial"]
+        if unknown:
+            raise TypeError(f"{label} has no {unknown[0]}; there are: name, initial")
+        if fields.get("initial") is not None:
+            initial = number(fields["initial"], f"{label}: initial")
+            self._owner.call(lib.baum_mechanism_set_input, element.id, initial)
+
+    def initial(self, input):
+        """Initial value of an input."""
+        value = ctypes.c_double()
+        _calls.make(
+            lib.baum_mechanism_get_input,
+            self.handle,
+            self.find("input", input).id,
+            ctypes.byref(value),
+        )
+        return value.value
+
+    @property
+    def inputs(self):
+        """All inputs, in the order of adding."""
+        return [self[name] for name, entry in self._entries.items() if entry.family == "input"]
 
     # ---- the whole -------------------------------------------------------------------------------
 

@@ -104,12 +104,11 @@ class Simulation:
     integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
     "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
     allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
-    rtol, atol for the others, and max_step [s] where a force begins late; "kinematics", for mechanisms
-    whose drivers leave no freedom, takes neither. start_time [s], default 0. start: "assemble",
-    "exact", "as_given".
-    solver: "auto", "klu", "qr". check_derivatives: compare given derivatives with differences
-    first. max_steps of one call. progress(t) is called every progress_interval seconds of wall
-    time, and cancels when it returns something true.
+    rtol, atol for the others, and max_step [s] where a force begins late; "kinematics", for
+    mechanisms whose drivers leave no freedom, takes neither. start_time [s], default 0. start:
+    "assemble", "exact", "as_given". solver: "auto", "klu", "qr". check_derivatives: compare given
+    derivatives with differences first. max_steps of one call. progress(t) is called every
+    progress_interval seconds of wall time, and cancels when it returns something true.
 
     Warnings of the run become Python warnings of the category baum.Warning. One thread at a time
     may use it, but for cancel().
@@ -198,6 +197,31 @@ class Simulation:
         v = np.full(nv, np.nan) if v is None else vector(v, nv, "v")
         self._call(lib.baum_simulation_set_state, number(t, "t"), address(q), address(v))
         self._warn()
+
+    def set_input(self, input, value):
+        """Set an input from now on, given as a handle or by name; it is held until it is set again.
+        Variable-step methods begin anew, which costs them small steps: a loop that sets inputs
+        often goes best with a fixed step."""
+        input = self.mechanism.find("input", input)
+        self._call(lib.baum_simulation_set_input, input.id, number(value, input.name))
+
+    @property
+    def inputs(self):
+        """Present values of all inputs by name, a copy."""
+        return {
+            input.name: lib.baum_simulation_input(self._owner._address, input.id)
+            for input in self.mechanism.inputs
+        }
+
+    def set_driver(self, driver, value, rate=0.0, acceleration=0.0):
+        """Give a driver another law, for this run only: with the present time t0 its coordinate is
+        value + rate (t - t0) + acceleration (t - t0)^2 / 2, until it is set again. Lead on from
+        where the coordinate is: a jump in value or rate is a violation, which the formulation
+        treats as any other."""
+        driver = self.mechanism.find("joint", driver)
+        law = {"value": value, "rate": rate, "acceleration": acceleration}
+        law = [number(part, f"{driver.name}: {name}") for name, part in law.items()]
+        self._call(lib.baum_simulation_set_driver, driver.id, *law)
 
     def cancel(self):
         """Ask a run to stop after its present step. From any thread or signal handler."""

@@ -49,6 +49,19 @@ class Workspace:
     def _v(self, v):
         return vector(v, self._sizes.nv, "v")
 
+    def set_input(self, input, value):
+        """Set an input, given as a handle or by name; before, it has its initial value."""
+        input = self.mechanism.find("input", input)
+        self._owner.call(lib.baum_workspace_set_input, input.id, number(value, input.name))
+
+    @property
+    def inputs(self):
+        """Present values of all inputs by name, a copy."""
+        return {
+            input.name: lib.baum_workspace_input(self._owner._address, input.id)
+            for input in self.mechanism.inputs
+        }
+
     def drawn(self):
         """Drawn pose (nq) and given velocities (nv), NaN where free."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
