@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Mechanisms: conversion of arguments, names, copies, ownership, messages."""
 
+import ctypes
 import gc
+import inspect
 import math
 import unittest
 import weakref
@@ -9,6 +11,9 @@ import weakref
 import numpy as np
 
 import baum
+from baum import _abi, callbacks
+from baum.adding import Adding
+from baum.definitions import HIDDEN, KINDS
 from mechanisms import pendulum, rod_pendulum, slider_crank
 
 
@@ -62,12 +67,15 @@ class Building(unittest.TestCase):
         m.spring("spring", a, "ground", point_a=(0, 0), point_b=(1, 1), stiffness=5).set(
             damping=0.5
         )
+        m.torsion_spring("clock", a, b, stiffness=2)
         m.force("push", [a, "d"], lambda t, q, v: np.zeros(5), potential=lambda t, q: 0.0)
+        m.input("torque", 0.5)
+        self.assertEqual(m["d"].definition["q"].tolist(), [1, 2])
         self.assertEqual(m["spring"].definition["stiffness"], 5.0)
         self.assertEqual(m["spring"].definition["damping"], 0.5)
         self.assertEqual(
             [element.name for element in m],
-            ["a", "b", "c", "d", "slider", "weld", "rod", "motor", "spring", "push"],
+            "a b c d slider weld rod motor spring clock push torque".split(),
         )
         self.assertEqual(m.freeze().sizes, (10, 10, 7))
         self.assertEqual((m.gravity, m.scale), ((0.0, -1.0, 0.0), 2.0))
@@ -97,6 +105,54 @@ class Building(unittest.TestCase):
         self.assertEqual(repr(m), "<mechanism: 3 bodies, 4 joints, 0 forces, 0 inputs, frozen>")
         self.assertEqual(repr(m["B"]), "<planar_revolute 'B'>")
         self.assertEqual(repr(m.ground), "<body 'ground'>")
+
+
+class Recorder(Adding):
+    """Takes what the methods that add would hand on."""
+
+    def _add(self, kind, name, **fields):
+        return kind, {"name", *fields}
+
+
+class Arguments(unittest.TestCase):
+    """Every field of every definition has its argument."""
+
+    # Two points that coincide have no distance, and no line between them.
+    EXCEPTED = {"planar_distance": {"point"}, "planar_spring": {"point"}}
+
+    def added(self):
+        """Names of the fields that can be given, by kind."""
+        for name, method in vars(Adding).items():
+            if name.startswith("_") or name == "input":
+                continue
+            needed = [
+                parameter
+                for parameter in inspect.signature(method).parameters.values()
+                if parameter.default is parameter.empty
+            ]
+            yield method(Recorder(), *[None for _ in needed[1:]])
+
+    def test_methods_take_all_fields(self):
+        added = dict(self.added())
+        self.assertEqual(set(added), set(KINDS))
+        for name, fields in added.items():
+            with self.subTest(name):
+                own = {field for field, _ in KINDS[name].struct._fields_} - set(HIDDEN)
+                self.assertEqual(fields - {"inputs"}, own - self.EXCEPTED.get(name, set()))
+
+    def test_there_is_a_kind_for_every_definition(self):
+        ends = {name for name in _abi.PROTOTYPES if name.startswith("baum_mechanism_add_")}
+        kinds = {f"baum_mechanism_add_{name}" for name in [*KINDS, "input"]}
+        self.assertEqual(ends, kinds)
+
+    def test_there_is_a_shell_for_every_function(self):
+        functions = {
+            kind
+            for kinds in KINDS.values()
+            for _, kind in kinds.struct._fields_
+            if issubclass(kind, ctypes._CFuncPtr)
+        }
+        self.assertEqual(functions, set(callbacks.SHELLS))
 
 
 class BadInput(unittest.TestCase):

@@ -112,8 +112,15 @@ class Definition:
         return self
 
     def _places(self, inputs):
-        """Where inputs are among those of the mechanism."""
-        return tuple(self._find("input", one).id.index1 - 1 for one in inputs)
+        """Where inputs are among those of the mechanism. The library does not see what functions
+        take, so that strangers are refused here."""
+        own = []
+        for given in inputs:
+            given = self._find("input", given)
+            own.append(self._find("input", given.name))
+            if own[-1] != given:
+                raise ValueError(f"{self._label}: {given!r} is an input of another mechanism")
+        return tuple(one.id.index1 - 1 for one in own)
 
     def _set_count(self, given):
         """The number of points of a spline follows from its times when both lists are new."""

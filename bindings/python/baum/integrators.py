@@ -9,13 +9,13 @@ from ._lib import lib
 from ._values import number
 
 
-def _names(enum, prefix):
+def names(enum, prefix):
     """The values of an enum of the library by their names in lower case."""
     return {value.name[len(prefix) :].lower(): value for value in enum}
 
 
-FORMULATIONS = _names(_abi.baum_formulation, "BAUM_FORMULATION_")
-STABILITIES = {value: name for name, value in _names(_abi.baum_stability, "BAUM_").items()}
+FORMULATIONS = names(_abi.baum_formulation, "BAUM_FORMULATION_")
+STABILITIES = {value: name for name, value in names(_abi.baum_stability, "BAUM_").items()}
 
 
 class Integrator:

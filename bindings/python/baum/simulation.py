@@ -10,21 +10,13 @@ from . import _abi, _calls
 from .channels import Layout, q as ALL_Q, v as ALL_V
 from .errors import Error, Status, warn
 from .gains import Gains
-from .integrators import FORMULATIONS, Integrator, lookup
+from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
 from .run import Counters, Run
 from ._values import address, integer, number, vector
 
-STARTS = {
-    "assemble": _abi.baum_start.BAUM_START_ASSEMBLE,
-    "exact": _abi.baum_start.BAUM_START_EXACT,
-    "as_given": _abi.baum_start.BAUM_START_AS_GIVEN,
-}
-SOLVERS = {
-    "auto": _abi.baum_solver.BAUM_SOLVER_AUTO,
-    "klu": _abi.baum_solver.BAUM_SOLVER_KLU,
-    "qr": _abi.baum_solver.BAUM_SOLVER_QR,
-}
+STARTS = names(_abi.baum_start, "BAUM_START_")
+SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
 WARNING_SIZE = 4096
 AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
