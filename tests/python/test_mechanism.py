@@ -257,6 +257,15 @@ class Copies(unittest.TestCase):
         self.assertFalse(m.copy().frozen)
         self.assertTrue(m.freeze().copy().frozen)
 
+    def test_a_thawed_copy_takes_more(self):
+        m = slider_crank()
+        more = m.thawed(rod=dict(mass=0.5))
+        more.load("push", "slider", force=(1, 0))
+        self.assertEqual((more.frozen, m.frozen), (False, True))
+        self.assertEqual(more["rod"].definition["mass"], 0.5)
+        self.assertNotIn("push", m)
+        more.freeze().simulate([0.001], "rk4", step=1e-4)
+
     def test_handles_of_one_are_good_for_the_other(self):
         m = slider_crank()
         copy = m.copy()

@@ -33,6 +33,9 @@ class Samples(unittest.TestCase):
                 cls.m["rod"].pose_of((0.153, 0)),
                 cls.m["rod"].velocity_of((0.153, 0)),
                 cls.m["slider"].velocity,
+                cls.m["rod"].acceleration_of((0.153, 0)),
+                "slider.acceleration",
+                "motor.effort",
             ],
         )
 
@@ -50,6 +53,8 @@ class Samples(unittest.TestCase):
             "a": 9,
             "rod.pose(0.153, 0.0)": 3,
             "slider.velocity": 3,
+            "rod.acceleration(0.153, 0.0)": 3,
+            "motor.effort": 1,
         }.items():
             with self.subTest(key):
                 self.assertEqual(r[key].shape, (11, columns))
@@ -80,6 +85,16 @@ class Samples(unittest.TestCase):
             r[self.m["rod"].velocity_of((0.153, 0))][:, :2], r["slider.velocity"][:, :2], atol=1e-6
         )
 
+    def test_accelerations_and_efforts_belong_to_the_other_channels(self):
+        r = self.run_
+        np.testing.assert_allclose(r["slider.acceleration"], r["a"][:, 6:9])
+        # Of one point on two bodies, up to 5e3 m/s^2, of which 1e-12 is rounding.
+        np.testing.assert_allclose(
+            r["rod.acceleration(0.153, 0.0)"][:, :2], r["slider.acceleration"][:, :2], atol=1e-8
+        )
+        # The row of a driver is its coordinate less its law, so that its torque is -lambda.
+        np.testing.assert_allclose(r["motor.effort"], -r["motor.multipliers"])
+
     def test_what_was_not_recorded_is_named(self):
         for key in ("C.phi", "nobody.pose", "ground.pose", "B.pose"):
             with self.assertRaisesRegex(
@@ -93,8 +108,9 @@ class Samples(unittest.TestCase):
                 self.m.simulate([0.001], "rk4", step=1e-4, record=[name])
         with self.assertRaises(TypeError):
             self.m.simulate([0.001], "rk4", step=1e-4, record=[3])
-        with self.assertRaises(baum.Error):
-            self.m.simulate([0.001], "rk4", step=1e-4, record=["B.coordinate", "motor.coordinate"])
+        for names in (["B.coordinate", "motor.coordinate"], ["A.effort"]):
+            with self.assertRaises(baum.Error):
+                self.m.simulate([0.001], "rk4", step=1e-4, record=names)
 
     def test_counters_and_account_are_python_values(self):
         r = self.run_

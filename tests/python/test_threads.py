@@ -26,17 +26,46 @@ def long_run():
 
 
 class Pool(unittest.TestCase):
+    VARIANTS = 1000
+
+    def timed(self, title, make):
+        """What make() gives, and on the way what a variant costs."""
+        begun = time.perf_counter()
+        made = make()
+        each = (time.perf_counter() - begun) / self.VARIANTS
+        print(f"{title}: {1e6 * each:.0f} us for each of {self.VARIANTS} variants", flush=True)
+        return np.array(made)
+
     def test_variants_run_side_by_side(self):
         m = slider_crank()
 
         def variant(k):
-            copy = m.copy(rod=dict(mass=0.038 * (1 + k * 1e-3)))
-            return copy.simulate([0.2], integrator="rk4", step=1e-3)["slider.pose"][-1]
+            copy = m.copy(rod=dict(mass=0.038 * (1 + k * 1e-3)), slider=dict(position=(0.45, 0.05)))
+            return copy.simulate([0.1], integrator="rk4", step=1e-3)["slider.pose"][-1]
 
-        alone = [variant(k) for k in range(40)]
+        variants = range(self.VARIANTS)
+        alone = self.timed("one after the other", lambda: list(map(variant, variants)))
         with ThreadPoolExecutor(4) as pool:
-            together = list(pool.map(variant, range(40)))
+            together = self.timed("in 4 threads", lambda: list(pool.map(variant, variants)))
         np.testing.assert_array_equal(alone, together)
+        self.assertEqual(len(np.unique(alone[:, 0])), self.VARIANTS)
+
+    def test_runs_of_one_mechanism_have_inputs_of_their_own(self):
+        m = slider_crank().thawed()
+        m.load("motor", "crank", torque=1, input=m.input("torque"))
+        m.freeze()
+
+        def run(k):
+            s = m.simulation("semi_implicit_euler", step=1e-3)
+            for _ in range(20):
+                s.set_input("torque", 1e-3 * k * s.get("A.coordinate")[0])
+                s.step(5)
+            return s.v
+
+        alone = [run(k) for k in range(40)]
+        with ThreadPoolExecutor(4) as pool:
+            np.testing.assert_array_equal(alone, list(pool.map(run, range(40))))
+        self.assertEqual(len(np.unique(alone, axis=0)), 40)
 
     def test_exceptions_stay_in_their_thread(self):
         def one(k):

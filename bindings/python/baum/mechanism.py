@@ -202,13 +202,18 @@ class Mechanism(Adding):
         """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
         frozen when this one is. Handles of one are good for the other as long as nothing is
         added."""
+        copy = self.thawed(**changes)
+        return copy.freeze() if self.frozen else copy
+
+    def thawed(self, **changes):
+        """As copy(), but not frozen, so that something can be added."""
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_copy, self.handle, ctypes.byref(out))
         copy = Mechanism.__new__(Mechanism)
         copy._adopt(out.value, self)
         for name, fields in changes.items():
             copy.change(copy[name], fields)
-        return copy.freeze() if self.frozen else copy
+        return copy
 
     @property
     def sizes(self):
