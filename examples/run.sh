@@ -9,7 +9,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations control_loop}
+names=${*:-pendulum slider_crank stability_region formulations control_loop kinematics}
 out=$PWD/out
 
 # shellcheck disable=SC2086

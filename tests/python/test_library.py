@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Finding the library, and refusing one that does not fit."""
 
+import ctypes
 import os
 import subprocess
 import sys
 import unittest
 
 import baum
-from baum import _abi
+from baum import _abi, _lib
 from compiler import CC, Folder
 
 STAND_IN = """
@@ -57,8 +58,24 @@ class Library(unittest.TestCase):
         partly = folder.library(STAND_IN.format(version=_abi.VERSION), "libpartly.so")
         self.assertIn("has no function baum_", import_with(partly))
 
+    def test_structs_that_have_grown_are_taken(self):
+        class Library:
+            def __init__(self, more):
+                self.more = more
+
+            def __getattr__(self, name):
+                def init(place, room):
+                    place.contents.struct_size = ctypes.sizeof(place.contents) + self.more
+
+                return init
+
+        _lib._check_structs(Library(0), "same")
+        _lib._check_structs(Library(8), "newer")
+        with self.assertRaisesRegex(ImportError, "bytes in the library older"):
+            _lib._check_structs(Library(-8), "older")
+
     @unittest.skipUnless(CC, "no C compiler")
-    def test_a_struct_of_another_size_is_refused(self):
+    def test_a_struct_that_is_smaller_is_refused(self):
         source = STAND_IN.format(version=_abi.VERSION)
         source += "#include <stddef.h>\n"
         for name in _abi.PROTOTYPES:
