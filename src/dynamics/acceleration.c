@@ -7,13 +7,8 @@
  * Flores et al. 2008 (7); (5) with alpha = beta = 0.
  *
  * Rows that permanently depend on others are left out. Their multipliers are then zero, which is
- * one of many solutions; what is reported to users is the one of least norm: lambda minus its part
- * in the null space of J^T, whose orthonormal basis, in rows scaled by s_i = |row i of J M^-1/2|,
- * is in redundancy.combination.
+ * one of many solutions; what is reported to users is the one of least norm (least_multipliers.c).
  */
-#include <math.h>
-#include <string.h>
-
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
@@ -90,38 +85,16 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
   return accelerate(w, t, q, v, alpha, beta);
 }
 
-static void make_multipliers_least(baum_workspace *w)
-{
-  const baum_i_redundancy *r = &w->redundancy;
-  int nc = w->mechanism->nc;
-  for (int k = 0; k < r->count; k++) {
-    const double *null = r->combination + (size_t)k * (size_t)nc;
-    double part = 0.0;
-    for (int i = 0; i < nc; i++) {
-      part += null[i] * r->row_scale[i] * w->lambda[i];
-    }
-    for (int i = 0; i < nc; i++) {
-      if (r->row_scale[i] > 0.0) {
-        w->lambda[i] -= part * null[i] / r->row_scale[i];
-      }
-    }
-  }
-}
-
 baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const double *q,
                                          const double *v)
 {
-  /* The null space of J^T needs the whole system. */
-  if (w->redundancy.count == 0) {
-    baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
-    return status == BAUM_OK ? baum_i_need_jacobian(w) : status;
-  }
-  baum_status status = accelerate(w, t, q, v, 0.0, 0.0);
+  baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
   if (status == BAUM_OK) {
-    status = translate(w, baum_i_find_combinations(w));
+    status = baum_i_need_jacobian(w);
   }
-  if (status == BAUM_OK) {
-    make_multipliers_least(w);
+  if (status == BAUM_OK && w->redundancy.count > 0) {
+    status = baum_i_evaluate_mass(w);
+    status = status == BAUM_OK ? translate(w, baum_i_make_multipliers_least(w)) : status;
   }
   return status;
 }

@@ -229,7 +229,7 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
 
 static baum_status assemble_positions(assembly *s)
 {
-  double size = INFINITY;
+  double size = (double)INFINITY;
   bool fell = true;
   for (int k = 0; k < ITERATIONS && fell && size > CONVERGED; k++) {
     baum_status status = newton_step(s, &size, &fell);
@@ -277,7 +277,7 @@ static baum_status correct_velocities(const assembly *s, double *v)
  * all the time. */
 static baum_status assemble_velocities(const assembly *s, double *v)
 {
-  double last = INFINITY;
+  double last = (double)INFINITY;
   double worst = 0.0;
   baum_status status = find_rate(s, v, &worst);
   if (status != BAUM_OK || !(worst > 0.0)) {

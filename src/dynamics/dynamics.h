@@ -26,8 +26,10 @@ typedef struct baum_i_redundancy {
   int rank_at_start;      /* at the start pose itself; less: it is singular */
   int count;              /* dropped rows, nc - rank */
   unsigned char *dropped; /* (nc) 1 where a row is left out */
-  double *combination;    /* (count x nc) orthonormal null vectors of J^T in scaled rows */
-  double *row_scale; /* (nc) length of row i of J M^-1/2; both from baum_i_find_combinations() */
+  /* Of least_multipliers.c: */
+  baum_i_kkt *kkt;   /* NULL while nothing has been dropped */
+  double *row_scale; /* (nc) length of row i of J M^-1/2 */
+  double *part;      /* (nc) of scaled multipliers, in the null space of J^T */
 } baum_i_redundancy;
 
 typedef struct baum_i_block_path baum_i_block_path;
@@ -54,7 +56,7 @@ struct baum_workspace {
   double *a;        /* (nv) last solution */
   double *lambda;   /* (nc) last solution */
   double *work_v;   /* (2 nv) */
-  double *work_c;   /* (nc) */
+  double *work_c;   /* (2 nc) */
   double *shift;    /* (nc) regularization of assembly */
   double *inputs;   /* (input_count) present values */
 
@@ -144,12 +146,14 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
 
-/* Null vectors of J^T at the point of the last solution, into redundancy.combination.
- * Also BAUM_ERR_SINGULAR. */
-baum_status baum_i_find_combinations(baum_workspace *workspace);
+/* ---- least_multipliers.c: where rows have been dropped, with M and J in the workspace ---- */
 
-/* Names of the joints whose rows the dropped ones depend on, into text. */
-void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size);
+/* workspace->lambda becomes the one of least norm, in rows scaled by M, that holds the same forces.
+ * Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
+
+/* Names of the joints whose multipliers are not unique, into text. Likewise; then it is empty. */
+baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
 /* ---- sizes of rows and states ---- */
 

@@ -90,13 +90,11 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
       report->freedoms == 1 ? "freedom" : "freedoms", m->nv, m->nc);
   if (r->count > 0) {
     char names[512] = "";
-    memset(w->work_v, 0, 2 * (size_t)m->nv * sizeof *w->work_v);
-    double *rest = w->work_v + m->nv;
-    status = baum_i_reported_acceleration(w, 0.0, q, rest);
-    baum_i_redundancy_text(w, names, sizeof names);
+    status = baum_i_position_stage(w, 0.0, q);
+    status = status == BAUM_OK ? baum_i_redundancy_text(w, names, sizeof names) : status;
     say(report, " %d redundant %s%s%s.", r->count, r->count == 1 ? "row" : "rows",
         names[0] ? " among " : "", names);
-    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* of M, not of the rows */
+    status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* then without names */
   }
   if (report->near_singular) {
     say(report, " The start pose is singular: %d independent rows, %d nearby.", r->rank_at_start,

@@ -10,7 +10,6 @@
  * and assembled there.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -164,7 +163,7 @@ static void keep_all(baum_i_redundancy *r, int nc)
   memset(r->dropped, 0, (size_t)nc);
 }
 
-/* The pose to look at is assembled, because off the constraints no row depends on others exactly. */
+/* The pose to look at is assembled: off the constraints no row depends on others exactly. */
 static baum_status find(const search *s, double t, const double *q)
 {
   baum_i_redundancy *r = &s->w->redundancy;
@@ -189,11 +188,8 @@ static baum_status find(const search *s, double t, const double *q)
     return BAUM_OK;
   }
   status = look_around(s, t, s->start);
-  baum_i_free(r->combination);
-  r->combination = NULL;
-  if (status == BAUM_OK && r->count > 0) {
-    r->combination = baum_i_alloc((size_t)r->count * (size_t)nc, sizeof *r->combination);
-    status = r->combination ? BAUM_OK : baum_i_fail_memory();
+  if (status == BAUM_OK && r->count > 0 && !r->kkt) {
+    status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
   }
   return status;
 }
@@ -222,100 +218,4 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   baum_i_free(memory);
   baum_i_free(independent);
   return status;
-}
-
-/* ---- null space and names ---- */
-
-/* |row i of J M^-1/2| with the diagonal of M */
-static void find_row_scale(baum_workspace *w)
-{
-  double *scale = w->redundancy.row_scale;
-  baum_i_row_mobilities(w, scale);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    scale[i] = sqrt(scale[i]);
-  }
-}
-
-/* Gram, Schmidt, twice for rounding. */
-static void orthonormalize(double *row, const double *before, int count, int nc)
-{
-  for (int pass = 0; pass < 2; pass++) {
-    for (int k = 0; k < count; k++) {
-      double part = 0.0;
-      for (int i = 0; i < nc; i++) {
-        part += before[(size_t)k * (size_t)nc + (size_t)i] * row[i];
-      }
-      for (int i = 0; i < nc; i++) {
-        row[i] -= part * before[(size_t)k * (size_t)nc + (size_t)i];
-      }
-    }
-  }
-  double norm = 0.0;
-  for (int i = 0; i < nc; i++) {
-    norm += row[i] * row[i];
-  }
-  for (int i = 0; i < nc && norm > 0.0; i++) {
-    row[i] /= sqrt(norm);
-  }
-}
-
-/* Row d of J as a vector over v. */
-static void expand_row(const baum_workspace *w, int d, double *out)
-{
-  const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, d)];
-  const double *row = w->jacobian + joint->jacobian + (d - joint->row) * joint->span.nl;
-  memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
-  for (int j = 0; j < joint->span.nl; j++) {
-    out[joint->span.columns[j]] += row[j];
-  }
-}
-
-baum_status baum_i_find_combinations(baum_workspace *w)
-{
-  baum_i_redundancy *r = &w->redundancy;
-  int nc = w->mechanism->nc;
-  int k = 0;
-  find_row_scale(w);
-  for (int d = 0; d < nc && k < r->count; d++) {
-    if (!r->dropped[d]) {
-      continue;
-    }
-    double *row = r->combination + (size_t)k * (size_t)nc;
-    double *f = w->work_v;
-    double *zero = w->work_c;
-    expand_row(w, d, f);
-    memset(zero, 0, (size_t)nc * sizeof *zero);
-    baum_status status = baum_i_kkt_solve(w->kkt, f, zero, f + w->mechanism->nv, row);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    for (int i = 0; i < nc; i++) {
-      row[i] = r->row_scale[i] * ((i == d ? 1.0 : 0.0) - row[i]);
-    }
-    orthonormalize(row, r->combination, k, nc);
-    k++;
-  }
-  return BAUM_OK;
-}
-
-void baum_i_redundancy_text(const baum_workspace *workspace, char *text, size_t size)
-{
-  const baum_i_redundancy *r = &workspace->redundancy;
-  const baum_mechanism *m = workspace->mechanism;
-  size_t used = 0;
-  text[0] = '\0';
-  for (int j = 0; j < m->joint_count && used + 1 < size; j++) {
-    double part = 0.0;
-    for (int k = 0; k < r->count; k++) {
-      const double *row = r->combination + (size_t)k * (size_t)m->nc + m->joints[j]->row;
-      for (int i = 0; i < m->joints[j]->rows; i++) {
-        part = fmax(part, fabs(row[i]));
-      }
-    }
-    if (part > 1e-6) {
-      int wrote = snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "",
-                           m->joints[j]->element.name);
-      used += wrote > 0 ? (size_t)wrote : 0;
-    }
-  }
 }

@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 24 };
+enum { ARRAY_COUNT = 26 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -30,8 +30,10 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->a, m->nv},
     {&w->lambda, m->nc},
     {&w->work_v, 2 * m->nv},
-    {&w->work_c, m->nc},
+    {&w->work_c, 2 * m->nc},
     {&w->shift, m->nc},
+    {&w->redundancy.part, m->nc},
+    {&w->redundancy.row_scale, m->nc},
     {&w->mass_q, m->mass_size},
     {&w->body_force_q, m->mass_size},
     {&w->body_force_v, m->mass_size},
@@ -58,8 +60,7 @@ static baum_status make_arrays(baum_workspace *w)
     }
   }
   w->redundancy.dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  w->redundancy.row_scale = baum_i_alloc((size_t)w->mechanism->nc, sizeof(double));
-  return w->redundancy.dropped && w->redundancy.row_scale ? BAUM_OK : baum_i_fail_memory();
+  return w->redundancy.dropped ? BAUM_OK : baum_i_fail_memory();
 }
 
 static baum_status make_structure(baum_workspace *w)
@@ -172,8 +173,7 @@ void baum_workspace_destroy(baum_workspace *workspace)
   baum_i_point_release(&workspace->point);
   baum_i_block_path_destroy(workspace->path);
   baum_i_free(workspace->redundancy.dropped);
-  baum_i_free(workspace->redundancy.row_scale);
-  baum_i_free(workspace->redundancy.combination);
+  baum_i_kkt_destroy(workspace->redundancy.kkt);
   baum_i_kkt_destroy(workspace->kkt);
   baum_i_free(workspace->structure.mass_blocks);
   baum_i_free(workspace->structure.row_blocks);

@@ -108,10 +108,12 @@ static baum_status warn_redundancy(baum_simulation *run)
   if (r->count > 0) {
     char names[160];
     baum_status status = baum_i_reported_acceleration(w, start->t, start->q, start->v);
+    if (status == BAUM_OK) {
+      status = baum_i_redundancy_text(w, names, sizeof names);
+    }
     if (status != BAUM_OK) {
       return status;
     }
-    baum_i_redundancy_text(w, names, sizeof names);
     baum_i_run_warn(run,
                     "%d redundant constraint %s among %s: accelerations are right, multipliers and "
                     "reactions of these joints are not unique and given with least norm",

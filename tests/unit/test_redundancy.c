@@ -150,6 +150,54 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   baum_mechanism_destroy(three);
 }
 
+/* Level links of length 1 from the origin on, each pin a number of times. */
+static baum_mechanism *chain_with_pins(int links, int pins)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_body_id before = BAUM_GROUND;
+  for (int k = 0; k < links; k++) {
+    baum_body_id link = add_link(m, NULL, k + 0.5, 0.0, 0.0);
+    for (int i = 0; i < pins; i++) {
+      (void)add_pin(m, NULL, before, link, k, 0.0);
+    }
+    before = link;
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static void many_duplicated_joints_share_their_forces(void **state)
+{
+  (void)state;
+  enum { LINKS = 200 };
+  baum_mechanism *once = chain_with_pins(LINKS, 1);
+  baum_mechanism *twice = chain_with_pins(LINKS, 2);
+  double v[3 * LINKS];
+  double want[3 * LINKS];
+  double got[3 * LINKS];
+  double force[2 * LINKS];
+  double shared[4 * LINKS];
+  for (int k = 0; k < LINKS; k++) { /* all links turn as one */
+    v[3 * k] = 0.0;
+    v[3 * k + 1] = 2.0 * (k + 0.5);
+    v[3 * k + 2] = 2.0;
+  }
+  solve(once, v, want, force);
+  solve(twice, v, got, shared);
+  for (int i = 0; i < 3 * LINKS; i++) { /* of at most 4 * 200 m/s^2 */
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9);
+  }
+  for (int k = 0; k < LINKS; k++) { /* of at most 2 kg of 200 times 4 * 100 m/s^2 */
+    for (int i = 0; i < 2; i++) {
+      ASSERT_NEAR(shared[4 * k + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
+      ASSERT_NEAR(shared[4 * k + 2 + i], 0.5 * force[2 * k + i], 0.0, 1e-7);
+    }
+  }
+  baum_mechanism_destroy(once);
+  baum_mechanism_destroy(twice);
+}
+
 static void multipliers_of_least_norm_still_balance_the_forces(void **state)
 {
   (void)state;
@@ -402,6 +450,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_duplicated_joint_changes_no_acceleration_and_is_named),
     cmocka_unit_test(a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_named),
+    cmocka_unit_test(many_duplicated_joints_share_their_forces),
     cmocka_unit_test(multipliers_of_least_norm_still_balance_the_forces),
     cmocka_unit_test(a_flat_parallelogram_is_singular_and_not_redundant),
     cmocka_unit_test(the_rank_does_not_depend_on_the_unit_of_length),
