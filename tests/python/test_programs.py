@@ -127,12 +127,12 @@ class Styles(unittest.TestCase):
         m = baum.Mechanism()
         bar = m.planar_body("bar", mass=1, inertia=0.1, position=(0, -0.5))
         pin = m.revolute("pin", m.ground, bar, point=(0, 0))
-        torque = [0.0]
-        m.force("motor", [bar], lambda t, q, v: (0, 0, torque[0]))
+        torque = m.input("torque")
+        m.load("motor", bar, torque=1, input=torque)
         s = m.freeze().simulation("semi_implicit_euler", step=1e-3)
         for _ in range(400):
             angle, rate = s.get(pin.coordinate)
-            torque[0] = 40 * (0.5 - angle) - 8 * rate
+            s.set_input(torque, 40 * (0.5 - angle) - 8 * rate)
             s.step(10)
         balance = 40 * (0.5 - s.get(pin.coordinate)[0])
         self.assertAlmostEqual(balance, 9.81 * 0.5 * np.sin(s.get(pin.coordinate)[0]), 2)
