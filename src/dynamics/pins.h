@@ -17,7 +17,12 @@ typedef struct baum_i_pins {
   double *gamma;    /* (nc) */
 } baum_i_pins;
 
-/* Arms, right sides, pivots and lambda[] of the pins; free[] must be there. */
-void baum_i_pins_set(baum_i_block *block, const baum_i_pins *pins);
+typedef struct baum_i_pins_kernel {
+  /* Arms, right sides, pivots and lambda[] of the pins; free[] must be there. */
+  void (*set)(baum_i_block *block, const baum_i_pins *pins);
+} baum_i_pins_kernel;
+
+extern const baum_i_pins_kernel baum_i_pins_kernel_plain;
+extern const baum_i_pins_kernel baum_i_pins_kernel_wide;
 
 #endif

@@ -4,51 +4,48 @@
 #include "linear/block.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "linear/block_structure.h"
 
 /* ---- memory ---- */
 
-/* An array and how many numbers it has. */
+/* An array and how many doubles it has. */
 typedef struct array {
-  double **place;
+  void *place; /* pointer to the pointer */
   size_t count;
 } array;
 
-enum { ARRAY_COUNT = 18, LINE = 8 /* numbers in a cache line */ };
+enum { ARRAY_COUNT = 16, LINE = 8 /* numbers in a cache line */ };
 
 static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
 {
-  size_t triples = (size_t)b->triple_count;
+  size_t motion = (size_t)b->motion_size;
   size_t nodes = (size_t)b->node_count;
   const array all[ARRAY_COUNT] = {
-    {&b->weight, 4 * triples},
-    {&b->mass, 4 * triples},
-    {&b->force, 4 * triples},
-    {&b->free, 4 * triples},
-    {&b->motion, 4 * triples},
-    {&b->pull, 4 * triples},
-    {&b->pull_low, 4 * triples},
+    {&b->nodes, sizeof(baum_i_node) / sizeof(double) * nodes},
+    {&b->weight, 2 * (size_t)b->triple_count},
+    {&b->free, motion},
+    {&b->motion, motion},
     {&b->arm, 4 * (size_t)b->pin_count},
     {&b->side, 6 * (size_t)b->side_count},
     {&b->right, 2 * nodes},
-    {&b->size, nodes},
-    {&b->pivot, 3 * nodes},
     {&b->off, 4 * (size_t)b->off_count},
-    {&b->lambda, 2 * nodes},
+    {&b->work, 4 * (size_t)b->most_later},
+    {&b->factor, (size_t)b->factor_size},
+    {&b->mass, motion},
+    {&b->force, motion},
+    {&b->pull, motion},
+    {&b->pull_low, motion},
     {&b->rest, 2 * nodes},
     {&b->rest_low, 2 * nodes},
-    {&b->factor, (size_t)b->factor_size},
-    {&b->work, 4 * (size_t)b->most_later},
   };
-  for (int i = 0; i < ARRAY_COUNT; i++) {
-    list[i] = all[i];
-  }
+  memcpy(list, all, sizeof all);
 }
 
-/* One arena. Every array begins on a cache line, and each a line further into its page than the one
- * before, lest all of them fall on the same sets of the cache. */
+/* One arena. Every array begins on a cache line, but none a whole number of pages after another, lest
+ * all of them fall on the same sets of the cache. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };
@@ -71,7 +68,7 @@ static baum_status make_arrays(baum_i_block *b)
   size_t over = (uintptr_t)b->numbers / sizeof(double) % LINE;
   double *next = b->numbers + (over > 0 ? LINE - over : 0);
   for (int i = 0; i < ARRAY_COUNT; i++) {
-    *list[i].place = next;
+    memcpy(list[i].place, &next, sizeof next);
     next += padded(list[i].count);
   }
   return BAUM_OK;
@@ -80,12 +77,11 @@ static baum_status make_arrays(baum_i_block *b)
 /* Over y = L^T a masses and weights are one. */
 static void set_dense_weights(baum_i_block *b)
 {
-  for (int i = 0; i < b->dense_count; i++) {
-    int size = b->structure->mass_blocks[b->dense[i].mass_block].size;
-    for (int c = 0; c < size; c++) {
-      int at = 4 * (b->dense[i].triple + c / 3) + c % 3;
-      b->weight[at] = 1.0;
-      b->mass[at] = 1.0;
+  for (int t = 1 + b->structure->mass_block_count; t < b->triple_count; t++) {
+    b->weight[2 * t] = 1.0;
+    b->weight[2 * t + 1] = 1.0;
+    for (int c = 0; c < 3; c++) {
+      b->mass[b->place[t] + c] = 1.0;
     }
   }
 }
@@ -118,7 +114,7 @@ void baum_i_block_destroy(baum_i_block *block)
   }
   const void *arrays[] = {block->pins,         block->fulls,    block->side_triple, block->entries,
                           block->alike,        block->opposite, block->full_pairs,  block->zeros,
-                          block->target_start, block->target,   block->column,      block->dense,
+                          block->target_start, block->target,   block->place,       block->dense,
                           block->dense_sides,  block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
@@ -129,16 +125,17 @@ void baum_i_block_destroy(baum_i_block *block)
 
 /* ---- masses ---- */
 
+/* What this gives dense bodies no side refers to. */
 bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
 {
   bool positive = true;
   for (int i = 0; i < block->structure->mass_block_count; i++) {
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
-    for (int c = 0; c < block->width[1 + i]; c++) {
+    for (int c = 0; c < body->size; c++) {
       double m = mass[body->value + c * body->size + c];
       positive = positive && m > 0.0;
-      block->mass[4 * (1 + i) + c] = m;
-      block->weight[4 * (1 + i) + c] = 1.0 / m;
+      block->mass[body->first + c] = m;
+      block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = 1.0 / m;
     }
   }
   return positive;
@@ -178,13 +175,7 @@ bool baum_i_block_factor_dense(baum_i_block *block, const double *mass)
   return positive;
 }
 
-/* ---- forces and motion ---- */
-
-/* Component i of a dense body in an array of triples. */
-static double *component(const baum_i_dense_body *dense, double *x, int i)
-{
-  return &x[4 * (dense->triple + i / 3) + i % 3];
-}
+/* ---- forces ---- */
 
 /* L y = f */
 static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
@@ -192,57 +183,29 @@ static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
 {
   const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];
   const double *l = block->factor + dense->factor;
+  double *y = block->free + dense->place;
   int n = body->size;
   for (int i = 0; i < n; i++) {
     double sum = force[body->first + i];
     for (int k = 0; k < i; k++) {
-      sum -= l[i * n + k] * *component(dense, block->free, k);
+      sum -= l[i * n + k] * y[k];
     }
-    double y = sum / l[i * n + i];
-    *component(dense, block->free, i) = y;
-    *component(dense, block->force, i) = y;
+    y[i] = sum / l[i * n + i];
+    block->force[dense->place + i] = y[i];
   }
 }
 
 void baum_i_block_set_force(baum_i_block *block, const double *force)
 {
-  int diagonal = block->structure->mass_block_count;
-  for (int t = 1; t <= diagonal; t++) {
-    for (int c = 0; c < block->width[t]; c++) {
-      double f = force[block->column[t] + c];
-      block->force[4 * t + c] = f;
-      block->free[4 * t + c] = block->weight[4 * t + c] * f;
+  memcpy(block->force, force, (size_t)block->structure->nv * sizeof *force);
+  for (int i = 0; i < block->structure->mass_block_count; i++) {
+    const baum_i_mass_block *body = &block->structure->mass_blocks[i];
+    const double *weight = block->weight + 2 * (1 + i);
+    for (int c = 0; c < body->size; c++) {
+      block->free[body->first + c] = weight[c < 2 ? 0 : 1] * force[body->first + c];
     }
   }
   for (int i = 0; i < block->dense_count; i++) {
     set_dense_force(block, &block->dense[i], force);
-  }
-}
-
-/* L^T a = y */
-static void get_dense_motion(const baum_i_block *block, const baum_i_dense_body *dense, double *a)
-{
-  const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];
-  const double *l = block->factor + dense->factor;
-  int n = body->size;
-  for (int i = n - 1; i >= 0; i--) {
-    double sum = *component(dense, block->motion, i);
-    for (int k = i + 1; k < n; k++) {
-      sum -= l[k * n + i] * a[body->first + k];
-    }
-    a[body->first + i] = sum / l[i * n + i];
-  }
-}
-
-void baum_i_block_get_motion(const baum_i_block *block, double *a)
-{
-  int diagonal = block->structure->mass_block_count;
-  for (int t = 1; t <= diagonal; t++) {
-    for (int c = 0; c < block->width[t]; c++) {
-      a[block->column[t] + c] = block->motion[4 * t + c];
-    }
-  }
-  for (int i = 0; i < block->dense_count; i++) {
-    get_dense_motion(block, &block->dense[i], a);
   }
 }

@@ -5,8 +5,9 @@
  *
  * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot. Columns
  * go in *triples*: a planar body is one, W diagonal; user coordinates with M = L L^T take as many as
- * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. A triple that a
- * node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
+ * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. Numbers of triples
+ * stand in the order of v, then ground, then y; a particle's third is that of its neighbour, which it
+ * leaves alone, its W being 0. A triple that a node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
@@ -41,6 +42,7 @@ typedef struct baum_i_pin_node {
   int32_t node;
   int32_t row;       /* first of its two */
   int32_t triple[2]; /* of body a and b */
+  int32_t place[2];  /* of these triples */
 } baum_i_pin_node;
 
 /* A node of any other shape. */
@@ -75,6 +77,7 @@ typedef struct baum_i_full_pair {
 typedef struct baum_i_dense_body {
   int mass_block;
   int32_t triple; /* first of its own */
+  int32_t place;  /* of that, and so of y */
   int factor;     /* start of L in factor[] */
 } baum_i_dense_body;
 
@@ -83,6 +86,14 @@ typedef struct baum_i_dense_side {
   int32_t body; /* in dense[] */
   int32_t side; /* first */
 } baum_i_dense_side;
+
+/* The numbers of a node; one cache line. */
+typedef struct baum_i_node {
+  double pivot[4];  /* D, column by column */
+  double lambda[2]; /* J a0 - r, then D^-1 L^-1 of it, then lambda */
+  double inverse;   /* 1 / det D */
+  double size;      /* product of the diagonal that S had here */
+} baum_i_node;
 
 typedef struct baum_i_block {
   const baum_i_kkt_structure *structure;
@@ -103,6 +114,7 @@ typedef struct baum_i_block {
   int dense_side_count;
   int most_later;  /* couplings of one node */
   int factor_size; /* numbers in factor[] */
+  int motion_size; /* v, ground, and y of dense bodies */
 
   baum_i_pin_node *pins;        /* (pin_count) */
   baum_i_full_node *fulls;      /* (full_count) */
@@ -114,30 +126,29 @@ typedef struct baum_i_block {
   int32_t *zeros;               /* (zero_count) blocks to clear first */
   int32_t *target_start;        /* (node_count) */
   int32_t *target;              /* blocks that pairs of couplings of a node go to */
-  int32_t *column;              /* (triple_count) first column of v, -1: none of its own */
-  int32_t *width;               /* (triple_count) columns */
-  baum_i_dense_body *dense;     /* (dense_count) */
-  baum_i_dense_side *dense_sides;
+  int32_t *place;           /* (triple_count) where its numbers are in free[], motion[] and such */
+  baum_i_dense_body *dense; /* (dense_count) */
+  baum_i_dense_side *dense_sides; /* (dense_side_count) */
 
-  double *numbers;  /* behind all arrays below */
-  double *weight;   /* (triple_count x 4) W; the last is padding */
-  double *mass;     /* (triple_count x 4) M, for refinement: W is rounded */
-  double *force;    /* (triple_count x 4) f */
-  double *free;     /* (triple_count x 4) a0 */
-  double *motion;   /* (triple_count x 4) a */
-  double *pull;     /* (triple_count x 4) W (f - M a - J^T lambda) */
-  double *pull_low; /* (triple_count x 4) what pull[] lacks while it is made */
-  double *arm;      /* (pin_count x 4) c_a, c_b */
-  double *side;     /* (side_count x 6) row-major */
-  double *right;    /* (node_count x 2) r */
-  double *size;     /* (node_count) product of the diagonal of S */
-  double *pivot;    /* (node_count x 3) D, then its inverse */
-  double *off;      /* (off_count x 4) S below the diagonal, then L */
-  double *lambda;   /* (node_count x 2) J a0 - r, then lambda */
-  double *rest;     /* (node_count x 2) r - J a, then the correction of lambda */
+  double *numbers;    /* behind all arrays below */
+  baum_i_node *nodes; /* (node_count) */
+  double *weight;     /* (triple_count x 2) W of the first two columns, and of the third */
+  double *free;       /* (motion_size) a0 */
+  double *motion;     /* (motion_size) a */
+  double *arm;        /* (pin_count x 4) c_a, c_b */
+  double *side;       /* (side_count x 6) column by column */
+  double *right;      /* (node_count x 2) r */
+  double *off;        /* (off_count x 4) S below the diagonal, then L, column by column */
+  double *work;       /* (4 x most_later) */
+  double *factor;     /* L of the dense bodies */
+
+  /* For refinement. */
+  double *mass;     /* (motion_size) M, since W is rounded */
+  double *force;    /* (motion_size) f */
+  double *pull;     /* (motion_size) W (f - M a - J^T lambda) */
+  double *pull_low; /* (motion_size) what pull[] lacks while it is made */
+  double *rest;     /* (node_count x 2) r - J a, then lambda while it is corrected */
   double *rest_low; /* (node_count x 2) as pull_low */
-  double *factor;   /* L of the dense bodies */
-  double *work;     /* (4 x most_later) */
 } baum_i_block;
 
 /* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
@@ -150,11 +161,8 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
 /* Factors of the dense bodies; their M may change. False likewise. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
-/* a0 = W f into free[]. */
+/* a0 = W f. */
 void baum_i_block_set_force(baum_i_block *block, const double *force);
-
-/* motion[] to a (nv). */
-void baum_i_block_get_motion(const baum_i_block *block, double *a);
 
 /* pull[] and rest[], in twice the precision. */
 void baum_i_block_find_residual(baum_i_block *block);
@@ -168,19 +176,21 @@ typedef enum baum_i_pivots {
 
 /* The hot part. */
 typedef struct baum_i_block_kernel {
-  /* Sides, pivots and lambda[] of the full nodes from J and right[]; pins are set by the caller. */
+  /* Sides, pivots and J a0 - r of the full nodes from J and right[]; pins are set by the caller. */
   void (*set_full)(baum_i_block *block, const double *jacobian);
   /* Off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
-  /* L D L^T, and lambda[] forward. */
+  /* L D L^T, and the right side forward. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
-  /* lambda[] backward, and motion[]. */
+  /* The right side backward, which gives lambda; and the motion. */
   void (*substitute)(baum_i_block *block);
   /* Whether every row of r - J a is rounding. */
   bool (*check)(const baum_i_block *block);
   /* One correction of a and lambda by the residual in pull[] and rest[]. Returns the largest change
    * of a multiplier against the largest multiplier. */
   double (*correct)(baum_i_block *block);
+  /* a (nv), and lambda (nc) but for dropped rows; whether all of a is finite. */
+  bool (*read)(const baum_i_block *block, double *a, double *lambda);
 } baum_i_block_kernel;
 
 extern const baum_i_block_kernel baum_i_block_kernel_plain;

@@ -15,11 +15,15 @@
 #include <string.h>
 
 #include "base/hot.h"
+#include "base/pair.h"
 #include "linear/block.h"
 
-/* det D against the product of the diagonal that S had: below the first the residual is looked at,
- * below the second this solver has nothing to say. */
-static const double weak_pivot = 1e-3;
+/* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
+ * over this: below the first the result is refined, below the second this solver has nothing to say. In
+ * long ladders healthy pivots fall with the number of nodes, and all pivots share what one of few
+ * would cost. */
+static const double weak_pivot = 1e-4;
+static const double many_nodes = 128.0;
 static const double bad_pivot = 1e-10;
 
 /* A residual of this many units of its own size is rounding. */
@@ -27,90 +31,57 @@ static const double rounding = 0x1p-47;
 
 /* ---- sides ---- */
 
-/* A side in full, of a node's side number as in baum_i_full_pair. */
-typedef struct full_side {
-  double x[6];
-} full_side;
+/* The three columns of a side. */
+typedef struct columns {
+  baum_i_pair c[3];
+} columns;
 
-static inline full_side load_side(const baum_i_block *b, int32_t number)
+static inline columns load_full(const double *side)
 {
-  full_side g;
+  return (columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
+}
+
+/* Of a side's number as in baum_i_full_pair. */
+static inline columns load_side(const baum_i_block *b, int32_t number)
+{
   if (number >= 0) {
-    memcpy(g.x, b->side + 6 * (size_t)number, sizeof g.x);
-    return g;
+    return load_full(b->side + 6 * (size_t)number);
   }
   int32_t arm = ~number;
   double sign = arm % 2 == 0 ? 1.0 : -1.0;
-  const double *c = b->arm + 2 * (size_t)arm;
-  g = (full_side){{sign, 0.0, c[0], 0.0, sign, c[1]}};
-  return g;
+  return (columns){{{sign, 0.0}, {0.0, sign}, baum_i_load(b->arm + 2 * (size_t)arm)}};
 }
 
-/* out -= W G^T l for all sides. */
-static void scatter(const baum_i_block *b, const double *l, double *out)
+/* motion -= W G^T lambda for all sides. */
+static void scatter(const baum_i_block *b)
 {
-  for (int i = 0; i < b->pin_count; i++) {
+  double *motion = b->motion;
+  const double *weight = b->weight;
+  const baum_i_node *nodes = b->nodes;
+  const double *arm = b->arm;
+  for (int i = 0; i < b->pin_count; i++, arm += 4) {
     const baum_i_pin_node *pin = &b->pins[i];
-    const double *c = b->arm + 4 * (size_t)i;
-    double l0 = l[2 * (size_t)pin->node];
-    double l1 = l[2 * (size_t)pin->node + 1];
-    double *xa = out + 4 * (size_t)pin->triple[0];
-    double *xb = out + 4 * (size_t)pin->triple[1];
-    const double *wa = b->weight + 4 * (size_t)pin->triple[0];
-    const double *wb = b->weight + 4 * (size_t)pin->triple[1];
-    xa[0] -= wa[0] * l0;
-    xa[1] -= wa[0] * l1;
-    xa[2] -= wa[2] * (c[0] * l0 + c[1] * l1);
-    xb[0] += wb[0] * l0;
-    xb[1] += wb[0] * l1;
-    xb[2] -= wb[2] * (c[2] * l0 + c[3] * l1);
+    baum_i_pair force = baum_i_load(nodes[pin->node].lambda);
+    double *x = motion + pin->place[0];
+    double *y = motion + pin->place[1];
+    const double *wx = weight + 2 * (size_t)pin->triple[0];
+    const double *wy = weight + 2 * (size_t)pin->triple[1];
+    baum_i_store(x, baum_i_load(x) - wx[0] * force);
+    x[2] -= wx[1] * baum_i_dot(baum_i_load(arm), force);
+    baum_i_store(y, baum_i_load(y) + wy[0] * force);
+    y[2] -= wy[1] * baum_i_dot(baum_i_load(arm + 2), force);
   }
   for (int i = 0; i < b->full_count; i++) {
     const baum_i_full_node *full = &b->fulls[i];
-    double l0 = l[2 * (size_t)full->node];
-    double l1 = l[2 * (size_t)full->node + 1];
+    baum_i_pair force = baum_i_load(nodes[full->node].lambda);
     for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-      const double *g = b->side + 6 * (size_t)s;
-      const double *w = b->weight + 4 * (size_t)b->side_triple[s];
-      double *x = out + 4 * (size_t)b->side_triple[s];
-      for (int c = 0; c < 3; c++) {
-        x[c] -= w[c] * (g[c] * l0 + g[3 + c] * l1);
-      }
+      columns g = load_full(b->side + 6 * (size_t)s);
+      double *x = motion + b->place[b->side_triple[s]];
+      const double *w = weight + 2 * (size_t)b->side_triple[s];
+      x[0] -= w[0] * baum_i_dot(g.c[0], force);
+      x[1] -= w[0] * baum_i_dot(g.c[1], force);
+      x[2] -= w[1] * baum_i_dot(g.c[2], force);
     }
-  }
-}
-
-/* G x of one full node added to sum. */
-static inline void gather_full(const baum_i_block *b, const baum_i_full_node *full, const double *x,
-                               double sum[2])
-{
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    const double *g = b->side + 6 * (size_t)s;
-    const double *y = x + 4 * (size_t)b->side_triple[s];
-    sum[0] += g[0] * y[0] + g[1] * y[1] + g[2] * y[2];
-    sum[1] += g[3] * y[0] + g[4] * y[1] + g[5] * y[2];
-  }
-}
-
-/* out = G x - out for all nodes. */
-static void gather(const baum_i_block *b, const double *x, double *out)
-{
-  for (int i = 0; i < b->pin_count; i++) {
-    const baum_i_pin_node *pin = &b->pins[i];
-    const double *c = b->arm + 4 * (size_t)i;
-    const double *xa = x + 4 * (size_t)pin->triple[0];
-    const double *xb = x + 4 * (size_t)pin->triple[1];
-    double *to = out + 2 * (size_t)pin->node;
-    to[0] = xa[0] - xb[0] + c[0] * xa[2] + c[2] * xb[2] - to[0];
-    to[1] = xa[1] - xb[1] + c[1] * xa[2] + c[3] * xb[2] - to[1];
-  }
-  for (int i = 0; i < b->full_count; i++) {
-    const baum_i_full_node *full = &b->fulls[i];
-    double *to = out + 2 * (size_t)full->node;
-    double sum[2] = {-to[0], -to[1]};
-    gather_full(b, full, x, sum);
-    to[0] = sum[0];
-    to[1] = sum[1];
   }
 }
 
@@ -124,17 +95,44 @@ static void whiten(baum_i_block *b)
     const baum_i_dense_body *body = &b->dense[d->body];
     int n = b->structure->mass_blocks[body->mass_block].size;
     const double *l = b->factor + body->factor;
-    for (int r = 0; r < 2; r++) {
-      double *g = b->side + 6 * (size_t)d->side + 3 * r;
-      for (int j = 0; j < n; j++) {
-        double sum = g[6 * (j / 3) + j % 3];
-        for (int k = 0; k < j; k++) {
-          sum -= l[j * n + k] * g[6 * (k / 3) + k % 3];
-        }
-        g[6 * (j / 3) + j % 3] = sum / l[j * n + j];
+    double *g = b->side + 6 * (size_t)d->side; /* column j is the j-th pair */
+    for (int j = 0; j < n; j++) {
+      baum_i_pair sum = baum_i_load(g + 2 * j);
+      for (int k = 0; k < j; k++) {
+        sum -= l[j * n + k] * baum_i_load(g + 2 * k);
       }
+      baum_i_store(g + 2 * j, sum / l[j * n + j]);
     }
   }
+}
+
+/* s += w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
+static inline baum_i_square add_sides(baum_i_square s, const columns *n, const double *w,
+                                      const columns *k)
+{
+  for (int c = 0; c < 3; c++) {
+    baum_i_square product = baum_i_outer(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
+    s.column[0] += product.column[0];
+    s.column[1] += product.column[1];
+  }
+  return s;
+}
+
+static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
+{
+  baum_i_node *node = &b->nodes[full->node];
+  baum_i_square pivot = {
+    {{full->row[0] < 0 ? 1.0 : 0.0, 0.0}, {0.0, full->row[1] < 0 ? 1.0 : 0.0}}};
+  baum_i_pair miss = -baum_i_load(b->right + 2 * (size_t)full->node);
+  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
+    columns g = load_full(b->side + 6 * (size_t)s);
+    const double *x = b->free + b->place[b->side_triple[s]];
+    pivot = add_sides(pivot, &g, b->weight + 2 * (size_t)b->side_triple[s], &g);
+    miss += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
+  }
+  baum_i_store_square(node->pivot, pivot);
+  baum_i_store(node->lambda, miss);
+  node->size = pivot.column[0][0] * pivot.column[1][1];
 }
 
 static void set_full(baum_i_block *b, const double *jacobian)
@@ -144,48 +142,36 @@ static void set_full(baum_i_block *b, const double *jacobian)
   }
   whiten(b);
   for (int i = 0; i < b->full_count; i++) {
-    const baum_i_full_node *full = &b->fulls[i];
-    double d0 = full->row[0] < 0 ? 1.0 : 0.0;
-    double d1 = 0.0;
-    double d2 = full->row[1] < 0 ? 1.0 : 0.0;
-    for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-      const double *g = b->side + 6 * (size_t)s;
-      const double *w = b->weight + 4 * (size_t)b->side_triple[s];
-      for (int c = 0; c < 3; c++) {
-        d0 += w[c] * g[c] * g[c];
-        d1 += w[c] * g[c] * g[3 + c];
-        d2 += w[c] * g[3 + c] * g[3 + c];
-      }
-    }
-    double *pivot = b->pivot + 3 * (size_t)full->node;
-    pivot[0] = d0;
-    pivot[1] = d1;
-    pivot[2] = d2;
-    b->size[full->node] = d0 * d2;
-    double sum[2] = {-b->right[2 * (size_t)full->node], -b->right[2 * (size_t)full->node + 1]};
-    gather_full(b, full, b->free, sum);
-    b->lambda[2 * (size_t)full->node] = sum[0];
-    b->lambda[2 * (size_t)full->node + 1] = sum[1];
+    set_full_node(b, &b->fulls[i]);
   }
 }
 
 /* ---- off the diagonal ---- */
 
+/* w_2 n k^T, with + or - w_0 on the diagonal. */
 static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs, int count,
                              double sign)
 {
+  const double *arm = b->arm;
+  const double *weight = b->weight;
+  double *off = b->off;
   for (int i = 0; i < count; i++) {
-    const double *n = b->arm + 2 * (size_t)pairs[i].arm[0];
-    const double *k = b->arm + 2 * (size_t)pairs[i].arm[1];
-    const double *w = b->weight + 4 * (size_t)pairs[i].triple;
-    double *s = b->off + 4 * (size_t)pairs[i].off;
-    double k0 = w[2] * k[0];
-    double k1 = w[2] * k[1];
-    s[0] = sign * w[0] + n[0] * k0;
-    s[1] = n[0] * k1;
-    s[2] = n[1] * k0;
-    s[3] = sign * w[0] + n[1] * k1;
+    const baum_i_pin_pair *pair = &pairs[i];
+    const double *w = weight + 2 * (size_t)pair->triple;
+    baum_i_pair n = baum_i_load(arm + 2 * (size_t)pair->arm[0]);
+    baum_i_pair k = baum_i_load(arm + 2 * (size_t)pair->arm[1]);
+    baum_i_square s = baum_i_add_diagonal(baum_i_outer(n, w[1] * k), sign * w[0]);
+    baum_i_store_square(off + 4 * (size_t)pair->off, s);
   }
+}
+
+static void add_full_pair(const baum_i_block *b, const baum_i_full_pair *pair)
+{
+  columns n = load_side(b, pair->side[0]);
+  columns k = load_side(b, pair->side[1]);
+  double *s = b->off + 4 * (size_t)pair->off;
+  const double *w = b->weight + 2 * (size_t)pair->triple;
+  baum_i_store_square(s, add_sides(baum_i_load_square(s), &n, w, &k));
 }
 
 static void couple(baum_i_block *b)
@@ -196,237 +182,319 @@ static void couple(baum_i_block *b)
   set_pairs(b, b->alike, b->alike_count, 1.0);
   set_pairs(b, b->opposite, b->opposite_count, -1.0);
   for (int i = 0; i < b->full_pair_count; i++) {
-    const baum_i_full_pair *pair = &b->full_pairs[i];
-    full_side n = load_side(b, pair->side[0]);
-    full_side k = load_side(b, pair->side[1]);
-    const double *w = b->weight + 4 * (size_t)pair->triple;
-    double *s = b->off + 4 * (size_t)pair->off;
-    for (int c = 0; c < 3; c++) {
-      double k0 = w[c] * k.x[c];
-      double k1 = w[c] * k.x[3 + c];
-      s[0] += n.x[c] * k0;
-      s[1] += n.x[c] * k1;
-      s[2] += n.x[3 + c] * k0;
-      s[3] += n.x[3 + c] * k1;
-    }
+    add_full_pair(b, &b->full_pairs[i]);
   }
 }
 
 /* ---- factor and solve ---- */
 
-/* A pivot's inverse before the division. */
-typedef struct adjugate {
-  double x[3]; /* of the symmetric 2 x 2 */
-  double inverse;
-} adjugate;
-
-/* What coupling `x` (rows of a later node) gives to that node; x becomes L, u is U / det. */
-static inline void eliminate_one(double *x, const adjugate *p, const double right[2], double *pivot,
-                                 double *lambda, double u[4])
+/* X adj(D) of the symmetric D. */
+static inline baum_i_square times_adjugate(baum_i_square x, const double d[4])
 {
-  double u00 = x[0] * p->x[0] + x[1] * p->x[1];
-  double u01 = x[0] * p->x[1] + x[1] * p->x[2];
-  double u10 = x[2] * p->x[0] + x[3] * p->x[1];
-  double u11 = x[2] * p->x[1] + x[3] * p->x[2];
-  double inverse = p->inverse;
-  pivot[0] -= inverse * (u00 * x[0] + u01 * x[1]);
-  pivot[1] -= inverse * (u00 * x[2] + u01 * x[3]);
-  pivot[2] -= inverse * (u10 * x[2] + u11 * x[3]);
-  lambda[0] -= inverse * (u00 * right[0] + u01 * right[1]);
-  lambda[1] -= inverse * (u10 * right[0] + u11 * right[1]);
-  u[0] = u00 * inverse;
-  u[1] = u01 * inverse;
-  u[2] = u10 * inverse;
-  u[3] = u11 * inverse;
+  return (baum_i_square){
+    {x.column[0] * d[3] - x.column[1] * d[1], x.column[1] * d[0] - x.column[0] * d[1]}};
 }
 
-/* S_fe -= L_f X_e^T */
-static inline void update(double *s, const double *l, const double *x)
+/* adj(D) r / det D */
+static inline baum_i_pair solve_pivot(const baum_i_node *node, baum_i_pair r)
 {
-  s[0] -= l[0] * x[0] + l[1] * x[1];
-  s[1] -= l[0] * x[2] + l[1] * x[3];
-  s[2] -= l[2] * x[0] + l[3] * x[1];
-  s[3] -= l[2] * x[2] + l[3] * x[3];
+  const double *d = node->pivot;
+  return node->inverse * (baum_i_pair){d[3] * r[0] - d[1] * r[1], d[0] * r[1] - d[1] * r[0]};
+}
+
+/* What coupling x of `from` (rows of the later node `to`) gives to that node. Returns L. */
+static inline baum_i_square eliminate_one(const baum_i_node *from, baum_i_square x, double inverse,
+                                          baum_i_pair right, baum_i_node *to)
+{
+  baum_i_square u = times_adjugate(x, from->pivot);
+  baum_i_square product = baum_i_times_transposed(u, x);
+  baum_i_pair pushed = baum_i_times(u, right);
+  baum_i_store(to->pivot, baum_i_load(to->pivot) - inverse * product.column[0]);
+  baum_i_store(to->pivot + 2, baum_i_load(to->pivot + 2) - inverse * product.column[1]);
+  baum_i_store(to->lambda, baum_i_load(to->lambda) - inverse * pushed);
+  return (baum_i_square){{inverse * u.column[0], inverse * u.column[1]}};
 }
 
 /* All couplings of the node at place k, of which there are more than one. */
-static void eliminate_many(baum_i_block *b, int32_t k, const adjugate *p, const double right[2])
+static inline void eliminate_many(const baum_i_block *b, size_t k, double inverse,
+                                  baum_i_pair right)
 {
   int32_t first = b->order.start[k];
   int32_t count = b->order.start[k + 1] - first;
-  const int32_t *later = b->order.later + first;
   const int32_t *target = b->target + b->target_start[k];
   double *x = b->off + 4 * (size_t)first;
-  double *before = b->work;
   for (int32_t f = 0; f < count; f++, x += 4) {
-    memcpy(before + 4 * (size_t)f, x, 4 * sizeof *x);
-    double l[4];
-    eliminate_one(x, p, right, b->pivot + 3 * (size_t)later[f], b->lambda + 2 * (size_t)later[f],
-                  l);
+    baum_i_square before = baum_i_load_square(x);
+    baum_i_square l =
+      eliminate_one(&b->nodes[k], before, inverse, right, &b->nodes[b->order.later[first + f]]);
+    baum_i_store_square(b->work + 4 * (size_t)f, before);
+    baum_i_store_square(x, l);
     for (int32_t e = 0; e < f; e++) {
-      update(b->off + 4 * (size_t)*target++, l, before + 4 * (size_t)e);
+      /* S_fe -= L_f X_e^T */
+      baum_i_square product =
+        baum_i_times_transposed(l, baum_i_load_square(b->work + 4 * (size_t)e));
+      double *s = b->off + 4 * (size_t)*target++;
+      baum_i_store(s, baum_i_load(s) - product.column[0]);
+      baum_i_store(s + 2, baum_i_load(s + 2) - product.column[1]);
     }
-    memcpy(x, l, sizeof l);
   }
+}
+
+/* The smallest det D against the product of the diagonal that S had. */
+static double weakest(const baum_i_block *b)
+{
+  double least = INFINITY;
+  for (int k = 0; k < b->node_count; k++) {
+    double ratio = 1.0 / (b->nodes[k].inverse * b->nodes[k].size);
+    least = ratio < least ? ratio : least;
+  }
+  return least;
 }
 
 static baum_i_pivots eliminate(baum_i_block *b)
 {
-  double least_weak = INFINITY;
-  double least_bad = INFINITY;
-  for (int32_t k = 0; k < b->node_count; k++) {
-    double *d = b->pivot + 3 * (size_t)k;
-    double *l = b->lambda + 2 * (size_t)k;
-    double det = d[0] * d[2] - d[1] * d[1];
-    adjugate p = {{d[2], -d[1], d[0]}, 1.0 / det};
-    double size = b->size[k];
-    /* NaN fails both comparisons, and then both minima hold it or something negative. */
-    least_weak = det - weak_pivot * size < least_weak ? det - weak_pivot * size : least_weak;
-    least_bad = det - bad_pivot * size > 0.0 ? least_bad : -1.0;
-    double right[2] = {l[0], l[1]};
-    int32_t first = b->order.start[k];
-    int32_t count = b->order.start[k + 1] - first;
+  const int32_t *start = b->order.start;
+  const int32_t *later = b->order.later;
+  baum_i_node *node = b->nodes;
+  double margin = INFINITY;
+  double weak = weak_pivot * fmin(1.0, many_nodes / b->node_count);
+  for (size_t k = 0; k < (size_t)b->node_count; k++, node++) {
+    const double *d = node->pivot;
+    double det = d[0] * d[3] - d[1] * d[1];
+    double inverse = 1.0 / det;
+    double over = det - weak * node->size;
+    margin = over < margin ? over : margin;
+    baum_i_pair right = baum_i_load(node->lambda);
+    int32_t first = start[k];
+    int32_t count = start[k + 1] - first;
     if (count == 1) {
-      int32_t later = b->order.later[first];
       double *x = b->off + 4 * (size_t)first;
-      double u[4];
-      eliminate_one(x, &p, right, b->pivot + 3 * (size_t)later, b->lambda + 2 * (size_t)later, u);
-      memcpy(x, u, sizeof u);
+      baum_i_store_square(
+        x, eliminate_one(node, baum_i_load_square(x), inverse, right, &b->nodes[later[first]]));
     } else if (count > 1) {
-      eliminate_many(b, k, &p, right);
+      eliminate_many(b, k, inverse, right);
     }
-    d[0] = p.x[0] * p.inverse;
-    d[1] = p.x[1] * p.inverse;
-    d[2] = p.x[2] * p.inverse;
-    l[0] = d[0] * right[0] + d[1] * right[1];
-    l[1] = d[1] * right[0] + d[2] * right[1];
+    node->inverse = inverse;
+    baum_i_store(node->lambda, solve_pivot(node, right));
   }
-  if (!(least_bad > 0.0)) {
-    return BAUM_I_PIVOTS_BAD;
+  if (margin > 0.0) {
+    return BAUM_I_PIVOTS_GOOD;
   }
-  return least_weak > 0.0 ? BAUM_I_PIVOTS_GOOD : BAUM_I_PIVOTS_WEAK;
+  return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* l_k -= sum of L^T l_later, from the last node to the first. */
-static void backward(const baum_i_block *b, double *l)
+/* lambda_k -= sum of L^T lambda_later, from the last node to the first. */
+static void backward(const baum_i_block *b)
 {
-  for (int32_t k = (int32_t)b->node_count - 1; k >= 0; k--) {
-    double l0 = l[2 * (size_t)k];
-    double l1 = l[2 * (size_t)k + 1];
-    for (int32_t e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
-      const double *x = b->off + 4 * (size_t)e;
-      const double *later = l + 2 * (size_t)b->order.later[e];
-      l0 -= x[0] * later[0] + x[2] * later[1];
-      l1 -= x[1] * later[0] + x[3] * later[1];
+  const int32_t *start = b->order.start;
+  const int32_t *later = b->order.later;
+  const double *off = b->off;
+  baum_i_node *nodes = b->nodes;
+  int32_t end = start[b->node_count];
+  for (size_t k = (size_t)b->node_count; k-- > 0;) {
+    baum_i_pair sum = baum_i_load(nodes[k].lambda);
+    int32_t first = start[k];
+    const double *x = off + 4 * (size_t)first;
+    for (int32_t e = first; e < end; e++, x += 4) {
+      baum_i_pair l = baum_i_load(nodes[later[e]].lambda);
+      baum_i_pair p = baum_i_load(x) * l;
+      baum_i_pair q = baum_i_load(x + 2) * l;
+      sum -= (baum_i_pair){p[0], q[0]} + (baum_i_pair){p[1], q[1]};
     }
-    l[2 * (size_t)k] = l0;
-    l[2 * (size_t)k + 1] = l1;
+    baum_i_store(nodes[k].lambda, sum);
+    end = first;
   }
 }
 
-/* l = D^-1 L^-1 l with a factorization that is there. */
-static void forward(const baum_i_block *b, double *l)
+/* lambda = D^-1 L^-1 lambda with a factorization that is there. */
+static void forward(const baum_i_block *b)
 {
-  for (int32_t k = 0; k < b->node_count; k++) {
-    double l0 = l[2 * (size_t)k];
-    double l1 = l[2 * (size_t)k + 1];
+  baum_i_node *nodes = b->nodes;
+  for (size_t k = 0; k < (size_t)b->node_count; k++) {
+    baum_i_pair right = baum_i_load(nodes[k].lambda);
     for (int32_t e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
-      const double *x = b->off + 4 * (size_t)e;
-      double *later = l + 2 * (size_t)b->order.later[e];
-      later[0] -= x[0] * l0 + x[1] * l1;
-      later[1] -= x[2] * l0 + x[3] * l1;
+      double *l = nodes[b->order.later[e]].lambda;
+      baum_i_square x = baum_i_load_square(b->off + 4 * (size_t)e);
+      baum_i_store(l, baum_i_load(l) - baum_i_times(x, right));
     }
-    const double *d = b->pivot + 3 * (size_t)k;
-    l[2 * (size_t)k] = d[0] * l0 + d[1] * l1;
-    l[2 * (size_t)k + 1] = d[1] * l0 + d[2] * l1;
+    baum_i_store(nodes[k].lambda, solve_pivot(&nodes[k], right));
   }
 }
 
 static void substitute(baum_i_block *b)
 {
-  backward(b, b->lambda);
-  memcpy(b->motion, b->free, 4 * (size_t)b->triple_count * sizeof *b->motion);
-  scatter(b, b->lambda, b->motion);
+  backward(b);
+  memcpy(b->motion, b->free, (size_t)b->motion_size * sizeof *b->motion);
+  scatter(b);
 }
 
 /* ---- residual and refinement ---- */
 
+static inline baum_i_pair magnitude(baum_i_pair x)
+{
+  return (baum_i_pair){fabs(x[0]), fabs(x[1])};
+}
+
 static bool check_pins(const baum_i_block *b)
 {
   double worst = 0.0;
-  for (int i = 0; i < b->pin_count; i++) {
+  const double *arm = b->arm;
+  const double *motion = b->motion;
+  const double *rights = b->right;
+  for (int i = 0; i < b->pin_count; i++, arm += 4) {
     const baum_i_pin_node *pin = &b->pins[i];
-    const double *c = b->arm + 4 * (size_t)i;
-    const double *xa = b->motion + 4 * (size_t)pin->triple[0];
-    const double *xb = b->motion + 4 * (size_t)pin->triple[1];
-    const double *right = b->right + 2 * (size_t)pin->node;
-    for (int r = 0; r < 2; r++) {
-      double turn_a = c[r] * xa[2];
-      double turn_b = c[2 + r] * xb[2];
-      double rest = right[r] - (xa[r] - xb[r] + turn_a + turn_b);
-      double size = fabs(right[r]) + fabs(xa[r]) + fabs(xb[r]) + fabs(turn_a) + fabs(turn_b);
-      double excess = fabs(rest) - rounding * size;
-      worst = excess > worst ? excess : worst;
-    }
+    const double *x = motion + pin->place[0];
+    const double *y = motion + pin->place[1];
+    baum_i_pair right = baum_i_load(rights + 2 * (size_t)pin->node);
+    baum_i_pair move_x = baum_i_load(x);
+    baum_i_pair move_y = baum_i_load(y);
+    baum_i_pair turn_x = x[2] * baum_i_load(arm);
+    baum_i_pair turn_y = y[2] * baum_i_load(arm + 2);
+    baum_i_pair rest = magnitude(right - (move_x - move_y + turn_x + turn_y));
+    baum_i_pair size = magnitude(right) + magnitude(move_x) + magnitude(move_y) +
+                       magnitude(turn_x) + magnitude(turn_y);
+    baum_i_pair excess = rest - rounding * size;
+    worst = excess[0] > worst ? excess[0] : worst;
+    worst = excess[1] > worst ? excess[1] : worst;
   }
   return worst <= 0.0;
 }
 
-static bool check_fulls(const baum_i_block *b)
+static bool check_full(const baum_i_block *b, const baum_i_full_node *full)
 {
-  double worst = 0.0;
-  for (int i = 0; i < b->full_count; i++) {
-    const baum_i_full_node *full = &b->fulls[i];
-    const double *right = b->right + 2 * (size_t)full->node;
-    for (int r = 0; r < 2; r++) {
-      double sum = right[r];
-      double size = fabs(right[r]);
-      for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-        const double *g = b->side + 6 * (size_t)s + 3 * r;
-        const double *x = b->motion + 4 * (size_t)b->side_triple[s];
-        for (int c = 0; c < 3; c++) {
-          sum -= g[c] * x[c];
-          size += fabs(g[c] * x[c]);
-        }
-      }
-      double excess = fabs(sum) - rounding * size;
-      worst = excess > worst ? excess : worst;
+  baum_i_pair rest = baum_i_load(b->right + 2 * (size_t)full->node);
+  baum_i_pair size = magnitude(rest);
+  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
+    columns g = load_full(b->side + 6 * (size_t)s);
+    const double *x = b->motion + b->place[b->side_triple[s]];
+    for (int c = 0; c < 3; c++) {
+      rest -= x[c] * g.c[c];
+      size += magnitude(x[c] * g.c[c]);
     }
   }
-  return worst <= 0.0;
+  return fabs(rest[0]) <= rounding * size[0] && fabs(rest[1]) <= rounding * size[1];
 }
 
 static bool check(const baum_i_block *b)
 {
-  bool pins = check_pins(b);
-  return check_fulls(b) && pins;
+  bool fine = check_pins(b);
+  for (int i = 0; i < b->full_count && fine; i++) {
+    fine = check_full(b, &b->fulls[i]);
+  }
+  return fine;
 }
 
-static double largest(const double *x, size_t count)
+/* lambda = J pull - rest of all nodes. */
+static void gather(const baum_i_block *b)
 {
-  double most = 0.0;
-  for (size_t i = 0; i < count; i++) {
-    most = fabs(x[i]) > most ? fabs(x[i]) : most;
+  for (int i = 0; i < b->pin_count; i++) {
+    const baum_i_pin_node *pin = &b->pins[i];
+    const double *c = b->arm + 4 * (size_t)i;
+    const double *x = b->pull + pin->place[0];
+    const double *y = b->pull + pin->place[1];
+    baum_i_pair sum = baum_i_load(x) - baum_i_load(y) + x[2] * baum_i_load(c) +
+                      y[2] * baum_i_load(c + 2) - baum_i_load(b->rest + 2 * (size_t)pin->node);
+    baum_i_store(b->nodes[pin->node].lambda, sum);
   }
-  return most;
+  for (int i = 0; i < b->full_count; i++) {
+    const baum_i_full_node *full = &b->fulls[i];
+    baum_i_pair sum = -baum_i_load(b->rest + 2 * (size_t)full->node);
+    for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
+      columns g = load_full(b->side + 6 * (size_t)s);
+      const double *x = b->pull + b->place[b->side_triple[s]];
+      sum += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
+    }
+    baum_i_store(b->nodes[full->node].lambda, sum);
+  }
+}
+
+/* lambda of all nodes plus what was put aside; the largest change against the largest multiplier. */
+static double add_change(const baum_i_block *b, const double *before)
+{
+  double change = 0.0;
+  double size = 0.0;
+  for (size_t i = 0; i < 2 * (size_t)b->node_count; i++) {
+    double *l = &b->nodes[i / 2].lambda[i % 2];
+    change = fmax(change, fabs(*l));
+    *l += before[i];
+    size = fmax(size, fabs(*l));
+  }
+  return size > 0.0 ? change / size : 0.0;
 }
 
 static double correct(baum_i_block *b)
 {
-  size_t triples = 4 * (size_t)b->triple_count;
-  size_t nodes = 2 * (size_t)b->node_count;
-  gather(b, b->pull, b->rest);
-  forward(b, b->rest);
-  backward(b, b->rest);
-  for (size_t i = 0; i < triples; i++) {
+  double *before = b->rest_low;
+  for (size_t i = 0; i < 2 * (size_t)b->node_count; i++) {
+    before[i] = b->nodes[i / 2].lambda[i % 2];
+  }
+  gather(b);
+  forward(b);
+  backward(b);
+  for (int i = 0; i < b->motion_size; i++) {
     b->motion[i] += b->pull[i];
   }
-  scatter(b, b->rest, b->motion);
-  for (size_t i = 0; i < nodes; i++) {
-    b->lambda[i] += b->rest[i];
+  scatter(b);
+  return add_change(b, before);
+}
+
+/* ---- results ---- */
+
+/* L^T a = y */
+static void read_dense(const baum_i_block *b, const baum_i_dense_body *dense, double *a)
+{
+  const baum_i_mass_block *body = &b->structure->mass_blocks[dense->mass_block];
+  const double *l = b->factor + dense->factor;
+  int n = body->size;
+  for (int i = n - 1; i >= 0; i--) {
+    double sum = b->motion[dense->place + i];
+    for (int k = i + 1; k < n; k++) {
+      sum -= l[k * n + i] * a[body->first + k];
+    }
+    a[body->first + i] = sum / l[i * n + i];
   }
-  double size = largest(b->lambda, nodes);
-  return size > 0.0 ? largest(b->rest, nodes) / size : 0.0;
+}
+
+static void read_lambda(const baum_i_block *b, double *lambda)
+{
+  const baum_i_node *nodes = b->nodes;
+  for (int i = 0; i < b->pin_count; i++) {
+    baum_i_store(lambda + b->pins[i].row, baum_i_load(nodes[b->pins[i].node].lambda));
+  }
+  for (int i = 0; i < b->full_count; i++) {
+    const baum_i_full_node *full = &b->fulls[i];
+    for (int k = 0; k < 2; k++) {
+      if (full->row[k] >= 0) {
+        lambda[full->row[k]] = nodes[full->node].lambda[k];
+      }
+    }
+  }
+}
+
+/* A sum of zeros is zero, or NaN where a number is not finite. */
+static bool is_finite(const double *x, int count)
+{
+  double sum[4] = {0.0};
+  int i = 0;
+  for (; i + 4 <= count; i += 4) {
+    for (int k = 0; k < 4; k++) {
+      sum[k] += 0.0 * x[i + k];
+    }
+  }
+  for (; i < count; i++) {
+    sum[0] += 0.0 * x[i];
+  }
+  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
+}
+
+static bool read(const baum_i_block *b, double *a, double *lambda)
+{
+  memcpy(a, b->motion, (size_t)b->structure->nv * sizeof *a);
+  for (int i = 0; i < b->dense_count; i++) {
+    read_dense(b, &b->dense[i], a);
+  }
+  read_lambda(b, lambda);
+  return is_finite(a, b->structure->nv);
 }
 
 const baum_i_block_kernel BAUM_I_HOT(baum_i_block_kernel) = {
@@ -436,4 +504,5 @@ const baum_i_block_kernel BAUM_I_HOT(baum_i_block_kernel) = {
   .substitute = substitute,
   .check = check,
   .correct = correct,
+  .read = read,
 };

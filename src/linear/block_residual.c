@@ -33,9 +33,9 @@ static inline void subtract_product(twofold *sum, double x, double y)
   add(sum, -product);
 }
 
-/* What a node has on one triple. */
+/* What a node has on one triple, column by column. */
 typedef struct side {
-  int32_t triple;
+  int32_t place;
   double g[6];
 } side;
 
@@ -46,15 +46,15 @@ static void for_sides(baum_i_block *b, side_fn *visit)
   for (int i = 0; i < b->pin_count; i++) {
     const baum_i_pin_node *pin = &b->pins[i];
     const double *c = b->arm + 4 * (size_t)i;
-    const side on_a = {pin->triple[0], {1.0, 0.0, c[0], 0.0, 1.0, c[1]}};
-    const side on_b = {pin->triple[1], {-1.0, 0.0, c[2], 0.0, -1.0, c[3]}};
+    const side on_a = {pin->place[0], {1.0, 0.0, 0.0, 1.0, c[0], c[1]}};
+    const side on_b = {pin->place[1], {-1.0, 0.0, 0.0, -1.0, c[2], c[3]}};
     visit(b, pin->node, &on_a);
     visit(b, pin->node, &on_b);
   }
   for (int i = 0; i < b->full_count; i++) {
     const baum_i_full_node *full = &b->fulls[i];
     for (int k = full->first_side; k < full->first_side + full->side_count; k++) {
-      side s = {.triple = b->side_triple[k]};
+      side s = {.place = b->place[b->side_triple[k]]};
       memcpy(s.g, b->side + 6 * (size_t)k, sizeof s.g);
       visit(b, full->node, &s);
     }
@@ -63,12 +63,12 @@ static void for_sides(baum_i_block *b, side_fn *visit)
 
 static void subtract_from_motion(baum_i_block *b, int32_t node, const side *s)
 {
-  const double *l = b->lambda + 2 * (size_t)node;
+  const double *l = b->nodes[node].lambda;
   for (int c = 0; c < 3; c++) {
-    size_t at = 4 * (size_t)s->triple + (size_t)c;
+    size_t at = (size_t)s->place + (size_t)c;
     twofold sum = {b->pull[at], b->pull_low[at]};
-    subtract_product(&sum, s->g[c], l[0]);
-    subtract_product(&sum, s->g[3 + c], l[1]);
+    subtract_product(&sum, s->g[2 * c], l[0]);
+    subtract_product(&sum, s->g[2 * c + 1], l[1]);
     b->pull[at] = sum.high;
     b->pull_low[at] = sum.low;
   }
@@ -76,35 +76,46 @@ static void subtract_from_motion(baum_i_block *b, int32_t node, const side *s)
 
 static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
 {
-  const double *x = b->motion + 4 * (size_t)s->triple;
+  const double *x = b->motion + s->place;
   for (int r = 0; r < 2; r++) {
     size_t at = 2 * (size_t)node + (size_t)r;
     twofold sum = {b->rest[at], b->rest_low[at]};
     for (int c = 0; c < 3; c++) {
-      subtract_product(&sum, s->g[3 * r + c], x[c]);
+      subtract_product(&sum, s->g[2 * c + r], x[c]);
     }
     b->rest[at] = sum.high;
     b->rest_low[at] = sum.low;
   }
 }
 
-void baum_i_block_find_residual(baum_i_block *b)
+/* f - M a */
+static void begin_motion(baum_i_block *b)
 {
-  size_t triples = 4 * (size_t)b->triple_count;
-  size_t rows = 2 * (size_t)b->node_count;
-  for (size_t i = 0; i < triples; i++) {
+  for (int i = 0; i < b->motion_size; i++) {
     twofold sum = {b->force[i], 0.0};
     subtract_product(&sum, b->mass[i], b->motion[i]);
     b->pull[i] = sum.high;
     b->pull_low[i] = sum.low;
   }
+}
+
+static void end_motion(baum_i_block *b)
+{
+  for (int i = 0; i < b->motion_size; i++) {
+    double pull = b->pull[i] + b->pull_low[i];
+    b->pull[i] = b->mass[i] > 0.0 ? pull / b->mass[i] : 0.0;
+  }
+}
+
+void baum_i_block_find_residual(baum_i_block *b)
+{
+  size_t rows = 2 * (size_t)b->node_count;
+  begin_motion(b);
   memcpy(b->rest, b->right, rows * sizeof *b->rest);
   memset(b->rest_low, 0, rows * sizeof *b->rest_low);
   for_sides(b, subtract_from_motion);
   for_sides(b, subtract_from_rows);
-  for (size_t i = 0; i < triples; i++) {
-    b->pull[i] = b->weight[i] * (b->pull[i] + b->pull_low[i]);
-  }
+  end_motion(b);
   for (size_t i = 0; i < rows; i++) {
     b->rest[i] += b->rest_low[i];
   }

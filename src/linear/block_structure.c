@@ -124,14 +124,13 @@ static baum_status make_bodies(builder *u)
   baum_i_block *b = u->block;
   b->triple_count = count_triples(u->layout, &b->dense_count);
   b->dense = baum_i_alloc((size_t)b->dense_count, sizeof *b->dense);
-  b->column = baum_i_alloc(2 * (size_t)b->triple_count, sizeof *b->column);
+  b->place = baum_i_alloc((size_t)b->triple_count, sizeof *b->place);
   u->column_body = baum_i_alloc((size_t)s->nv, sizeof *u->column_body);
   u->triple_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->triple_of);
   u->dense_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->dense_of);
-  if (!b->dense || !b->column || !u->column_body || !u->triple_of || !u->dense_of) {
+  if (!b->dense || !b->place || !u->column_body || !u->triple_of || !u->dense_of) {
     return BAUM_ERR_MEMORY;
   }
-  b->width = b->column + b->triple_count;
   return BAUM_OK;
 }
 
@@ -141,25 +140,30 @@ static void place_bodies(builder *u)
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_block *b = u->block;
   int32_t next = 1 + s->mass_block_count;
+  int32_t end = s->nv;
   int dense = 0;
+  b->place[0] = end;
+  end += 3;
   for (int32_t i = 0; i < s->mass_block_count; i++) {
     const baum_i_mass_block *body = &s->mass_blocks[i];
     bool diagonal = u->layout->diagonal[i] != 0;
     u->triple_of[i] = diagonal ? 1 + i : next;
     u->dense_of[i] = diagonal ? -1 : dense;
+    b->place[1 + i] = body->first;
     for (int c = 0; c < body->size; c++) {
       u->column_body[body->first + c] = i;
     }
-    if (diagonal) {
-      b->column[1 + i] = body->first;
-      b->width[1 + i] = body->size;
-    } else {
-      b->dense[dense++] =
-        (baum_i_dense_body){.mass_block = i, .triple = next, .factor = b->factor_size};
+    if (!diagonal) {
+      b->dense[dense++] = (baum_i_dense_body){
+        .mass_block = i, .triple = next, .place = end, .factor = b->factor_size};
       b->factor_size += body->size * body->size;
-      next += triples_for(body->size);
+      for (int k = 0; k < triples_for(body->size); k++) {
+        b->place[next++] = end;
+        end += 3;
+      }
     }
   }
+  b->motion_size = end;
 }
 
 /* ---- nodes and sides ---- */
@@ -265,7 +269,7 @@ static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
       if (!entry) {
         return BAUM_ERR_MEMORY;
       }
-      entry->to = 6 * number + 3 * r + j % 3;
+      entry->to = 6 * number + 2 * (j % 3) + r;
       entry->from = rows->value + (node->row[r] - rows->row) * rows->cols + c;
     }
   }
@@ -415,8 +419,11 @@ static baum_status place_nodes(builder *u)
     const raw_side *side = &sides[node->first_side];
     if (node->is_pin) {
       u->arm_of[raw] = 2 * b->pin_count;
-      b->pins[b->pin_count++] = (baum_i_pin_node){
-        .node = k, .row = node->row[0], .triple = {side[0].triple, side[1].triple}};
+      b->pins[b->pin_count++] =
+        (baum_i_pin_node){.node = k,
+                          .row = node->row[0],
+                          .triple = {side[0].triple, side[1].triple},
+                          .place = {b->place[side[0].triple], b->place[side[1].triple]}};
     } else {
       b->fulls[b->full_count++] =
         (baum_i_full_node){.node = k,

@@ -3,6 +3,7 @@
 #include <math.h>
 
 #include "base/hot.h"
+#include "base/pair.h"
 #include "base/sincos.h"
 #include "mechanism/frames.h"
 
@@ -38,47 +39,41 @@ static void mend_far(const double *angle, int count, double *sine, double *cosin
   }
 }
 
-static void set_positions(const baum_mechanism *mechanism, const double *q, const double *angle,
-                          int size, baum_i_frame *frames)
+/* Of a body whose frame is not that of a planar body. */
+static void set_other(int kind, const double *q, const double *v, baum_i_frame *frame)
 {
-  const double *cosine = angle + size;
-  const double *sine = cosine + size;
+  static const double rest[2] = {0.0, 0.0};
+  const double *rate = v ? v : rest;
+  if (kind == BAUM_I_FRAME_PARTICLE) {
+    baum_i_store(&frame->x, baum_i_load(q));
+    baum_i_store(&frame->vx, baum_i_load(rate));
+  }
+}
+
+static void set_frames(const baum_mechanism *mechanism, const double *q, const double *v,
+                       const double *turn, baum_i_frame *frames)
+{
+  static const double rest[3] = {0.0, 0.0, 0.0};
+  int size = baum_i_turn_size(mechanism);
+  const baum_i_body_place *places = mechanism->places;
   for (int i = 1; i <= mechanism->body_count; i++) {
-    const baum_i_body_place *place = &mechanism->places[i];
     baum_i_frame *frame = &frames[i];
-    frame->c = cosine[i];
-    frame->s = sine[i];
-    frame->angle = angle[i];
-    if (place->kind != BAUM_I_FRAME_NONE) {
-      frame->x = q[place->q];
-      frame->y = q[place->q + 1];
+    const double *position = q + places[i].q;
+    if (places[i].kind != BAUM_I_FRAME_BODY) {
+      set_other(places[i].kind, position, v ? v + places[i].q : NULL, frame);
+      continue;
     }
+    const double *rate = v ? v + places[i].q : rest;
+    baum_i_store(&frame->x, baum_i_load(position));
+    baum_i_store(&frame->vx, baum_i_load(rate));
+    frame->c = turn[size + i];
+    frame->s = turn[2 * size + i];
+    frame->w = rate[2];
+    frame->angle = position[2];
   }
 }
 
-static void set_velocities(const baum_mechanism *mechanism, const double *v, baum_i_frame *frames)
-{
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    const baum_i_body_place *place = &mechanism->places[i];
-    baum_i_frame *frame = &frames[i];
-    if (place->kind != BAUM_I_FRAME_NONE) {
-      frame->vx = v[place->q];
-      frame->vy = v[place->q + 1];
-      frame->w = place->kind == BAUM_I_FRAME_BODY ? v[place->q + 2] : 0.0;
-    }
-  }
-}
-
-static void set_rest(const baum_mechanism *mechanism, baum_i_frame *frames)
-{
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    frames[i].vx = 0.0;
-    frames[i].vy = 0.0;
-    frames[i].w = 0.0;
-  }
-}
-
-static void set(const baum_mechanism *mechanism, const double *q, const double *v,
+static void set_all(const baum_mechanism *mechanism, const double *q, const double *v,
                 baum_i_frame *frames, double *turn)
 {
   int size = baum_i_turn_size(mechanism);
@@ -89,12 +84,7 @@ static void set(const baum_mechanism *mechanism, const double *q, const double *
   if (far) {
     mend_far(turn, size, sine, cosine);
   }
-  set_positions(mechanism, q, turn, size, frames);
-  if (v) {
-    set_velocities(mechanism, v, frames);
-  } else {
-    set_rest(mechanism, frames);
-  }
+  set_frames(mechanism, q, v, turn, frames);
 }
 
-const baum_i_frames_kernel BAUM_I_HOT(baum_i_frames_kernel) = {.set = set};
+const baum_i_frames_kernel BAUM_I_HOT(baum_i_frames_kernel) = {.set = set_all};

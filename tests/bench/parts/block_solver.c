@@ -76,7 +76,7 @@ static bool run_geometry(const block_solver *s)
                             .phi = w->phi,
                             .phi_rate = w->phi_rate,
                             .gamma = w->gamma};
-  baum_i_pins_set(s->path->block, &pins);
+  s->path->pins_kernel->set(s->path->block, &pins);
   s->path->kernel->set_full(s->path->block, w->jacobian);
   return done;
 }
@@ -107,17 +107,20 @@ static bool block_run(void *self, int last_phase)
          BAUM_OK;
 }
 
-/* Two assignments and back are next to nothing beside an evaluation. */
+/* Three assignments and back are next to nothing beside an evaluation. */
 static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;
   baum_i_point *point = &s->at->workspace->point;
   const baum_i_block_kernel *kernel = s->path->kernel;
+  const baum_i_pins_kernel *pins = s->path->pins_kernel;
   const baum_i_frames_kernel *frames = point->kernel;
   s->path->kernel = &baum_i_block_kernel_plain;
+  s->path->pins_kernel = &baum_i_pins_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
   bool done = block_run(self, last_phase);
   s->path->kernel = kernel;
+  s->path->pins_kernel = pins;
   point->kernel = frames;
   return done;
 }
@@ -130,7 +133,7 @@ static void block_read(const void *self, double *a, double *lambda)
 
 /* ---- cost ---- */
 
-/* Counted from src/dynamics/pins.c and src/linear/block_hot.c; a sine with its cosine is about 40. */
+/* Counted from src/dynamics/pins_hot.c and src/linear/block_hot.c; a sine with its cosine is about 40. */
 static double count_flops(const block_solver *s)
 {
   const baum_i_block *b = s->path->block;
@@ -158,10 +161,11 @@ static double count_bytes(const block_solver *s)
   double number = sizeof(double);
   double bodies = number * (3.0 * 3.0 + 3.0) + sizeof(baum_i_frame); /* q, v, a, turn, frame */
   double pins = number * (4.0 + 4.0 + 2.0 * 3.0) + sizeof(baum_i_pin_node);
-  double nodes = number * (2.0 * 3.0 + 3.0 + 1.0) + sizeof(int32_t) * 2.0;
-  return bodies * s->at->bodies + 3.0 * 4.0 * number * b->triple_count + pins * b->pin_count +
-         nodes * b->node_count + (4.0 * number + sizeof(int32_t)) * couplings +
-         sizeof(int32_t) * targets + 6.0 * number * b->side_count +
+  double nodes = sizeof(baum_i_node) + number * 2.0 + sizeof(int32_t) * 2.0;
+  double motion = number * (2.0 * b->motion_size + 2.0 * b->triple_count);
+  return bodies * s->at->bodies + motion + pins * b->pin_count + nodes * b->node_count +
+         (4.0 * number + sizeof(int32_t)) * couplings + sizeof(int32_t) * targets +
+         6.0 * number * b->side_count +
          (double)sizeof(baum_i_pin_pair) * (b->alike_count + b->opposite_count) +
          (double)sizeof(baum_i_full_pair) * b->full_pair_count;
 }

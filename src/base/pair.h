@@ -1,0 +1,81 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Two numbers side by side, as one vector where the processor has them. */
+#ifndef BAUM_I_BASE_PAIR_H
+#define BAUM_I_BASE_PAIR_H
+
+#include <string.h>
+
+typedef double baum_i_pair __attribute__((vector_size(16)));
+
+static inline baum_i_pair baum_i_load(const double *from)
+{
+  baum_i_pair x;
+  memcpy(&x, from, sizeof x);
+  return x;
+}
+
+static inline void baum_i_store(double *to, baum_i_pair x)
+{
+  memcpy(to, &x, sizeof x);
+}
+
+static inline baum_i_pair baum_i_both(double x)
+{
+  return (baum_i_pair){x, x};
+}
+
+/* (-y, x): turned by a right angle, k x p. */
+static inline baum_i_pair baum_i_turned(baum_i_pair p)
+{
+  return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
+}
+
+static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
+{
+  baum_i_pair product = x * y;
+  return product[0] + product[1];
+}
+
+/* A matrix of two by two, column by column. */
+typedef struct baum_i_square {
+  baum_i_pair column[2];
+} baum_i_square;
+
+static inline baum_i_square baum_i_load_square(const double *from)
+{
+  return (baum_i_square){{baum_i_load(from), baum_i_load(from + 2)}};
+}
+
+static inline void baum_i_store_square(double *to, baum_i_square m)
+{
+  baum_i_store(to, m.column[0]);
+  baum_i_store(to + 2, m.column[1]);
+}
+
+/* m + x I. By products with zeros and ones: valgrind does not know how gcc sets half a vector. */
+static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
+{
+  return (baum_i_square){
+    {m.column[0] + x * (baum_i_pair){1.0, 0.0}, m.column[1] + x * (baum_i_pair){0.0, 1.0}}};
+}
+
+/* m x */
+static inline baum_i_pair baum_i_times(baum_i_square m, baum_i_pair x)
+{
+  return m.column[0] * x[0] + m.column[1] * x[1];
+}
+
+/* m n^T */
+static inline baum_i_square baum_i_times_transposed(baum_i_square m, baum_i_square n)
+{
+  return (baum_i_square){{m.column[0] * n.column[0][0] + m.column[1] * n.column[1][0],
+                          m.column[0] * n.column[0][1] + m.column[1] * n.column[1][1]}};
+}
+
+/* x y^T */
+static inline baum_i_square baum_i_outer(baum_i_pair x, baum_i_pair y)
+{
+  return (baum_i_square){{x * y[0], x * y[1]}};
+}
+
+#endif
