@@ -1,0 +1,283 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sines and cosines of src/base/sincos.h and of the frames that are made with them, against those of
+ * long double, which the C library reduces exactly and rounds with eleven bits to spare.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+
+#include <baum/planar.h>
+
+#include "base/hot.h"
+#include "base/sincos.h"
+#include "dynamics/dynamics.h"
+#include "mechanism/frames.h"
+#include "saddle.h" /* random numbers */
+
+#define PI 3.14159265358979323846
+
+enum { BODIES = 7 }; /* no whole number of vectors */
+
+/* Of the exact number's last digit. */
+static const double ONE_ULP = 1.0;
+
+/* Some machines have none, and valgrind computes it in double. */
+static void skip_without_long_double(void)
+{
+  volatile long double one = 1.0L;
+  if (one + 0x1p-60L == one) {
+    skip();
+  }
+}
+
+/* Distance of two results in units of the last digit of the exact one. */
+static double ulps(double got, long double exact)
+{
+  double near = fabs((double)exact);
+  double ulp = near > 0.0 ? nextafter(near, (double)INFINITY) - near : DBL_TRUE_MIN;
+  return (double)(fabsl((long double)got - exact) / (long double)ulp);
+}
+
+static double worse(double a, double b)
+{
+  return isnan(a) || a > b ? a : b;
+}
+
+/* The worse of both. */
+static double error_of(double x, double sine, double cosine)
+{
+  return worse(ulps(sine, sinl((long double)x)), ulps(cosine, cosl((long double)x)));
+}
+
+static double error_at(double x)
+{
+  double sine;
+  double cosine;
+  baum_i_sincos(x, &sine, &cosine);
+  return error_of(x, sine, cosine);
+}
+
+static double error_on_both_sides(double x)
+{
+  return worse(error_at(x), error_at(-x));
+}
+
+/* ---- the function ---- */
+
+static void random_angles_are_right_to_one_ulp(void **state)
+{
+  (void)state;
+  skip_without_long_double();
+  static const double sizes[] = {0.1, 1.0, PI, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6};
+  uint64_t seed = 1;
+  for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+    double worst = 0.0;
+    for (int i = 0; i < 100000; i++) {
+      worst = worse(error_at(sizes[k] * saddle_random(&seed)), worst);
+    }
+    printf("up to %-8g %.3f ulp\n", sizes[k], worst);
+    assert_true(worst <= ONE_ULP);
+  }
+}
+
+/* All multiples of pi/2 up to the limit and the numbers beside them: there, sine or cosine is as small
+ * as it can get, and the reduction loses as much as it can. */
+static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
+{
+  (void)state;
+  skip_without_long_double();
+  static const long double half_pi = 1.57079632679489661923132169163975144L;
+  double worst = 0.0;
+  for (int n = 1; n * (PI / 2) < baum_i_sincos_limit; n++) {
+    double x = (double)((long double)n * half_pi);
+    worst = worse(error_on_both_sides(x), worst);
+    worst = worse(error_on_both_sides(nextafter(x, 0.0)), worst);
+    worst = worse(error_on_both_sides(nextafter(x, (double)INFINITY)), worst);
+  }
+  assert_true(worst <= ONE_ULP);
+}
+
+/* Where one polynomial ends and the next multiple begins. */
+static void neighbours_of_odd_eighths_are_right(void **state)
+{
+  (void)state;
+  skip_without_long_double();
+  double worst = 0.0;
+  for (int n = 1; n * (PI / 4) < baum_i_sincos_limit; n += 2) {
+    double x = n * (PI / 4);
+    worst = worse(error_on_both_sides(x), worst);
+    worst = worse(error_on_both_sides(nextafter(x, 0.0)), worst);
+    worst = worse(error_on_both_sides(nextafter(x, (double)INFINITY)), worst);
+  }
+  assert_true(worst <= ONE_ULP);
+}
+
+static void tiny_angles_are_their_own_sines(void **state)
+{
+  (void)state;
+  for (double x = 1e-9; x > 0.0; x *= 0.1) {
+    double sine;
+    double cosine;
+    baum_i_sincos(x, &sine, &cosine);
+    assert_true(sine == x && cosine == 1.0); /* x^3 / 6 and x^2 / 2 are below half an ulp */
+    baum_i_sincos(-x, &sine, &cosine);
+    assert_true(sine == -x && cosine == 1.0);
+  }
+}
+
+static void zero_has_exact_values(void **state)
+{
+  (void)state;
+  double sine;
+  double cosine;
+  baum_i_sincos(0.0, &sine, &cosine);
+  assert_true(sine == 0.0 && cosine == 1.0);
+  baum_i_sincos(-0.0, &sine, &cosine);
+  assert_true(sine == 0.0 && cosine == 1.0);
+}
+
+static void the_limit_itself_is_right(void **state)
+{
+  (void)state;
+  skip_without_long_double();
+  double inside = nextafter(baum_i_sincos_limit, 0.0);
+  assert_true(baum_i_sincos_limit == 1e6);
+  assert_true(error_on_both_sides(baum_i_sincos_limit) <= ONE_ULP);
+  assert_true(error_on_both_sides(inside) <= ONE_ULP);
+}
+
+/* ---- frames, in both builds ---- */
+
+typedef struct frames {
+  baum_mechanism *mechanism;
+  baum_workspace *workspace;
+  double q[3 * BODIES];
+} frames;
+
+static frames make_frames(bool plain)
+{
+  frames f = {0};
+  assert_int_equal(baum_mechanism_create(&f.mechanism), BAUM_OK);
+  baum_planar_body_def def = baum_planar_body_def_default();
+  for (int k = 0; k < BODIES; k++) {
+    assert_int_equal(baum_mechanism_add_planar_body(f.mechanism, &def, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(f.mechanism), BAUM_OK);
+  assert_int_equal(baum_workspace_create(f.mechanism, &f.workspace), BAUM_OK);
+  if (plain) {
+    f.workspace->point.kernel = &baum_i_frames_kernel_plain;
+  }
+  return f;
+}
+
+static void free_frames(frames *f)
+{
+  baum_workspace_destroy(f->workspace);
+  baum_mechanism_destroy(f->mechanism);
+}
+
+/* Body by body. */
+static const baum_i_frame *frames_at(frames *f, const double angle[BODIES])
+{
+  for (int k = 0; k < BODIES; k++) {
+    f->q[3 * k + 2] = angle[k];
+  }
+  baum_i_point_set(&f->workspace->point, 0.0, f->q, NULL);
+  return f->workspace->point.frames + 1;
+}
+
+/* Fused products round differently, not worse. */
+static void frames_of_both_builds_are_right_to_one_ulp(void **state)
+{
+  (void)state;
+  skip_without_long_double();
+  for (int plain = 0; plain < 2; plain++) {
+    frames f = make_frames(plain == 1);
+    uint64_t seed = 2;
+    double worst = 0.0;
+    for (int i = 0; i < 100000; i++) {
+      double angle[BODIES];
+      double size = i % 2 == 0 ? 10.0 : 1e6;
+      for (int k = 0; k < BODIES; k++) {
+        double x = size * saddle_random(&seed);
+        angle[k] = i % 3 == 0 ? round(x / (PI / 2)) * (PI / 2) : x;
+      }
+      const baum_i_frame *frame = frames_at(&f, angle);
+      for (int k = 0; k < BODIES; k++) {
+        worst = worse(error_of(angle[k], frame[k].s, frame[k].c), worst);
+      }
+    }
+    printf("frames, %s: %.3f ulp\n", plain || !baum_i_hot_is_wide() ? "plain" : "wide", worst);
+    free_frames(&f);
+    assert_true(worst <= ONE_ULP);
+  }
+}
+
+/* A far angle among near ones is the C library's, and the near ones are not touched by it. */
+static void frames_of_far_angles_are_those_of_the_library(void **state)
+{
+  (void)state;
+  static const double far[] = {1000000.5, -1e7, 1e9, -3e15, 1e22, -1.7e308};
+  for (int plain = 0; plain < 2; plain++) {
+    frames f = make_frames(plain == 1);
+    for (size_t i = 0; i < sizeof far / sizeof *far; i++) {
+      for (int at = 0; at < BODIES; at++) {
+        double angle[BODIES] = {0.1, 1.1, 2.1, 3.1, 4.1, 5.1, 6.1};
+        const baum_i_frame *frame = frames_at(&f, angle);
+        baum_i_frame near[BODIES];
+        for (int k = 0; k < BODIES; k++) {
+          near[k] = frame[k];
+        }
+        angle[at] = far[i];
+        frame = frames_at(&f, angle);
+        for (int k = 0; k < BODIES; k++) {
+          assert_true(frame[k].s == (k == at ? sin(far[i]) : near[k].s));
+          assert_true(frame[k].c == (k == at ? cos(far[i]) : near[k].c));
+        }
+      }
+    }
+    free_frames(&f);
+  }
+}
+
+static void frames_of_angles_that_are_not_finite_are_nan(void **state)
+{
+  (void)state;
+  static const double bad[] = {(double)INFINITY, -(double)INFINITY, (double)NAN};
+  for (int plain = 0; plain < 2; plain++) {
+    frames f = make_frames(plain == 1);
+    for (int i = 0; i < 3; i++) {
+      double angle[BODIES] = {0.0, 0.0, bad[i], 0.0, 0.0, 0.0, bad[i]};
+      const baum_i_frame *frame = frames_at(&f, angle);
+      for (int k = 0; k < BODIES; k++) {
+        bool is_bad = k == 2 || k == 6;
+        assert_true(is_bad ? isnan(frame[k].s) && isnan(frame[k].c)
+                           : frame[k].s == 0.0 && frame[k].c == 1.0);
+      }
+    }
+    free_frames(&f);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(random_angles_are_right_to_one_ulp),
+    cmocka_unit_test(neighbours_of_all_multiples_of_a_right_angle_are_right),
+    cmocka_unit_test(neighbours_of_odd_eighths_are_right),
+    cmocka_unit_test(tiny_angles_are_their_own_sines),
+    cmocka_unit_test(zero_has_exact_values),
+    cmocka_unit_test(the_limit_itself_is_right),
+    cmocka_unit_test(frames_of_both_builds_are_right_to_one_ulp),
+    cmocka_unit_test(frames_of_far_angles_are_those_of_the_library),
+    cmocka_unit_test(frames_of_angles_that_are_not_finite_are_nan),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
