@@ -15,6 +15,9 @@
 #define BAUM_I_HOT(name) name##_plain
 #endif
 
+/* For what has to be part of its caller, which knows its arguments. */
+#define BAUM_I_INLINE static inline __attribute__((always_inline))
+
 /* Whether the wide tables exist and this processor can run them. */
 bool baum_i_hot_is_wide(void);
 

@@ -219,33 +219,13 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
 
 /* ---- solve ---- */
 
-/* Phi' = J v - nu (3) of joints that are not pins. */
-static void set_rates(baum_workspace *w, const baum_i_joint_group *group, const double *v)
-{
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    const double *value = w->jacobian + joint->jacobian;
-    for (int r = joint->row; r < joint->row + joint->rows; r++) {
-      double sum = -w->nu[r];
-      for (int c = 0; c < joint->span.nl; c++) {
-        sum += *value++ * v[joint->span.columns[c]];
-      }
-      w->phi_rate[r] = sum;
-    }
-  }
-}
-
-static baum_status evaluate_joints(baum_workspace *w, const double *v)
+static baum_status evaluate_joints(baum_workspace *w)
 {
   const baum_i_block_path *path = w->path;
   const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = w->gamma};
   baum_status status = BAUM_OK;
   for (int k = 0; k < path->group_count && status == BAUM_OK; k++) {
-    const baum_i_joint_group *group = &path->groups[k];
-    status = group->type->evaluate(group, &w->point, &rows);
-    if (status == BAUM_OK) {
-      set_rates(w, group, v);
-    }
+    status = path->groups[k].type->evaluate(&path->groups[k], &w->point, &rows);
   }
   return status;
 }
@@ -281,23 +261,23 @@ static baum_status evaluate_masses(baum_workspace *w)
   return status;
 }
 
-/* r of the nodes that are not pins. */
-static void set_right(const baum_workspace *w, double alpha, double beta)
+/* Phi' = J v - nu (3) of rows that are left out, which no node sets. */
+static void set_dropped_rates(baum_workspace *w, const double *v)
 {
-  baum_i_block *block = w->path->block;
-  for (int i = 0; i < block->full_count; i++) {
-    const baum_i_full_node *full = &block->fulls[i];
-    for (int k = 0; k < 2; k++) {
-      int32_t r = full->row[k];
-      if (r >= 0) {
-        block->right[2 * (size_t)full->node + (size_t)k] =
-          w->gamma[r] - 2.0 * alpha * w->phi_rate[r] - beta * beta * w->phi[r];
+  const baum_mechanism *m = w->mechanism;
+  for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
+    if (w->redundancy.dropped[i]) {
+      const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
+      const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
+      w->phi_rate[i] = -w->nu[i];
+      for (int c = 0; c < joint->span.nl; c++) {
+        w->phi_rate[i] += value[c] * v[joint->span.columns[c]];
       }
     }
   }
 }
 
-static void set_nodes(baum_workspace *w, double alpha, double beta)
+static void set_nodes(baum_workspace *w, const double *v, double alpha, double beta)
 {
   const baum_i_block_path *path = w->path;
   const baum_i_pins pins = {.points = path->points,
@@ -307,9 +287,17 @@ static void set_nodes(baum_workspace *w, double alpha, double beta)
                             .phi = w->phi,
                             .phi_rate = w->phi_rate,
                             .gamma = w->gamma};
+  const baum_i_block_rows rows = {.jacobian = w->jacobian,
+                                  .v = v,
+                                  .phi = w->phi,
+                                  .nu = w->nu,
+                                  .gamma = w->gamma,
+                                  .damping = 2.0 * alpha,
+                                  .stiffness = beta * beta,
+                                  .phi_rate = w->phi_rate};
   path->pins_kernel->set(path->block, &pins);
-  set_right(w, alpha, beta);
-  path->kernel->set_full(path->block, w->jacobian);
+  path->kernel->set_full(path->block, &rows);
+  set_dropped_rates(w, v);
 }
 
 /* Pivots that are not bad let every refinement gain six digits at least. What weak ones lose a
@@ -328,7 +316,7 @@ static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status solve(baum_i_block_path *path)
+static baum_status solve(baum_i_block_path *path, double *lambda)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
@@ -338,9 +326,11 @@ static baum_status solve(baum_i_block_path *path)
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
-  kernel->substitute(block);
+  kernel->substitute(block, lambda);
   bool look = pivots != BAUM_I_PIVOTS_GOOD || path->always_check;
-  return look ? refine(path, pivots) : BAUM_OK;
+  baum_status status = look ? refine(path, pivots) : BAUM_OK;
+  kernel->read_lambda(block, look, lambda);
+  return status;
 }
 
 static void clear_dropped(baum_workspace *w)
@@ -354,7 +344,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
                                     double alpha, double beta)
 {
   baum_i_point_set(&w->point, t, q, v);
-  baum_status status = evaluate_joints(w, v);
+  baum_status status = evaluate_joints(w);
   if (status == BAUM_OK) {
     status = evaluate_masses(w);
   }
@@ -365,10 +355,10 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
     return status;
   }
   w->jacobian_ready = w->path->block->pin_count == 0;
-  set_nodes(w, alpha, beta);
-  status = solve(w->path);
+  set_nodes(w, v, alpha, beta);
+  status = solve(w->path, w->lambda);
   if (status == BAUM_OK) {
-    bool finite = w->path->kernel->read(w->path->block, w->a, w->lambda);
+    bool finite = w->path->kernel->read_motion(w->path->block, w->a);
     clear_dropped(w);
     status = finite ? BAUM_OK : BAUM_ERR_SINGULAR;
   }

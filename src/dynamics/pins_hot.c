@@ -7,8 +7,8 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * No J is formed. This file alone of the hot ones is compiled without fused products: with them J
- * would not be the one that is reported, by a last digit, which close to a singular pose counts.
+ * No J is formed. Arms and gamma are rounded as where J and gamma are reported: fused products would
+ * give another J, by a last digit, which close to a singular pose counts.
  */
 #include "base/hot.h"
 #include "base/pair.h"
@@ -25,22 +25,21 @@ typedef struct marker {
 static inline marker marker_on(const baum_i_frame *f, const double *point)
 {
   baum_i_pair s = baum_i_load(point);
-  baum_i_pair p = f->c * s + f->s * baum_i_turned(s);
+  baum_i_pair p = baum_i_rounded(f->c * s) + baum_i_rounded(f->s * baum_i_turned(s));
   marker m;
   m.turned = baum_i_turned(p);
   m.place = baum_i_load(&f->x) + p;
   m.rate = baum_i_load(&f->vx) + f->w * m.turned;
-  m.bend = p * (f->w * f->w);
+  m.bend = baum_i_rounded(p * (f->w * f->w));
   return m;
 }
 
-/* wa, wb: weights of both triples. */
-static inline baum_i_square pivot_of(const marker *a, const double *wa, const marker *b,
-                                     const double *wb)
+/* w: weights of both triples. */
+static inline baum_i_square pivot_of(const marker *a, const marker *b, const double w[4])
 {
-  baum_i_pair weighted_a = wa[1] * a->turned;
-  baum_i_pair weighted_b = wb[1] * b->turned;
-  baum_i_pair on = weighted_a * a->turned + weighted_b * b->turned + (wa[0] + wb[0]);
+  baum_i_pair weighted_a = w[1] * a->turned;
+  baum_i_pair weighted_b = w[3] * b->turned;
+  baum_i_pair on = weighted_a * a->turned + weighted_b * b->turned + (w[0] + w[2]);
   double off = weighted_a[0] * a->turned[1] + weighted_b[0] * b->turned[1];
   return (baum_i_square){{{on[0], off}, {off, on[1]}}};
 }
@@ -48,14 +47,14 @@ static inline baum_i_square pivot_of(const marker *a, const double *wa, const ma
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
   const baum_i_pins at = *pins;
-  const double *weight = block->weight;
+  const double *weight = block->pin_weight;
   const double *free = block->free;
   const double *point = at.points;
   double *arm = block->arm;
   double *rights = block->right;
   baum_i_node *nodes = block->nodes;
-  for (int i = 0; i < block->pin_count; i++, point += 4, arm += 4) {
-    const baum_i_pin_node *pin = &block->pins[i];
+  const baum_i_pin_node *end = block->pins + block->pin_count;
+  for (const baum_i_pin_node *pin = block->pins; pin < end; pin++) {
     baum_i_node *node = &nodes[pin->node];
     size_t ta = (size_t)pin->triple[0];
     size_t tb = (size_t)pin->triple[1];
@@ -69,7 +68,7 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
     const double *x = free + pin->place[0];
     const double *y = free + pin->place[1];
     baum_i_pair miss = baum_i_load(x) - baum_i_load(y) + x[2] * a.turned - y[2] * b.turned - right;
-    baum_i_square pivot = pivot_of(&a, weight + 2 * ta, &b, weight + 2 * tb);
+    baum_i_square pivot = pivot_of(&a, &b, weight);
     baum_i_store(at.phi + pin->row, phi);
     baum_i_store(at.phi_rate + pin->row, rate);
     baum_i_store(at.gamma + pin->row, gamma);
@@ -79,6 +78,9 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
     baum_i_store_square(node->pivot, pivot);
     baum_i_store(node->lambda, miss);
     node->size = pivot.column[0][0] * pivot.column[1][1];
+    point += 4;
+    arm += 4;
+    weight += 4;
   }
 }
 

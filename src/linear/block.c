@@ -17,7 +17,7 @@ typedef struct array {
   size_t count;
 } array;
 
-enum { ARRAY_COUNT = 16, LINE = 8 /* numbers in a cache line */ };
+enum { ARRAY_COUNT = 17, LINE = 8 /* numbers in a cache line */ };
 
 static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
 {
@@ -28,11 +28,12 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
     {&b->weight, 2 * (size_t)b->triple_count},
     {&b->free, motion},
     {&b->motion, motion},
+    {&b->response, motion},
     {&b->arm, 4 * (size_t)b->pin_count},
+    {&b->pin_weight, 4 * (size_t)b->pin_count},
     {&b->side, 6 * (size_t)b->side_count},
     {&b->right, 2 * nodes},
     {&b->off, 4 * (size_t)b->off_count},
-    {&b->work, 4 * (size_t)b->most_later},
     {&b->factor, (size_t)b->factor_size},
     {&b->mass, motion},
     {&b->force, motion},
@@ -82,6 +83,7 @@ static void set_dense_weights(baum_i_block *b)
     b->weight[2 * t + 1] = 1.0;
     for (int c = 0; c < 3; c++) {
       b->mass[b->place[t] + c] = 1.0;
+      b->response[b->place[t] + c] = 1.0;
     }
   }
 }
@@ -112,10 +114,10 @@ void baum_i_block_destroy(baum_i_block *block)
   if (!block) {
     return;
   }
-  const void *arrays[] = {block->pins,         block->fulls,    block->side_triple, block->entries,
-                          block->alike,        block->opposite, block->full_pairs,  block->zeros,
-                          block->target_start, block->target,   block->place,       block->dense,
-                          block->dense_sides,  block->numbers};
+  const void *arrays[] = {block->pins,  block->fulls,        block->side_triple, block->entries,
+                          block->alike, block->opposite,     block->first_pairs, block->full_pairs,
+                          block->zeros, block->target_start, block->target,      block->place,
+                          block->dense, block->dense_sides,  block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -135,8 +137,14 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
       double m = mass[body->value + c * body->size + c];
       positive = positive && m > 0.0;
       block->mass[body->first + c] = m;
+      block->response[body->first + c] = 1.0 / m;
       block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = 1.0 / m;
     }
+  }
+  for (int i = 0; i < block->pin_count; i++) {
+    double *to = block->pin_weight + 4 * (size_t)i;
+    memcpy(to, block->weight + 2 * (size_t)block->pins[i].triple[0], 2 * sizeof *to);
+    memcpy(to + 2, block->weight + 2 * (size_t)block->pins[i].triple[1], 2 * sizeof *to);
   }
   return positive;
 }
@@ -197,13 +205,10 @@ static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
 
 void baum_i_block_set_force(baum_i_block *block, const double *force)
 {
-  memcpy(block->force, force, (size_t)block->structure->nv * sizeof *force);
-  for (int i = 0; i < block->structure->mass_block_count; i++) {
-    const baum_i_mass_block *body = &block->structure->mass_blocks[i];
-    const double *weight = block->weight + 2 * (1 + i);
-    for (int c = 0; c < body->size; c++) {
-      block->free[body->first + c] = weight[c < 2 ? 0 : 1] * force[body->first + c];
-    }
+  int nv = block->structure->nv;
+  memcpy(block->force, force, (size_t)nv * sizeof *force);
+  for (int i = 0; i < nv; i++) {
+    block->free[i] = block->response[i] * force[i];
   }
   for (int i = 0; i < block->dense_count; i++) {
     set_dense_force(block, &block->dense[i], force);

@@ -107,25 +107,27 @@ typedef struct baum_i_block {
   int entry_count;
   int alike_count;    /* pin pairs of arms a and a, or b and b */
   int opposite_count; /* pin pairs of arms a and b */
+  int first_count;
   int full_pair_count;
   int zero_count;
   int off_count;
   int dense_count;
   int dense_side_count;
-  int most_later;  /* couplings of one node */
   int factor_size; /* numbers in factor[] */
   int motion_size; /* v, ground, and y of dense bodies */
+  bool leaves_v;   /* a triple has numbers outside of v: dense bodies, particles */
 
-  baum_i_pin_node *pins;        /* (pin_count) */
-  baum_i_full_node *fulls;      /* (full_count) */
-  int32_t *side_triple;         /* (side_count) */
-  baum_i_side_entry *entries;   /* (entry_count) */
-  baum_i_pin_pair *alike;       /* (alike_count) set their block */
-  baum_i_pin_pair *opposite;    /* (opposite_count) likewise */
-  baum_i_full_pair *full_pairs; /* (full_pair_count) add to it */
-  int32_t *zeros;               /* (zero_count) blocks to clear first */
-  int32_t *target_start;        /* (node_count) */
-  int32_t *target;              /* blocks that pairs of couplings of a node go to */
+  baum_i_pin_node *pins;         /* (pin_count) */
+  baum_i_full_node *fulls;       /* (full_count) */
+  int32_t *side_triple;          /* (side_count) */
+  baum_i_side_entry *entries;    /* (entry_count) */
+  baum_i_pin_pair *alike;        /* (alike_count) set their block */
+  baum_i_pin_pair *opposite;     /* (opposite_count) likewise */
+  baum_i_full_pair *first_pairs; /* (first_count) likewise */
+  baum_i_full_pair *full_pairs;  /* (full_pair_count) add to it */
+  int32_t *zeros;                /* (zero_count) blocks to clear first */
+  int32_t *target_start;         /* (node_count) */
+  int32_t *target;               /* blocks that pairs of couplings of a node go to */
   int32_t *place;           /* (triple_count) where its numbers are in free[], motion[] and such */
   baum_i_dense_body *dense; /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
@@ -135,11 +137,12 @@ typedef struct baum_i_block {
   double *weight;     /* (triple_count x 2) W of the first two columns, and of the third */
   double *free;       /* (motion_size) a0 */
   double *motion;     /* (motion_size) a */
+  double *response;   /* (motion_size) W, where free[] is */
   double *arm;        /* (pin_count x 4) c_a, c_b */
+  double *pin_weight; /* (pin_count x 4) weights of both triples once more, side by side */
   double *side;       /* (side_count x 6) column by column */
   double *right;      /* (node_count x 2) r */
   double *off;        /* (off_count x 4) S below the diagonal, then L, column by column */
-  double *work;       /* (4 x most_later) */
   double *factor;     /* L of the dense bodies */
 
   /* For refinement. */
@@ -174,23 +177,38 @@ typedef enum baum_i_pivots {
   BAUM_I_PIVOTS_BAD
 } baum_i_pivots;
 
+/* Rows of the joints that are not pins: all rows of the mechanism, as their joints give them. */
+typedef struct baum_i_block_rows {
+  const double *jacobian; /* values of J */
+  const double *v;        /* (nv) */
+  const double *phi;      /* (nc) */
+  const double *nu;       /* (nc) */
+  const double *gamma;    /* (nc) */
+  double damping;         /* 2 alpha */
+  double stiffness;       /* beta^2 */
+  double *phi_rate;       /* (nc) rows of nodes are set */
+} baum_i_block_rows;
+
 /* The hot part. */
 typedef struct baum_i_block_kernel {
-  /* Sides, pivots and J a0 - r of the full nodes from J and right[]; pins are set by the caller. */
-  void (*set_full)(baum_i_block *block, const double *jacobian);
+  /* Sides, Phi' = J v - nu, r = gamma - 2 alpha Phi' - beta^2 Phi, pivots and J a0 - r of the full
+   * nodes; pins are set by the caller. */
+  void (*set_full)(baum_i_block *block, const baum_i_block_rows *rows);
   /* Off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
   /* L D L^T, and the right side forward. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
-  /* The right side backward, which gives lambda; and the motion. */
-  void (*substitute)(baum_i_block *block);
+  /* The right side backward, which gives lambda, also into the rows (nc) of pins; and the motion. */
+  void (*substitute)(baum_i_block *block, double *lambda);
   /* Whether every row of r - J a is rounding. */
   bool (*check)(const baum_i_block *block);
   /* One correction of a and lambda by the residual in pull[] and rest[]. Returns the largest change
    * of a multiplier against the largest multiplier. */
   double (*correct)(baum_i_block *block);
-  /* a (nv), and lambda (nc) but for dropped rows; whether all of a is finite. */
-  bool (*read)(const baum_i_block *block, double *a, double *lambda);
+  /* a (nv); whether all of it is finite. */
+  bool (*read_motion)(const baum_i_block *block, double *a);
+  /* lambda (nc) but for dropped rows, and, unless they are wanted again, for those of pins. */
+  void (*read_lambda)(const baum_i_block *block, bool pins, double *lambda);
 } baum_i_block_kernel;
 
 extern const baum_i_block_kernel baum_i_block_kernel_plain;

@@ -52,36 +52,28 @@ static inline columns load_side(const baum_i_block *b, int32_t number)
   return (columns){{{sign, 0.0}, {0.0, sign}, baum_i_load(b->arm + 2 * (size_t)arm)}};
 }
 
-/* motion -= W G^T lambda for all sides. */
-static void scatter(const baum_i_block *b)
+/* motion -= W G^T lambda for the sides of one pin, of which arm and weight are (4). */
+static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, const double *weight,
+                               baum_i_pair lambda, double *motion)
 {
-  double *motion = b->motion;
-  const double *weight = b->weight;
-  const baum_i_node *nodes = b->nodes;
-  const double *arm = b->arm;
-  for (int i = 0; i < b->pin_count; i++, arm += 4) {
-    const baum_i_pin_node *pin = &b->pins[i];
-    baum_i_pair force = baum_i_load(nodes[pin->node].lambda);
-    double *x = motion + pin->place[0];
-    double *y = motion + pin->place[1];
-    const double *wx = weight + 2 * (size_t)pin->triple[0];
-    const double *wy = weight + 2 * (size_t)pin->triple[1];
-    baum_i_store(x, baum_i_load(x) - wx[0] * force);
-    x[2] -= wx[1] * baum_i_dot(baum_i_load(arm), force);
-    baum_i_store(y, baum_i_load(y) + wy[0] * force);
-    y[2] -= wy[1] * baum_i_dot(baum_i_load(arm + 2), force);
-  }
-  for (int i = 0; i < b->full_count; i++) {
-    const baum_i_full_node *full = &b->fulls[i];
-    baum_i_pair force = baum_i_load(nodes[full->node].lambda);
-    for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-      columns g = load_full(b->side + 6 * (size_t)s);
-      double *x = motion + b->place[b->side_triple[s]];
-      const double *w = weight + 2 * (size_t)b->side_triple[s];
-      x[0] -= w[0] * baum_i_dot(g.c[0], force);
-      x[1] -= w[0] * baum_i_dot(g.c[1], force);
-      x[2] -= w[1] * baum_i_dot(g.c[2], force);
-    }
+  double *x = motion + pin->place[0];
+  double *y = motion + pin->place[1];
+  baum_i_store(x, baum_i_load(x) - weight[0] * lambda);
+  x[2] -= weight[1] * baum_i_dot(baum_i_load(arm), lambda);
+  baum_i_store(y, baum_i_load(y) + weight[2] * lambda);
+  y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
+}
+
+static void scatter_full(const baum_i_block *b, const baum_i_full_node *full)
+{
+  baum_i_pair lambda = baum_i_load(b->nodes[full->node].lambda);
+  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
+    columns g = load_full(b->side + 6 * (size_t)s);
+    double *x = b->motion + b->place[b->side_triple[s]];
+    const double *w = b->weight + 2 * (size_t)b->side_triple[s];
+    x[0] -= w[0] * baum_i_dot(g.c[0], lambda);
+    x[1] -= w[0] * baum_i_dot(g.c[1], lambda);
+    x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
   }
 }
 
@@ -118,6 +110,48 @@ static inline baum_i_square add_sides(baum_i_square s, const columns *n, const d
   return s;
 }
 
+/* The velocities of all triples: v itself, or a copy in pull[], which only refinement needs, where
+ * places lie outside of v. */
+static const double *gather_velocities(const baum_i_block *b, const double *v)
+{
+  if (!b->leaves_v) {
+    return v;
+  }
+  memcpy(b->pull, v, (size_t)b->structure->nv * sizeof *v);
+  memset(b->pull + b->structure->nv, 0, 3 * sizeof *v);
+  for (int i = 0; i < b->dense_count; i++) {
+    const baum_i_mass_block *body = &b->structure->mass_blocks[b->dense[i].mass_block];
+    memcpy(b->pull + b->dense[i].place, v + body->first, (size_t)body->size * sizeof *v);
+  }
+  return b->pull;
+}
+
+/* One of both rows of a node. */
+static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
+{
+  if (r < 0) {
+    return 0.0;
+  }
+  rate -= rows->nu[r];
+  rows->phi_rate[r] = rate;
+  return rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
+}
+
+/* With the sides of J itself. */
+static void set_right(const baum_i_block *b, const baum_i_full_node *full,
+                      const baum_i_block_rows *rows, const double *velocity)
+{
+  baum_i_pair rate = {0.0, 0.0};
+  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
+    columns g = load_full(b->side + 6 * (size_t)s);
+    const double *v = velocity + b->place[b->side_triple[s]];
+    rate += v[0] * g.c[0] + v[1] * g.c[1] + v[2] * g.c[2];
+  }
+  double *right = b->right + 2 * (size_t)full->node;
+  right[0] = set_row(rows, full->row[0], rate[0]);
+  right[1] = set_row(rows, full->row[1], rate[1]);
+}
+
 static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
 {
   baum_i_node *node = &b->nodes[full->node];
@@ -135,10 +169,17 @@ static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
   node->size = pivot.column[0][0] * pivot.column[1][1];
 }
 
-static void set_full(baum_i_block *b, const double *jacobian)
+static void set_full(baum_i_block *b, const baum_i_block_rows *rows)
 {
+  if (b->full_count == 0) {
+    return;
+  }
   for (int i = 0; i < b->entry_count; i++) {
-    b->side[b->entries[i].to] = jacobian[b->entries[i].from];
+    b->side[b->entries[i].to] = rows->jacobian[b->entries[i].from];
+  }
+  const double *velocity = gather_velocities(b, rows->v);
+  for (int i = 0; i < b->full_count; i++) {
+    set_right(b, &b->fulls[i], rows, velocity);
   }
   whiten(b);
   for (int i = 0; i < b->full_count; i++) {
@@ -165,13 +206,12 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   }
 }
 
-static void add_full_pair(const baum_i_block *b, const baum_i_full_pair *pair)
+static inline baum_i_square couple_sides(const baum_i_block *b, const baum_i_full_pair *pair,
+                                         baum_i_square s)
 {
   columns n = load_side(b, pair->side[0]);
   columns k = load_side(b, pair->side[1]);
-  double *s = b->off + 4 * (size_t)pair->off;
-  const double *w = b->weight + 2 * (size_t)pair->triple;
-  baum_i_store_square(s, add_sides(baum_i_load_square(s), &n, w, &k));
+  return add_sides(s, &n, b->weight + 2 * (size_t)pair->triple, &k);
 }
 
 static void couple(baum_i_block *b)
@@ -181,8 +221,14 @@ static void couple(baum_i_block *b)
   }
   set_pairs(b, b->alike, b->alike_count, 1.0);
   set_pairs(b, b->opposite, b->opposite_count, -1.0);
+  const baum_i_square none = {{{0.0, 0.0}, {0.0, 0.0}}};
+  for (int i = 0; i < b->first_count; i++) {
+    const baum_i_full_pair *pair = &b->first_pairs[i];
+    baum_i_store_square(b->off + 4 * (size_t)pair->off, couple_sides(b, pair, none));
+  }
   for (int i = 0; i < b->full_pair_count; i++) {
-    add_full_pair(b, &b->full_pairs[i]);
+    double *s = b->off + 4 * (size_t)b->full_pairs[i].off;
+    baum_i_store_square(s, couple_sides(b, &b->full_pairs[i], baum_i_load_square(s)));
   }
 }
 
@@ -215,25 +261,28 @@ static inline baum_i_square eliminate_one(const baum_i_node *from, baum_i_square
   return (baum_i_square){{inverse * u.column[0], inverse * u.column[1]}};
 }
 
-/* All couplings of the node at place k, of which there are more than one. */
-static inline void eliminate_many(const baum_i_block *b, size_t k, double inverse,
-                                  baum_i_pair right)
+/* The blocks that couplings of one node give to: what the f-th gives with those before it. */
+typedef struct couplings {
+  double *x; /* the first of the node's own blocks */
+  const int32_t *later;
+  int32_t count;
+  const int32_t *target;
+} couplings;
+
+/* All couplings of a node that has several. */
+static inline void eliminate_many(const couplings *c, const baum_i_node *from, double inverse,
+                                  baum_i_pair right, baum_i_node *nodes, double *off)
 {
-  int32_t first = b->order.start[k];
-  int32_t count = b->order.start[k + 1] - first;
-  const int32_t *target = b->target + b->target_start[k];
-  double *x = b->off + 4 * (size_t)first;
-  for (int32_t f = 0; f < count; f++, x += 4) {
-    baum_i_square before = baum_i_load_square(x);
-    baum_i_square l =
-      eliminate_one(&b->nodes[k], before, inverse, right, &b->nodes[b->order.later[first + f]]);
-    baum_i_store_square(b->work + 4 * (size_t)f, before);
-    baum_i_store_square(x, l);
+  const int32_t *target = c->target;
+  for (int32_t f = 0; f < c->count; f++) {
+    baum_i_square x = baum_i_load_square(c->x + 4 * (ptrdiff_t)f);
+    baum_i_square l = eliminate_one(from, x, inverse, right, &nodes[c->later[f]]);
+    baum_i_store_square(c->x + 4 * (ptrdiff_t)f, l);
     for (int32_t e = 0; e < f; e++) {
-      /* S_fe -= L_f X_e^T */
+      /* S_fe -= X_f D^-1 X_e^T = X_f L_e^T */
       baum_i_square product =
-        baum_i_times_transposed(l, baum_i_load_square(b->work + 4 * (size_t)e));
-      double *s = b->off + 4 * (size_t)*target++;
+        baum_i_times_transposed(x, baum_i_load_square(c->x + 4 * (ptrdiff_t)e));
+      double *s = off + 4 * (ptrdiff_t)*target++;
       baum_i_store(s, baum_i_load(s) - product.column[0]);
       baum_i_store(s + 2, baum_i_load(s + 2) - product.column[1]);
     }
@@ -255,24 +304,26 @@ static baum_i_pivots eliminate(baum_i_block *b)
 {
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
-  baum_i_node *node = b->nodes;
+  baum_i_node *nodes = b->nodes;
+  double *off = b->off;
   double margin = INFINITY;
   double weak = weak_pivot * fmin(1.0, many_nodes / b->node_count);
-  for (size_t k = 0; k < (size_t)b->node_count; k++, node++) {
+  for (ptrdiff_t k = 0; k < b->node_count; k++) {
+    baum_i_node *node = &nodes[k];
     const double *d = node->pivot;
     double det = d[0] * d[3] - d[1] * d[1];
     double inverse = 1.0 / det;
     double over = det - weak * node->size;
     margin = over < margin ? over : margin;
     baum_i_pair right = baum_i_load(node->lambda);
-    int32_t first = start[k];
-    int32_t count = start[k + 1] - first;
-    if (count == 1) {
-      double *x = b->off + 4 * (size_t)first;
+    ptrdiff_t first = start[k];
+    couplings c = {.x = off + 4 * first, .later = later + first, .count = start[k + 1] - start[k]};
+    if (c.count == 1) {
       baum_i_store_square(
-        x, eliminate_one(node, baum_i_load_square(x), inverse, right, &b->nodes[later[first]]));
-    } else if (count > 1) {
-      eliminate_many(b, k, inverse, right);
+        c.x, eliminate_one(node, baum_i_load_square(c.x), inverse, right, &nodes[c.later[0]]));
+    } else if (c.count > 1) {
+      c.target = b->target + b->target_start[k];
+      eliminate_many(&c, node, inverse, right, nodes, off);
     }
     node->inverse = inverse;
     baum_i_store(node->lambda, solve_pivot(node, right));
@@ -283,26 +334,44 @@ static baum_i_pivots eliminate(baum_i_block *b)
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* lambda_k -= sum of L^T lambda_later, from the last node to the first. */
-static void backward(const baum_i_block *b)
+/* From the last node to the first: lambda_k -= sum of L^T lambda_later, and what it does to the motion,
+ * which fills the time that the next lambda waits for this one. rows (nc), where lambda of pins is wanted,
+ * or NULL. */
+static inline void backward(const baum_i_block *b, double *rows)
 {
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
   const double *off = b->off;
+  const double *arms = b->arm;
+  const double *weights = b->pin_weight;
+  const baum_i_pin_node *pins = b->pins;
+  double *motion = b->motion;
   baum_i_node *nodes = b->nodes;
   int32_t end = start[b->node_count];
-  for (size_t k = (size_t)b->node_count; k-- > 0;) {
-    baum_i_pair sum = baum_i_load(nodes[k].lambda);
+  ptrdiff_t pin = b->pin_count - 1;
+  for (ptrdiff_t k = b->node_count - 1; k >= 0; k--) {
+    baum_i_pair lambda = baum_i_load(nodes[k].lambda);
     int32_t first = start[k];
     const double *x = off + 4 * (size_t)first;
     for (int32_t e = first; e < end; e++, x += 4) {
       baum_i_pair l = baum_i_load(nodes[later[e]].lambda);
       baum_i_pair p = baum_i_load(x) * l;
       baum_i_pair q = baum_i_load(x + 2) * l;
-      sum -= (baum_i_pair){p[0], q[0]} + (baum_i_pair){p[1], q[1]};
+      lambda -= (baum_i_pair){p[0], q[0]} + (baum_i_pair){p[1], q[1]};
     }
-    baum_i_store(nodes[k].lambda, sum);
+    baum_i_store(nodes[k].lambda, lambda);
     end = first;
+    /* Pins stand in the order of nodes. */
+    if (pin >= 0 && pins[pin].node == k) {
+      if (rows) {
+        baum_i_store(rows + pins[pin].row, lambda);
+      }
+      scatter_pin(&pins[pin], arms + 4 * pin, weights + 4 * pin, lambda, motion);
+      pin--;
+    }
+  }
+  for (int i = 0; i < b->full_count; i++) {
+    scatter_full(b, &b->fulls[i]);
   }
 }
 
@@ -321,11 +390,10 @@ static void forward(const baum_i_block *b)
   }
 }
 
-static void substitute(baum_i_block *b)
+static void substitute(baum_i_block *b, double *lambda)
 {
-  backward(b);
   memcpy(b->motion, b->free, (size_t)b->motion_size * sizeof *b->motion);
-  scatter(b);
+  backward(b, lambda);
 }
 
 /* ---- residual and refinement ---- */
@@ -430,11 +498,10 @@ static double correct(baum_i_block *b)
   }
   gather(b);
   forward(b);
-  backward(b);
   for (int i = 0; i < b->motion_size; i++) {
     b->motion[i] += b->pull[i];
   }
-  scatter(b);
+  backward(b, NULL);
   return add_change(b, before);
 }
 
@@ -455,10 +522,10 @@ static void read_dense(const baum_i_block *b, const baum_i_dense_body *dense, do
   }
 }
 
-static void read_lambda(const baum_i_block *b, double *lambda)
+static void read_lambda(const baum_i_block *b, bool pins, double *lambda)
 {
   const baum_i_node *nodes = b->nodes;
-  for (int i = 0; i < b->pin_count; i++) {
+  for (int i = 0; pins && i < b->pin_count; i++) {
     baum_i_store(lambda + b->pins[i].row, baum_i_load(nodes[b->pins[i].node].lambda));
   }
   for (int i = 0; i < b->full_count; i++) {
@@ -471,29 +538,33 @@ static void read_lambda(const baum_i_block *b, double *lambda)
   }
 }
 
-/* A sum of zeros is zero, or NaN where a number is not finite. */
+/* A sum of zeros is zero, or NaN where a number is not finite; so many sums that none waits for itself. */
 static bool is_finite(const double *x, int count)
 {
-  double sum[4] = {0.0};
+  enum { LANES = 8 };
+  double sum[LANES] = {0.0};
   int i = 0;
-  for (; i + 4 <= count; i += 4) {
-    for (int k = 0; k < 4; k++) {
+  for (; i + LANES <= count; i += LANES) {
+    for (int k = 0; k < LANES; k++) {
       sum[k] += 0.0 * x[i + k];
     }
   }
-  for (; i < count; i++) {
-    sum[0] += 0.0 * x[i];
+  for (int k = 0; i + k < count; k++) {
+    sum[k] += 0.0 * x[i + k];
   }
-  return sum[0] + sum[1] + sum[2] + sum[3] == 0.0;
+  double all = 0.0;
+  for (int k = 0; k < LANES; k++) {
+    all += sum[k];
+  }
+  return all == 0.0;
 }
 
-static bool read(const baum_i_block *b, double *a, double *lambda)
+static bool read_motion(const baum_i_block *b, double *a)
 {
   memcpy(a, b->motion, (size_t)b->structure->nv * sizeof *a);
   for (int i = 0; i < b->dense_count; i++) {
     read_dense(b, &b->dense[i], a);
   }
-  read_lambda(b, lambda);
   return is_finite(a, b->structure->nv);
 }
 
@@ -504,5 +575,6 @@ const baum_i_block_kernel BAUM_I_HOT(baum_i_block_kernel) = {
   .substitute = substitute,
   .check = check,
   .correct = correct,
-  .read = read,
+  .read_motion = read_motion,
+  .read_lambda = read_lambda,
 };

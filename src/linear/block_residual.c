@@ -102,8 +102,7 @@ static void begin_motion(baum_i_block *b)
 static void end_motion(baum_i_block *b)
 {
   for (int i = 0; i < b->motion_size; i++) {
-    double pull = b->pull[i] + b->pull_low[i];
-    b->pull[i] = b->mass[i] > 0.0 ? pull / b->mass[i] : 0.0;
+    b->pull[i] = b->response[i] * (b->pull[i] + b->pull_low[i]);
   }
 }
 

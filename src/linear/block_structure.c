@@ -57,8 +57,8 @@ typedef struct builder {
   int32_t *graph_start;  /* (nodes.count + 1) */
   vector neighbours;     /* int32_t */
   int32_t *arm_of;       /* (nodes.count) pin's number in the order of places */
-  unsigned char *is_set; /* (off_count) by a pair of pins */
-  vector alike, opposite, full_pairs, zeros, targets;
+  unsigned char *is_set; /* (off_count) by a pair */
+  vector alike, opposite, first_pairs, full_pairs, zeros, targets;
 } builder;
 
 /* A new item at the end, zeroed; NULL: out of memory. */
@@ -150,6 +150,7 @@ static void place_bodies(builder *u)
     u->triple_of[i] = diagonal ? 1 + i : next;
     u->dense_of[i] = diagonal ? -1 : dense;
     b->place[1 + i] = body->first;
+    b->leaves_v = b->leaves_v || !diagonal || body->size < 3;
     for (int c = 0; c < body->size; c++) {
       u->column_body[body->first + c] = i;
     }
@@ -477,7 +478,8 @@ static baum_status add_pair(builder *u, const raw_side *x, const raw_side *y)
     }
     return pair ? BAUM_OK : BAUM_ERR_MEMORY;
   }
-  baum_i_full_pair *pair = append(&u->full_pairs);
+  baum_i_full_pair *pair = append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
+  u->is_set[off] = 1;
   if (pair) {
     *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
   }
@@ -516,6 +518,7 @@ static baum_status make_pairs(builder *u)
   }
   sort_pairs(&u->alike);
   sort_pairs(&u->opposite);
+  sort_pairs(&u->first_pairs);
   sort_pairs(&u->full_pairs);
   return status;
 }
@@ -531,7 +534,6 @@ static baum_status make_targets(builder *u)
     const int32_t *later = order->later + order->start[k];
     int count = order->start[k + 1] - order->start[k];
     b->target_start[k] = u->targets.count;
-    b->most_later = count > b->most_later ? count : b->most_later;
     for (int f = 1; f < count; f++) {
       for (int e = 0; e < f && status == BAUM_OK; e++) {
         status = append_number(&u->targets, find_off(order, later[e], later[f]));
@@ -552,6 +554,7 @@ static void give_all(builder *u)
   b->dense_sides = give(&u->dense_sides, &b->dense_side_count);
   b->alike = give(&u->alike, &b->alike_count);
   b->opposite = give(&u->opposite, &b->opposite_count);
+  b->first_pairs = give(&u->first_pairs, &b->first_count);
   b->full_pairs = give(&u->full_pairs, &b->full_pair_count);
   b->zeros = give(&u->zeros, &b->zero_count);
   b->target = give(&u->targets, &ignored);
@@ -559,9 +562,9 @@ static void give_all(builder *u)
 
 static void clear(builder *u)
 {
-  const vector *vectors[] = {&u->nodes,      &u->sides,   &u->full_sides, &u->entries,
-                             &u->neighbours, &u->alike,   &u->opposite,   &u->full_pairs,
-                             &u->zeros,      &u->targets, &u->dense_sides};
+  const vector *vectors[] = {&u->nodes,      &u->sides, &u->full_sides, &u->entries,
+                             &u->neighbours, &u->alike, &u->opposite,   &u->first_pairs,
+                             &u->full_pairs, &u->zeros, &u->targets,    &u->dense_sides};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
     baum_i_free(vectors[i]->items);
   }
@@ -588,6 +591,7 @@ baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_
                .neighbours = {.size = sizeof(int32_t)},
                .alike = {.size = sizeof(baum_i_pin_pair)},
                .opposite = {.size = sizeof(baum_i_pin_pair)},
+               .first_pairs = {.size = sizeof(baum_i_full_pair)},
                .full_pairs = {.size = sizeof(baum_i_full_pair)},
                .zeros = {.size = sizeof(int32_t)},
                .targets = {.size = sizeof(int32_t)}};

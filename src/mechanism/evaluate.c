@@ -37,8 +37,7 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
                           .kernel = BAUM_I_HOT_TABLE(baum_i_frames_kernel)};
   point->frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->frames);
   point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
-  point->turn = baum_i_alloc(3 * (size_t)baum_i_turn_size(mechanism), sizeof *point->turn);
-  if (!point->frames || !point->scratch || !point->turn) {
+  if (!point->frames || !point->scratch) {
     return baum_i_fail_memory();
   }
   for (int i = 0; i <= mechanism->body_count; i++) {
@@ -51,7 +50,6 @@ void baum_i_point_release(baum_i_point *point)
 {
   baum_i_free(point->frames);
   baum_i_free(point->scratch);
-  baum_i_free(point->turn);
 }
 
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
@@ -60,7 +58,7 @@ void baum_i_point_set(baum_i_point *point, double t, const double *q, const doub
   point->q = q;
   point->v = v;
   point->retry = false;
-  point->kernel->set(point->mechanism, q, v, point->frames, point->turn);
+  point->kernel->set(point->mechanism, q, v, point->frames);
 }
 
 /* ---- joints ---- */

@@ -6,19 +6,12 @@
 #include "mechanism/mechanism.h"
 
 struct baum_i_frames_kernel {
-  /* frames (body_count + 1) of a mechanism at q, and v or NULL for rest; turn (3 x
-   * baum_i_turn_size()) is overwritten. */
+  /* frames (body_count + 1) of a mechanism at q, and v or NULL for rest. */
   void (*set)(const baum_mechanism *mechanism, const double *q, const double *v,
-              baum_i_frame *frames, double *turn);
+              baum_i_frame *frames);
 };
 
 extern const baum_i_frames_kernel baum_i_frames_kernel_plain;
 extern const baum_i_frames_kernel baum_i_frames_kernel_wide;
-
-/* Bodies with ground, up to whole vectors of four. */
-static inline int baum_i_turn_size(const baum_mechanism *mechanism)
-{
-  return (mechanism->body_count + 4) / 4 * 4;
-}
 
 #endif

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The frames of all bodies: angles side by side, their sines and cosines as vectors, then the frames. */
+/* The frames of all bodies, some at a time: angles side by side, their sines and cosines as vectors, then
+ * the frames. Where all bodies are planar bodies their coordinates need no looking up.
+ */
 #include <math.h>
 
 #include "base/hot.h"
@@ -7,15 +9,35 @@
 #include "base/sincos.h"
 #include "mechanism/frames.h"
 
-/* Angles of the bodies that have one, zero for the others; whether one is beyond own sincos. */
-static bool gather_angles(const baum_mechanism *mechanism, const double *q, double *angle)
+/* Bodies at a time; whole vectors. */
+enum { SOME = 32, LANES = 4 };
+
+typedef struct bodies {
+  const baum_i_body_place *places; /* NULL: all are planar bodies, in the order of q */
+  int first;
+  int count;
+} bodies;
+
+BAUM_I_INLINE baum_i_body_place place_of(const bodies *some, int k)
+{
+  if (!some->places) {
+    return (baum_i_body_place){.q = 3 * (some->first + k - 1), .kind = BAUM_I_FRAME_BODY};
+  }
+  return some->places[some->first + k];
+}
+
+/* Zero where a body has no angle; whether one is beyond own sincos. */
+BAUM_I_INLINE bool gather_angles(const bodies *some, const double *q, double *angle)
 {
   bool far = false;
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    const baum_i_body_place *place = &mechanism->places[i];
-    double x = place->kind == BAUM_I_FRAME_BODY ? q[place->q + 2] : 0.0;
-    angle[i] = x;
+  for (int k = 0; k < some->count; k++) {
+    baum_i_body_place place = place_of(some, k);
+    double x = place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
+    angle[k] = x;
     far = far || !(fabs(x) <= baum_i_sincos_limit);
+  }
+  for (int k = some->count; k % LANES != 0; k++) {
+    angle[k] = 0.0;
   }
   return far;
 }
@@ -23,8 +45,10 @@ static bool gather_angles(const baum_mechanism *mechanism, const double *q, doub
 static void set_sines(const double *restrict angle, int count, double *restrict sine,
                       double *restrict cosine)
 {
-  for (int i = 0; i < count; i++) {
-    baum_i_sincos(angle[i], &sine[i], &cosine[i]);
+  for (int i = 0; i < count; i += LANES) {
+    for (int k = i; k < i + LANES; k++) {
+      baum_i_sincos(angle[k], &sine[k], &cosine[k]);
+    }
   }
 }
 
@@ -39,52 +63,50 @@ static void mend_far(const double *angle, int count, double *sine, double *cosin
   }
 }
 
-/* Of a body whose frame is not that of a planar body. */
-static void set_other(int kind, const double *q, const double *v, baum_i_frame *frame)
+BAUM_I_INLINE void set_frame(baum_i_body_place place, const double *q, const double *v,
+                             baum_i_frame *frame)
 {
-  static const double rest[2] = {0.0, 0.0};
-  const double *rate = v ? v : rest;
-  if (kind == BAUM_I_FRAME_PARTICLE) {
-    baum_i_store(&frame->x, baum_i_load(q));
-    baum_i_store(&frame->vx, baum_i_load(rate));
+  if (place.kind != BAUM_I_FRAME_NONE) {
+    baum_i_store(&frame->x, baum_i_load(q + place.q));
+    baum_i_store(&frame->vx, v ? baum_i_load(v + place.q) : baum_i_both(0.0));
+  }
+  if (place.kind == BAUM_I_FRAME_BODY) {
+    frame->w = v ? v[place.q + 2] : 0.0;
+  }
+}
+
+BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v,
+                            baum_i_frame *frames)
+{
+  double angle[SOME];
+  double sine[SOME];
+  double cosine[SOME];
+  bool far = gather_angles(some, q, angle);
+  set_sines(angle, some->count, sine, cosine);
+  if (far) {
+    mend_far(angle, some->count, sine, cosine);
+  }
+  for (int k = 0; k < some->count; k++) {
+    baum_i_frame *frame = &frames[some->first + k];
+    frame->c = cosine[k];
+    frame->s = sine[k];
+    frame->angle = angle[k];
+    set_frame(place_of(some, k), q, v, frame);
   }
 }
 
 static void set_frames(const baum_mechanism *mechanism, const double *q, const double *v,
-                       const double *turn, baum_i_frame *frames)
+                       baum_i_frame *frames)
 {
-  static const double rest[3] = {0.0, 0.0, 0.0};
-  int size = baum_i_turn_size(mechanism);
-  const baum_i_body_place *places = mechanism->places;
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    baum_i_frame *frame = &frames[i];
-    const double *position = q + places[i].q;
-    if (places[i].kind != BAUM_I_FRAME_BODY) {
-      set_other(places[i].kind, position, v ? v + places[i].q : NULL, frame);
-      continue;
+  int end = mechanism->body_count + 1;
+  for (int i = 1; i < end; i += SOME) {
+    int count = end - i < SOME ? end - i : SOME;
+    if (mechanism->all_planar) {
+      set_some(&(bodies){.first = i, .count = count}, q, v, frames);
+    } else {
+      set_some(&(bodies){.places = mechanism->places, .first = i, .count = count}, q, v, frames);
     }
-    const double *rate = v ? v + places[i].q : rest;
-    baum_i_store(&frame->x, baum_i_load(position));
-    baum_i_store(&frame->vx, baum_i_load(rate));
-    frame->c = turn[size + i];
-    frame->s = turn[2 * size + i];
-    frame->w = rate[2];
-    frame->angle = position[2];
   }
 }
 
-static void set_all(const baum_mechanism *mechanism, const double *q, const double *v,
-                baum_i_frame *frames, double *turn)
-{
-  int size = baum_i_turn_size(mechanism);
-  double *cosine = turn + size;
-  double *sine = cosine + size;
-  bool far = gather_angles(mechanism, q, turn);
-  set_sines(turn, size, sine, cosine);
-  if (far) {
-    mend_far(turn, size, sine, cosine);
-  }
-  set_frames(mechanism, q, v, turn, frames);
-}
-
-const baum_i_frames_kernel BAUM_I_HOT(baum_i_frames_kernel) = {.set = set_all};
+const baum_i_frames_kernel BAUM_I_HOT(baum_i_frames_kernel) = {.set = set_frames};

@@ -364,6 +364,7 @@ static void draw_bodies(baum_mechanism *mechanism)
 {
   mechanism->length =
     isnan(mechanism->given_scale) ? drawing_size(mechanism) : mechanism->given_scale;
+  mechanism->all_planar = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
     bool held = false;
@@ -371,6 +372,7 @@ static void draw_bodies(baum_mechanism *mechanism)
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
     mechanism->places[i] = (baum_i_body_place){.q = body->q, .kind = body->type->frame};
+    mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;
     body->type->drawn(body->element.def, mechanism->drawn_q + body->q, mechanism->drawn_v + body->v,
                       &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);

@@ -152,7 +152,6 @@ typedef struct baum_i_point {
   const double *q;
   const double *v;      /* NULL at position level */
   baum_i_frame *frames; /* (body_count + 1), ground first */
-  double *turn;         /* room for sines and cosines, see frames.h */
   const baum_i_frames_kernel *kernel;
   const double *inputs; /* (input_count) present values; NULL while there are none */
   double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
@@ -327,6 +326,7 @@ struct baum_mechanism {
   bool constant_mass;
   double length;             /* scale L */
   baum_i_body_place *places; /* (body_count + 1) */
+  bool all_planar;           /* every body has the three coordinates of a planar body */
   double *parameters;
   double *drawn_q; /* (nq) */
   double *drawn_v; /* (nv) NaN where free */

@@ -9,6 +9,7 @@
 
 #include <string.h>
 
+#include "base/hot.h"
 #include "mechanism/planar.h"
 
 enum {
@@ -80,7 +81,7 @@ typedef struct baum_i_planar_kernels {
   baum_i_planar_kernel *gamma;
 } baum_i_planar_kernels;
 
-static inline void baum_i_planar_put_jacobian(const baum_i_joint *joint, const baum_i_point *point,
+BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const baum_i_point *point,
                                               const baum_i_planar_pair *pair,
                                               baum_i_planar_kernel *kernel, double *packed)
 {
@@ -94,7 +95,7 @@ static inline void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
   }
 }
 
-static inline baum_status baum_i_planar_evaluate(const baum_i_joint_group *group,
+BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group,
                                                  const baum_i_point *point,
                                                  const baum_i_planar_kernels *kernels,
                                                  const baum_i_rows *rows)

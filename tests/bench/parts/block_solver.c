@@ -77,7 +77,15 @@ static bool run_geometry(const block_solver *s)
                             .phi_rate = w->phi_rate,
                             .gamma = w->gamma};
   s->path->pins_kernel->set(s->path->block, &pins);
-  s->path->kernel->set_full(s->path->block, w->jacobian);
+  const baum_i_block_rows rows = {.jacobian = w->jacobian,
+                                  .v = s->at->v,
+                                  .phi = w->phi,
+                                  .nu = w->nu,
+                                  .gamma = w->gamma,
+                                  .damping = pins.damping,
+                                  .stiffness = pins.stiffness,
+                                  .phi_rate = w->phi_rate};
+  s->path->kernel->set_full(s->path->block, &rows);
   return done;
 }
 
@@ -92,7 +100,7 @@ static bool run_phases(const block_solver *s, int last_phase)
     done = kernel->eliminate(s->path->block) != BAUM_I_PIVOTS_BAD;
   }
   if (done && last_phase >= PHASE_SOLVE) {
-    kernel->substitute(s->path->block);
+    kernel->substitute(s->path->block, s->at->workspace->lambda);
   }
   return done;
 }
