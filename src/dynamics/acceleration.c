@@ -76,7 +76,9 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
                                 double alpha, double beta)
 {
   if (w->path) {
-    baum_status status = baum_i_block_path_solve(w, t, q, v, alpha, beta);
+    const baum_i_right_side right = {
+      .bending = 1.0, .damping = 2.0 * alpha, .stiffness = beta * beta, .force = true};
+    baum_status status = baum_i_block_path_solve(w, t, q, v, &right);
     if (status != BAUM_ERR_SINGULAR) {
       w->evaluations += status == BAUM_OK ? 1 : 0;
       return status;

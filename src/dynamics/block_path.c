@@ -219,10 +219,11 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
 
 /* ---- solve ---- */
 
-static baum_status evaluate_joints(baum_workspace *w)
+static baum_status evaluate_joints(baum_workspace *w, bool at_rest)
 {
   const baum_i_block_path *path = w->path;
-  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = w->gamma};
+  const baum_i_rows rows = {
+    .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = at_rest ? NULL : w->gamma};
   baum_status status = BAUM_OK;
   for (int k = 0; k < path->group_count && status == BAUM_OK; k++) {
     status = path->groups[k].type->evaluate(&path->groups[k], &w->point, &rows);
@@ -230,11 +231,12 @@ static baum_status evaluate_joints(baum_workspace *w)
   return status;
 }
 
-static baum_status evaluate_forces(baum_workspace *w)
+static baum_status evaluate_forces(baum_workspace *w, bool wanted)
 {
   const baum_i_block_path *path = w->path;
   const baum_mechanism *m = w->mechanism;
-  if (path->force_is_constant) {
+  baum_i_block_use_force(path->block, wanted);
+  if (path->force_is_constant || !wanted) {
     return BAUM_OK;
   }
   memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
@@ -265,7 +267,7 @@ static baum_status evaluate_masses(baum_workspace *w)
 static void set_dropped_rates(baum_workspace *w, const double *v)
 {
   const baum_mechanism *m = w->mechanism;
-  for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
+  for (int i = 0; v && w->redundancy.count > 0 && i < m->nc; i++) {
     if (w->redundancy.dropped[i]) {
       const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
       const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
@@ -277,13 +279,14 @@ static void set_dropped_rates(baum_workspace *w, const double *v)
   }
 }
 
-static void set_nodes(baum_workspace *w, const double *v, double alpha, double beta)
+static void set_nodes(baum_workspace *w, const double *v, const baum_i_right_side *right)
 {
   const baum_i_block_path *path = w->path;
   const baum_i_pins pins = {.points = path->points,
                             .frames = w->point.frames,
-                            .damping = 2.0 * alpha,
-                            .stiffness = beta * beta,
+                            .bending = right->bending,
+                            .damping = right->damping,
+                            .stiffness = right->stiffness,
                             .phi = w->phi,
                             .phi_rate = w->phi_rate,
                             .gamma = w->gamma};
@@ -292,8 +295,9 @@ static void set_nodes(baum_workspace *w, const double *v, double alpha, double b
                                   .phi = w->phi,
                                   .nu = w->nu,
                                   .gamma = w->gamma,
-                                  .damping = 2.0 * alpha,
-                                  .stiffness = beta * beta,
+                                  .bending = right->bending,
+                                  .damping = right->damping,
+                                  .stiffness = right->stiffness,
                                   .phi_rate = w->phi_rate};
   path->pins_kernel->set(path->block, &pins);
   path->kernel->set_full(path->block, &rows);
@@ -341,21 +345,21 @@ static void clear_dropped(baum_workspace *w)
 }
 
 baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q, const double *v,
-                                    double alpha, double beta)
+                                    const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
-  baum_status status = evaluate_joints(w);
+  baum_status status = evaluate_joints(w, !v);
   if (status == BAUM_OK) {
     status = evaluate_masses(w);
   }
   if (status == BAUM_OK) {
-    status = evaluate_forces(w);
+    status = evaluate_forces(w, right->force);
   }
   if (status != BAUM_OK) {
     return status;
   }
   w->jacobian_ready = w->path->block->pin_count == 0;
-  set_nodes(w, v, alpha, beta);
+  set_nodes(w, v, right);
   status = solve(w->path, w->lambda);
   if (status == BAUM_OK) {
     bool finite = w->path->kernel->read_motion(w->path->block, w->a);

@@ -32,9 +32,17 @@ struct baum_i_block_path {
 baum_status baum_i_block_path_create(baum_workspace *workspace, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
 
-/* a, lambda, Phi, Phi' and gamma of the workspace, as baum_i_acceleration(); J only for joints that
- * are not pins. BAUM_ERR_SINGULAR: handed over. */
+/* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or nothing. */
+typedef struct baum_i_right_side {
+  double bending;
+  double damping;
+  double stiffness;
+  bool force;
+} baum_i_right_side;
+
+/* a, lambda, Phi, Phi' and gamma of the workspace; J only for joints that are not pins. v may be NULL
+ * where the right side needs none. BAUM_ERR_SINGULAR: handed over. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const double *q,
-                                    const double *v, double alpha, double beta);
+                                    const double *v, const baum_i_right_side *right);
 
 #endif

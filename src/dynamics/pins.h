@@ -10,15 +10,16 @@
 typedef struct baum_i_pins {
   const double *points; /* (pin_count x 4) on body a and on body b, in the order of block->pins */
   const baum_i_frame *frames;
-  double damping;   /* 2 alpha */
-  double stiffness; /* beta^2 */
+  double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
+  double damping;
+  double stiffness;
   double *phi;      /* (nc) rows of pins are set */
   double *phi_rate; /* (nc) */
   double *gamma;    /* (nc) */
 } baum_i_pins;
 
 typedef struct baum_i_pins_kernel {
-  /* Arms, right sides, pivots and lambda[] of the pins; free[] must be there. */
+  /* Arms, right sides, pivots and lambda[] of the pins; a0 must be there. */
   void (*set)(baum_i_block *block, const baum_i_pins *pins);
 } baum_i_pins_kernel;
 

@@ -2,7 +2,7 @@
 /* The geometry of all revolute joints, with the equations of mechanism/joints/pin_rows.c:
  *
  *   Phi   = r_a + p_a - r_b - p_b,   Phi' likewise,   gamma = p_a w_a^2 - p_b w_b^2
- *   r     = gamma - 2 alpha Phi' - beta^2 Phi
+ *   r     = bending gamma - damping Phi' - stiffness Phi
  *   c_a   = k x p_a,   c_b = -k x p_b
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
@@ -48,7 +48,7 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
   const baum_i_pins at = *pins;
   const double *weight = block->pin_weight;
-  const double *free = block->free;
+  const double *free = block->from;
   const double *point = at.points;
   double *arm = block->arm;
   double *rights = block->right;
@@ -64,7 +64,7 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
     baum_i_pair phi = a.place - b.place;
     baum_i_pair rate = a.rate - b.rate;
     baum_i_pair gamma = a.bend - b.bend;
-    baum_i_pair right = gamma - at.damping * rate - at.stiffness * phi;
+    baum_i_pair right = at.bending * gamma - at.damping * rate - at.stiffness * phi;
     const double *x = free + pin->place[0];
     const double *y = free + pin->place[1];
     baum_i_pair miss = baum_i_load(x) - baum_i_load(y) + x[2] * a.turned - y[2] * b.turned - right;

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "dynamics/dynamics.h"
+#include "dynamics/block_path.h"
 
 enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
@@ -53,19 +53,51 @@ static double apply(const baum_mechanism *m, const double *change, double *q)
   return baum_i_scaled_size(m, change);
 }
 
+/* Change of the positions that takes -Phi away, to first order, into w->a. */
+static baum_status change_of_positions(baum_workspace *w, double t, const double *q)
+{
+  static const baum_i_right_side right = {.stiffness = 1.0};
+  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
+  if (status != BAUM_ERR_SINGULAR) {
+    return status;
+  }
+  status = baum_i_position_stage(w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -w->phi[i];
+  }
+  return least_change(w);
+}
+
+/* Likewise of the velocities, which takes all of -Phi' away. */
+static baum_status change_of_velocities(baum_workspace *w, double t, const double *q,
+                                        const double *v)
+{
+  static const baum_i_right_side right = {.damping = 1.0};
+  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, v, &right) : BAUM_ERR_SINGULAR;
+  if (status != BAUM_ERR_SINGULAR) {
+    return status;
+  }
+  status = baum_i_position_stage(w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
+  baum_i_jacobian_times(&w->structure, w->jacobian, v, w->rhs);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = w->nu[i] - w->rhs[i];
+  }
+  return least_change(w);
+}
+
 static baum_status project_positions(baum_workspace *w, double t, double *q)
 {
   const baum_mechanism *m = w->mechanism;
   double last = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
-    baum_status status = baum_i_position_stage(w, t, q);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    for (int i = 0; i < m->nc; i++) {
-      w->rhs[i] = -w->phi[i];
-    }
-    status = least_change(w);
+    baum_status status = change_of_positions(w, t, q);
     if (status != BAUM_OK) {
       return status;
     }
@@ -87,16 +119,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
 
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
 {
-  baum_status status = baum_i_position_stage(w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
-  baum_i_jacobian_times(&w->structure, w->jacobian, v, w->rhs);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = w->nu[i] - w->rhs[i];
-  }
-  status = least_change(w);
+  baum_status status = change_of_velocities(w, t, q, v);
   if (status == BAUM_OK) {
     (void)apply(w->mechanism, w->a, v);
   }

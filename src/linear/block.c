@@ -17,7 +17,7 @@ typedef struct array {
   size_t count;
 } array;
 
-enum { ARRAY_COUNT = 17, LINE = 8 /* numbers in a cache line */ };
+enum { ARRAY_COUNT = 18, LINE = 8 /* numbers in a cache line */ };
 
 static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
 {
@@ -41,6 +41,7 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
     {&b->pull_low, motion},
     {&b->rest, 2 * nodes},
     {&b->rest_low, 2 * nodes},
+    {&b->nothing, motion},
   };
   memcpy(list, all, sizeof all);
 }
@@ -105,6 +106,7 @@ baum_status baum_i_block_create(const baum_i_block_layout *layout, baum_i_block 
     return status;
   }
   set_dense_weights(b);
+  baum_i_block_use_force(b, true);
   *out = b;
   return BAUM_OK;
 }
@@ -213,4 +215,10 @@ void baum_i_block_set_force(baum_i_block *block, const double *force)
   for (int i = 0; i < block->dense_count; i++) {
     set_dense_force(block, &block->dense[i], force);
   }
+}
+
+void baum_i_block_use_force(baum_i_block *block, bool use)
+{
+  block->from = use ? block->free : block->nothing;
+  block->load = use ? block->force : block->nothing;
 }

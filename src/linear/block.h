@@ -135,7 +135,7 @@ typedef struct baum_i_block {
   double *numbers;    /* behind all arrays below */
   baum_i_node *nodes; /* (node_count) */
   double *weight;     /* (triple_count x 2) W of the first two columns, and of the third */
-  double *free;       /* (motion_size) a0 */
+  double *free;       /* (motion_size) a0 = W f */
   double *motion;     /* (motion_size) a */
   double *response;   /* (motion_size) W, where free[] is */
   double *arm;        /* (pin_count x 4) c_a, c_b */
@@ -152,6 +152,10 @@ typedef struct baum_i_block {
   double *pull_low; /* (motion_size) what pull[] lacks while it is made */
   double *rest;     /* (node_count x 2) r - J a, then lambda while it is corrected */
   double *rest_low; /* (node_count x 2) as pull_low */
+
+  double *nothing;    /* (motion_size) zeros */
+  const double *from; /* a0 of the present right side: free, or nothing */
+  const double *load; /* f of it: force, or nothing */
 } baum_i_block;
 
 /* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
@@ -164,8 +168,11 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
 /* Factors of the dense bodies; their M may change. False likewise. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
-/* a0 = W f. */
+/* f, and a0 = W f. */
 void baum_i_block_set_force(baum_i_block *block, const double *force);
+
+/* Whether right sides are (f, r) from now on, as at first, or (0, r). */
+void baum_i_block_use_force(baum_i_block *block, bool use);
 
 /* pull[] and rest[], in twice the precision. */
 void baum_i_block_find_residual(baum_i_block *block);
@@ -180,19 +187,19 @@ typedef enum baum_i_pivots {
 /* Rows of the joints that are not pins: all rows of the mechanism, as their joints give them. */
 typedef struct baum_i_block_rows {
   const double *jacobian; /* values of J */
-  const double *v;        /* (nv) */
+  const double *v;        /* (nv) NULL: at rest */
   const double *phi;      /* (nc) */
   const double *nu;       /* (nc) */
   const double *gamma;    /* (nc) */
-  double damping;         /* 2 alpha */
-  double stiffness;       /* beta^2 */
-  double *phi_rate;       /* (nc) rows of nodes are set */
+  double bending;         /* r = bending gamma - damping Phi' - stiffness Phi */
+  double damping;
+  double stiffness;
+  double *phi_rate; /* (nc) rows of nodes are set */
 } baum_i_block_rows;
 
 /* The hot part. */
 typedef struct baum_i_block_kernel {
-  /* Sides, Phi' = J v - nu, r = gamma - 2 alpha Phi' - beta^2 Phi, pivots and J a0 - r of the full
-   * nodes; pins are set by the caller. */
+  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the caller. */
   void (*set_full)(baum_i_block *block, const baum_i_block_rows *rows);
   /* Off-diagonal blocks. */
   void (*couple)(baum_i_block *block);

@@ -114,6 +114,9 @@ static inline baum_i_square add_sides(baum_i_square s, const columns *n, const d
  * places lie outside of v. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
+  if (!v) {
+    return b->nothing;
+  }
   if (!b->leaves_v) {
     return v;
   }
@@ -134,7 +137,7 @@ static inline double set_row(const baum_i_block_rows *rows, int32_t r, double ra
   }
   rate -= rows->nu[r];
   rows->phi_rate[r] = rate;
-  return rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
+  return rows->bending * rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
 }
 
 /* With the sides of J itself. */
@@ -160,7 +163,7 @@ static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
   baum_i_pair miss = -baum_i_load(b->right + 2 * (size_t)full->node);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
     columns g = load_full(b->side + 6 * (size_t)s);
-    const double *x = b->free + b->place[b->side_triple[s]];
+    const double *x = b->from + b->place[b->side_triple[s]];
     pivot = add_sides(pivot, &g, b->weight + 2 * (size_t)b->side_triple[s], &g);
     miss += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
   }
@@ -392,7 +395,7 @@ static void forward(const baum_i_block *b)
 
 static void substitute(baum_i_block *b, double *lambda)
 {
-  memcpy(b->motion, b->free, (size_t)b->motion_size * sizeof *b->motion);
+  memcpy(b->motion, b->from, (size_t)b->motion_size * sizeof *b->motion);
   backward(b, lambda);
 }
 

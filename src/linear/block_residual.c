@@ -92,7 +92,7 @@ static void subtract_from_rows(baum_i_block *b, int32_t node, const side *s)
 static void begin_motion(baum_i_block *b)
 {
   for (int i = 0; i < b->motion_size; i++) {
-    twofold sum = {b->force[i], 0.0};
+    twofold sum = {b->load[i], 0.0};
     subtract_product(&sum, b->mass[i], b->motion[i]);
     b->pull[i] = sum.high;
     b->pull_low[i] = sum.low;

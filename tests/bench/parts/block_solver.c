@@ -71,6 +71,7 @@ static bool run_geometry(const block_solver *s)
   bool done = run_joints(s) && run_forces(s);
   const baum_i_pins pins = {.points = s->path->points,
                             .frames = w->point.frames,
+                            .bending = 1.0,
                             .damping = 2.0 * SOLVER_GAIN,
                             .stiffness = SOLVER_GAIN * SOLVER_GAIN,
                             .phi = w->phi,
@@ -82,6 +83,7 @@ static bool run_geometry(const block_solver *s)
                                   .phi = w->phi,
                                   .nu = w->nu,
                                   .gamma = w->gamma,
+                                  .bending = pins.bending,
                                   .damping = pins.damping,
                                   .stiffness = pins.stiffness,
                                   .phi_rate = w->phi_rate};
