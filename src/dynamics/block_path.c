@@ -57,7 +57,7 @@ static baum_status make_block(const baum_workspace *w, baum_i_block_path *path)
                                         .diagonal = t.diagonal,
                                         .dropped =
                                           w->redundancy.count > 0 ? w->redundancy.dropped : NULL};
-    status = baum_i_block_create(&layout, &path->block);
+    status = baum_i_block_create(&layout, NULL, &path->block);
   }
   baum_i_free(t.pins);
   baum_i_free(t.diagonal);

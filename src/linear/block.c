@@ -89,7 +89,14 @@ static void set_dense_weights(baum_i_block *b)
   }
 }
 
-baum_status baum_i_block_create(const baum_i_block_layout *layout, baum_i_block **out)
+static baum_status mark_still(const baum_i_block_layout *layout, baum_i_block *b)
+{
+  size_t bodies = (size_t)layout->structure->mass_block_count;
+  b->still = layout->still ? baum_i_copy(layout->still, bodies, 1) : baum_i_alloc(bodies, 1);
+  return b->still ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out)
 {
   *out = NULL;
   baum_i_block *b = baum_i_alloc(1, sizeof *b);
@@ -97,7 +104,14 @@ baum_status baum_i_block_create(const baum_i_block_layout *layout, baum_i_block 
     return BAUM_ERR_MEMORY;
   }
   b->structure = layout->structure;
-  baum_status status = baum_i_block_find_structure(layout, b);
+  b->hub = -1;
+  baum_status status = mark_still(layout, b);
+  if (status == BAUM_OK) {
+    status = baum_i_block_find_structure(layout, b);
+  }
+  if (hub) {
+    *hub = b->hub;
+  }
   if (status == BAUM_OK) {
     status = make_arrays(b);
   }
@@ -119,7 +133,7 @@ void baum_i_block_destroy(baum_i_block *block)
   const void *arrays[] = {block->pins,  block->fulls,        block->side_triple, block->entries,
                           block->alike, block->opposite,     block->first_pairs, block->full_pairs,
                           block->zeros, block->target_start, block->target,      block->place,
-                          block->dense, block->dense_sides,  block->numbers};
+                          block->dense, block->dense_sides,  block->still,       block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -137,10 +151,11 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
     for (int c = 0; c < body->size; c++) {
       double m = mass[body->value + c * body->size + c];
+      double weight = block->still[i] ? 0.0 : 1.0 / m;
       positive = positive && m > 0.0;
-      block->mass[body->first + c] = m;
-      block->response[body->first + c] = 1.0 / m;
-      block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = 1.0 / m;
+      block->mass[body->first + c] = block->still[i] ? 0.0 : m;
+      block->response[body->first + c] = weight;
+      block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = weight;
     }
   }
   for (int i = 0; i < block->pin_count; i++) {

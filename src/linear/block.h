@@ -29,12 +29,14 @@ typedef struct baum_i_block_pin {
   int body_b;
 } baum_i_block_pin;
 
-/* What is to be solved. All must outlive the solver but pins, diagonal and dropped. */
+/* What is to be solved. The structure must outlive the solver. */
 typedef struct baum_i_block_layout {
   const baum_i_kkt_structure *structure;
   const baum_i_block_pin *pins;  /* (row_block_count) */
   const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant there */
   const unsigned char *dropped;  /* (nc) or NULL, see baum_i_kkt_values */
+  const unsigned char *still;    /* (mass_block_count) or NULL: a = 0 there whatever acts, as of
+                                    ground; diagonal ones only */
 } baum_i_block_layout;
 
 /* A node with two sides of the shape of a pin. */
@@ -116,6 +118,9 @@ typedef struct baum_i_block {
   int factor_size; /* numbers in factor[] */
   int motion_size; /* v, ground, and y of dense bodies */
   bool leaves_v;   /* a triple has numbers outside of v: dense bodies, particles */
+  int hub;         /* mass block that more rows touch than blocks are good for; -1: none */
+
+  unsigned char *still; /* (mass_block_count) W = 0 */
 
   baum_i_pin_node *pins;         /* (pin_count) */
   baum_i_full_node *fulls;       /* (full_count) */
@@ -159,8 +164,9 @@ typedef struct baum_i_block {
 } baum_i_block;
 
 /* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
- * many joints, or so much fill, that blocks would be slow. */
-baum_status baum_i_block_create(const baum_i_block_layout *layout, baum_i_block **out);
+ * many joints, or so much fill, that blocks would be slow. Which body is told in *hub, a mass block,
+ * or -1; NULL is fine. */
+baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out);
 void baum_i_block_destroy(baum_i_block *block); /* NULL is fine */
 
 /* The weights of the diagonal bodies. False where M is not positive. */

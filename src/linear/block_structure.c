@@ -10,19 +10,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "linear/vector.h"
 
 /* A body with more sides than the first makes a clique, and so many couplings for each node make
  * fill, so that sparse elimination of the whole system, bodies or joints first as it likes, is the
  * better way. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
-
-/* A growing array. */
-typedef struct vector {
-  void *items;
-  int count;
-  int room;
-  size_t size; /* of an item */
-} vector;
 
 /* A node before it has its place. */
 typedef struct raw_node {
@@ -43,59 +36,23 @@ typedef struct raw_side {
 typedef struct builder {
   const baum_i_block_layout *layout;
   baum_i_block *block;
-  int32_t *column_body; /* (nv) mass block of each column */
-  int32_t *triple_of;   /* (mass_block_count) first triple */
-  int32_t *dense_of;    /* (mass_block_count) in dense[], -1: diagonal */
-  vector nodes;         /* raw_node */
-  vector sides;         /* raw_side */
-  vector full_sides;    /* int32_t triple */
-  vector entries;       /* baum_i_side_entry */
-  vector dense_sides;   /* baum_i_dense_side */
+  int32_t *column_body;      /* (nv) mass block of each column */
+  int32_t *triple_of;        /* (mass_block_count) first triple */
+  int32_t *dense_of;         /* (mass_block_count) in dense[], -1: diagonal */
+  baum_i_vector nodes;       /* raw_node */
+  baum_i_vector sides;       /* raw_side */
+  baum_i_vector full_sides;  /* int32_t triple */
+  baum_i_vector entries;     /* baum_i_side_entry */
+  baum_i_vector dense_sides; /* baum_i_dense_side */
   int raw_pins;
-  int32_t *sorted_start; /* (triple_count + 1) sides of a triple */
-  int32_t *sorted;       /* (sides.count) */
-  int32_t *graph_start;  /* (nodes.count + 1) */
-  vector neighbours;     /* int32_t */
-  int32_t *arm_of;       /* (nodes.count) pin's number in the order of places */
-  unsigned char *is_set; /* (off_count) by a pair */
-  vector alike, opposite, first_pairs, full_pairs, zeros, targets;
+  int32_t *sorted_start;    /* (triple_count + 1) sides of a triple */
+  int32_t *sorted;          /* (sides.count) */
+  int32_t *graph_start;     /* (nodes.count + 1) */
+  baum_i_vector neighbours; /* int32_t */
+  int32_t *arm_of;          /* (nodes.count) pin's number in the order of places */
+  unsigned char *is_set;    /* (off_count) by a pair */
+  baum_i_vector alike, opposite, first_pairs, full_pairs, zeros, targets;
 } builder;
-
-/* A new item at the end, zeroed; NULL: out of memory. */
-static void *append(vector *v)
-{
-  if (v->count == v->room) {
-    int room = v->room > 0 ? 2 * v->room : 16;
-    void *grown = baum_i_grow(v->items, (size_t)room, v->size);
-    if (!grown) {
-      return NULL;
-    }
-    v->items = grown;
-    v->room = room;
-  }
-  void *item = (char *)v->items + (size_t)v->count++ * v->size;
-  memset(item, 0, v->size);
-  return item;
-}
-
-static baum_status append_number(vector *v, int32_t number)
-{
-  int32_t *item = append(v);
-  if (!item) {
-    return BAUM_ERR_MEMORY;
-  }
-  *item = number;
-  return BAUM_OK;
-}
-
-/* The array becomes the caller's. */
-static void *give(vector *v, int *count)
-{
-  void *items = v->items;
-  *count = v->count;
-  v->items = NULL;
-  return items;
-}
 
 /* ---- bodies ---- */
 
@@ -176,7 +133,7 @@ static bool is_dropped(const builder *u, int row)
 
 static baum_status add_side(builder *u, int32_t triple, int32_t number)
 {
-  raw_side *side = append(&u->sides);
+  raw_side *side = baum_i_vector_append(&u->sides);
   if (!side) {
     return BAUM_ERR_MEMORY;
   }
@@ -188,7 +145,7 @@ static baum_status add_side(builder *u, int32_t triple, int32_t number)
 
 static raw_node *add_node(builder *u)
 {
-  raw_node *node = append(&u->nodes);
+  raw_node *node = baum_i_vector_append(&u->nodes);
   if (node) {
     node->row[0] = -1;
     node->row[1] = -1;
@@ -225,7 +182,7 @@ static baum_status find_side(builder *u, int32_t triple, int32_t *number)
     }
   }
   *number = u->full_sides.count;
-  baum_status status = append_number(&u->full_sides, triple);
+  baum_status status = baum_i_vector_append_number(&u->full_sides, triple);
   return status == BAUM_OK ? add_side(u, triple, *number) : status;
 }
 
@@ -245,7 +202,7 @@ static baum_status find_dense_sides(builder *u, int32_t body)
   if (u->full_sides.count == before) {
     return BAUM_OK;
   }
-  baum_i_dense_side *side = append(&u->dense_sides);
+  baum_i_dense_side *side = baum_i_vector_append(&u->dense_sides);
   if (!side) {
     return BAUM_ERR_MEMORY;
   }
@@ -266,7 +223,7 @@ static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
   const raw_node *node = (raw_node *)u->nodes.items + u->nodes.count - 1;
   for (int r = 0; r < 2 && status == BAUM_OK; r++) {
     if (node->row[r] >= 0) {
-      baum_i_side_entry *entry = append(&u->entries);
+      baum_i_side_entry *entry = baum_i_vector_append(&u->entries);
       if (!entry) {
         return BAUM_ERR_MEMORY;
       }
@@ -328,6 +285,23 @@ static baum_status make_nodes(builder *u)
 
 /* ---- the graph ---- */
 
+/* Whether W = 0 there, so that it couples nothing. */
+static bool is_fixed(const builder *u, int triple)
+{
+  const unsigned char *still = u->block->still;
+  return triple == 0 || (triple <= u->layout->structure->mass_block_count && still[triple - 1]);
+}
+
+/* Mass block of a triple that is not ground. */
+static int body_of(const builder *u, int triple)
+{
+  int body = triple - 1;
+  for (int i = 0; i < u->layout->structure->mass_block_count; i++) {
+    body = u->triple_of[i] <= triple && u->dense_of[i] >= 0 ? i : body;
+  }
+  return body;
+}
+
 /* Sides, triple by triple. */
 static baum_status sort_sides(builder *u)
 {
@@ -343,7 +317,8 @@ static baum_status sort_sides(builder *u)
     place[sides[i].triple + 1]++;
   }
   for (int t = 0; t < triples; t++) {
-    if (t > 0 && place[t + 1] > MOST_SIDES) {
+    if (!is_fixed(u, t) && place[t + 1] > MOST_SIDES) {
+      u->block->hub = body_of(u, t);
       return BAUM_ERR_SINGULAR;
     }
     place[t + 1] += place[t];
@@ -361,11 +336,12 @@ static baum_status add_neighbours(builder *u, int32_t node, int32_t *mark)
   mark[node] = node + 1;
   for (int s = 0; s < nodes[node].side_count; s++) {
     int32_t triple = sides[nodes[node].first_side + s].triple;
-    for (int32_t k = u->sorted_start[triple]; triple > 0 && k < u->sorted_start[triple + 1]; k++) {
+    bool couples = !is_fixed(u, triple);
+    for (int32_t k = u->sorted_start[triple]; couples && k < u->sorted_start[triple + 1]; k++) {
       int32_t other = sides[u->sorted[k]].node;
       if (mark[other] != node + 1) {
         mark[other] = node + 1;
-        if (append_number(&u->neighbours, other) != BAUM_OK) {
+        if (baum_i_vector_append_number(&u->neighbours, other) != BAUM_OK) {
           return BAUM_ERR_MEMORY;
         }
       }
@@ -472,13 +448,13 @@ static baum_status add_pair(builder *u, const raw_side *x, const raw_side *y)
   if (k < 0 && n < 0 && !u->is_set[off]) {
     u->is_set[off] = 1;
     bool alike = (~k) % 2 == (~n) % 2;
-    baum_i_pin_pair *pair = append(alike ? &u->alike : &u->opposite);
+    baum_i_pin_pair *pair = baum_i_vector_append(alike ? &u->alike : &u->opposite);
     if (pair) {
       *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .triple = x->triple};
     }
     return pair ? BAUM_OK : BAUM_ERR_MEMORY;
   }
-  baum_i_full_pair *pair = append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
+  baum_i_full_pair *pair = baum_i_vector_append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
   u->is_set[off] = 1;
   if (pair) {
     *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
@@ -494,7 +470,7 @@ static int by_off(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-static void sort_pairs(vector *pairs)
+static void sort_pairs(baum_i_vector *pairs)
 {
   if (pairs->count > 1) {
     qsort(pairs->items, (size_t)pairs->count, pairs->size, by_off);
@@ -507,14 +483,15 @@ static baum_status make_pairs(builder *u)
   u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
   baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
   for (int t = 1; t < u->block->triple_count; t++) {
-    for (int32_t i = u->sorted_start[t]; i < u->sorted_start[t + 1]; i++) {
+    bool couples = !is_fixed(u, t);
+    for (int32_t i = u->sorted_start[t]; couples && i < u->sorted_start[t + 1]; i++) {
       for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {
         status = add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]);
       }
     }
   }
   for (int32_t i = 0; i < u->block->off_count && status == BAUM_OK; i++) {
-    status = u->is_set[i] ? BAUM_OK : append_number(&u->zeros, i);
+    status = u->is_set[i] ? BAUM_OK : baum_i_vector_append_number(&u->zeros, i);
   }
   sort_pairs(&u->alike);
   sort_pairs(&u->opposite);
@@ -536,7 +513,7 @@ static baum_status make_targets(builder *u)
     b->target_start[k] = u->targets.count;
     for (int f = 1; f < count; f++) {
       for (int e = 0; e < f && status == BAUM_OK; e++) {
-        status = append_number(&u->targets, find_off(order, later[e], later[f]));
+        status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));
       }
     }
   }
@@ -549,22 +526,22 @@ static void give_all(builder *u)
 {
   baum_i_block *b = u->block;
   int ignored;
-  b->side_triple = give(&u->full_sides, &b->side_count);
-  b->entries = give(&u->entries, &b->entry_count);
-  b->dense_sides = give(&u->dense_sides, &b->dense_side_count);
-  b->alike = give(&u->alike, &b->alike_count);
-  b->opposite = give(&u->opposite, &b->opposite_count);
-  b->first_pairs = give(&u->first_pairs, &b->first_count);
-  b->full_pairs = give(&u->full_pairs, &b->full_pair_count);
-  b->zeros = give(&u->zeros, &b->zero_count);
-  b->target = give(&u->targets, &ignored);
+  b->side_triple = baum_i_vector_give(&u->full_sides, &b->side_count);
+  b->entries = baum_i_vector_give(&u->entries, &b->entry_count);
+  b->dense_sides = baum_i_vector_give(&u->dense_sides, &b->dense_side_count);
+  b->alike = baum_i_vector_give(&u->alike, &b->alike_count);
+  b->opposite = baum_i_vector_give(&u->opposite, &b->opposite_count);
+  b->first_pairs = baum_i_vector_give(&u->first_pairs, &b->first_count);
+  b->full_pairs = baum_i_vector_give(&u->full_pairs, &b->full_pair_count);
+  b->zeros = baum_i_vector_give(&u->zeros, &b->zero_count);
+  b->target = baum_i_vector_give(&u->targets, &ignored);
 }
 
 static void clear(builder *u)
 {
-  const vector *vectors[] = {&u->nodes,      &u->sides, &u->full_sides, &u->entries,
-                             &u->neighbours, &u->alike, &u->opposite,   &u->first_pairs,
-                             &u->full_pairs, &u->zeros, &u->targets,    &u->dense_sides};
+  const baum_i_vector *vectors[] = {&u->nodes,      &u->sides, &u->full_sides, &u->entries,
+                                    &u->neighbours, &u->alike, &u->opposite,   &u->first_pairs,
+                                    &u->full_pairs, &u->zeros, &u->targets,    &u->dense_sides};
   for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
     baum_i_free(vectors[i]->items);
   }
