@@ -92,11 +92,16 @@ typedef enum baum_start {
   BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero. */
 } baum_start;
 
-/** Which solver of the equations (7) is used. */
+/** Which solver of the equations (7) is used. baum_simulation_explain() tells which it is, and why.
+ *  Assembly and the multipliers of redundant rows are found by KLU and QR in any case. */
 typedef enum baum_solver {
-  BAUM_SOLVER_AUTO = 0, /**< KLU, and QR where KLU's result cannot be trusted. */
-  BAUM_SOLVER_KLU = 1,  /**< Sparse LU, refactored on a fixed pattern. */
-  BAUM_SOLVER_QR = 2    /**< Sparse rank-revealing QR; slow, for comparison and singular poses. */
+  BAUM_SOLVER_AUTO = 0, /**< BLOCK where it suits; KLU and QR where that cannot be trusted. */
+  BAUM_SOLVER_KLU = 1,  /**< Sparse LU of the whole system, refactored on a fixed pattern. */
+  BAUM_SOLVER_QR = 2,   /**< Sparse rank-revealing QR; slow, for comparison and singular poses. */
+  BAUM_SOLVER_BLOCK = 3 /**< Schur complement in blocks of two rows, never anything else: refused
+                             for mechanisms that it does not suit (a body with more than about 50
+                             joints, a dense net, a mass matrix that is not positive definite);
+                             BAUM_ERR_SINGULAR close to singular poses. */
 } baum_solver;
 
 /** Called now and then during a call that advances a run; each call begins the interval anew.
@@ -149,8 +154,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *  @param[in]  options    copied
  *  @param[out] out        receives the run, NULL on failure; release with baum_simulation_destroy()
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
- *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, the build, or
- *              kinematics where freedom is left),
+ *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, the build, kinematics
+ *              where freedom is left, or blocks where they do not suit),
  *              BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
  *              BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR
  */

@@ -58,6 +58,14 @@ static baum_status solve(baum_workspace *w)
   return translate(w, status);
 }
 
+static baum_status fail_blocks(const baum_workspace *w)
+{
+  return baum_i_fail(BAUM_ERR_SINGULAR,
+                     "t = %.9g s: pivots by blocks are too small: the pose is close to a singular "
+                     "one, or masses are too uneven; the solver auto goes on with klu and qr",
+                     w->point.t);
+}
+
 /* By the solver of the whole system. */
 static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
                               double alpha, double beta)
@@ -82,6 +90,9 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
     if (status != BAUM_ERR_SINGULAR) {
       w->evaluations += status == BAUM_OK ? 1 : 0;
       return status;
+    }
+    if (w->blocks_only) {
+      return fail_blocks(w);
     }
   }
   return accelerate(w, t, q, v, alpha, beta);

@@ -44,7 +44,8 @@ static void find_traits(const baum_mechanism *m, traits *out)
   }
 }
 
-static baum_status make_block(const baum_workspace *w, baum_i_block_path *path)
+static baum_status make_block(const baum_workspace *w, baum_i_block_verdict *verdict,
+                              baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
   traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
@@ -57,7 +58,10 @@ static baum_status make_block(const baum_workspace *w, baum_i_block_path *path)
                                         .diagonal = t.diagonal,
                                         .dropped =
                                           w->redundancy.count > 0 ? w->redundancy.dropped : NULL};
-    status = baum_i_block_create(&layout, NULL, &path->block);
+    int hub = -1;
+    status = baum_i_block_create(&layout, &hub, &path->block);
+    verdict->blocks = hub < 0 ? BAUM_I_BLOCKS_FILLED : BAUM_I_BLOCKS_CROWDED;
+    verdict->body = hub + 1;
   }
   baum_i_free(t.pins);
   baum_i_free(t.diagonal);
@@ -151,8 +155,24 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   return status;
 }
 
+/* The first body whose M has no factor L L^T, or 0. */
+static int find_massless(const baum_workspace *w, const baum_i_block *block)
+{
+  for (int i = 0; i < block->dense_count; i++) {
+    const baum_i_dense_body *dense = &block->dense[i];
+    int n = w->structure.mass_blocks[dense->mass_block].size;
+    for (int k = 0; k < n; k++) {
+      if (!(block->factor[dense->factor + k * n + k] > 0.0)) {
+        return dense->mass_block + 1;
+      }
+    }
+  }
+  return 0;
+}
+
 /* Masses that do not change are inverted here. BAUM_ERR_SINGULAR where M is not positive. */
-static baum_status prepare_masses(baum_workspace *w, baum_i_block_path *path)
+static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdict,
+                                  baum_i_block_path *path)
 {
   path->mass_is_constant = w->mechanism->constant_mass;
   baum_i_point_set(&w->point, 0.0, w->mechanism->drawn_q, NULL);
@@ -164,17 +184,19 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_path *path)
   if (path->mass_is_constant) {
     positive = positive && baum_i_block_factor_dense(path->block, w->mass);
   }
+  verdict->blocks = BAUM_I_BLOCKS_MASSLESS;
+  verdict->body = find_massless(w, path->block);
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status fill(baum_workspace *w, baum_i_block_path *path)
+static baum_status fill(baum_workspace *w, baum_i_block_verdict *verdict, baum_i_block_path *path)
 {
-  baum_status status = make_block(w, path);
+  baum_status status = make_block(w, verdict, path);
   if (status == BAUM_OK) {
     status = arrange_joints(w, path);
   }
   if (status == BAUM_OK) {
-    status = prepare_masses(w, path);
+    status = prepare_masses(w, verdict, path);
   }
   if (status == BAUM_OK) {
     status = prepare_forces(w, path);
@@ -183,7 +205,8 @@ static baum_status fill(baum_workspace *w, baum_i_block_path *path)
   return status;
 }
 
-baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_path **out)
+baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_verdict *verdict,
+                                     baum_i_block_path **out)
 {
   *out = NULL;
   baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
@@ -191,8 +214,9 @@ baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_path **out)
     return baum_i_fail_memory();
   }
   path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
+  path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
   path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
-  baum_status status = fill(w, path);
+  baum_status status = fill(w, verdict, path);
   if (status != BAUM_OK) {
     baum_i_block_path_destroy(path);
     if (status == BAUM_ERR_MEMORY) {
@@ -200,6 +224,7 @@ baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_path **out)
     }
     return status == BAUM_ERR_SINGULAR ? BAUM_OK : status;
   }
+  *verdict = (baum_i_block_verdict){0};
   *out = path;
   return BAUM_OK;
 }
@@ -300,7 +325,7 @@ static void set_nodes(baum_workspace *w, const double *v, const baum_i_right_sid
                                   .stiffness = right->stiffness,
                                   .phi_rate = w->phi_rate};
   path->pins_kernel->set(path->block, &pins);
-  path->kernel->set_full(path->block, &rows);
+  path->sides_kernel->set(path->block, &rows);
   set_dropped_rates(w, v);
 }
 

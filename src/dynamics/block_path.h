@@ -14,6 +14,7 @@
 struct baum_i_block_path {
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
+  const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
   double *points;              /* (pin_count x 4) */
   int group_count;             /* joints that are not pins of the block */
@@ -27,9 +28,10 @@ struct baum_i_block_path {
   int64_t refinements;
 };
 
-/* For the redundant rows as they are known now. BAUM_OK also where blocks do not suit; then *out is
- * NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
-baum_status baum_i_block_path_create(baum_workspace *workspace, baum_i_block_path **out);
+/* For the redundant rows as they are known now. BAUM_OK also where blocks do not suit, as *verdict
+ * tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_block_path_create(baum_workspace *workspace, baum_i_block_verdict *verdict,
+                                     baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
 
 /* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or nothing. */

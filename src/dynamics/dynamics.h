@@ -34,13 +34,30 @@ typedef struct baum_i_redundancy {
 
 typedef struct baum_i_block_path baum_i_block_path;
 
+/* Whether accelerations go by blocks, or why not. */
+typedef enum baum_i_blocks {
+  BAUM_I_BLOCKS_SUIT,
+  BAUM_I_BLOCKS_UNWANTED, /* another solver was asked for */
+  BAUM_I_BLOCKS_CROWDED,  /* a body has very many joints */
+  BAUM_I_BLOCKS_FILLED,   /* so has every part of a dense net */
+  BAUM_I_BLOCKS_MASSLESS, /* M of a body is not positive definite */
+  BAUM_I_BLOCKS_UNKNOWN   /* M or a force cannot be evaluated in the drawn pose */
+} baum_i_blocks;
+
+typedef struct baum_i_block_verdict {
+  baum_i_blocks blocks;
+  int body; /* of which it is told, from 1; 0: none */
+} baum_i_block_verdict;
+
 struct baum_workspace {
   const baum_mechanism *mechanism;
   baum_i_point point;
   baum_i_kkt_structure structure;
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
-  baum_i_block_path *path; /* NULL: every solution is kkt's */
+  baum_i_block_path *path;      /* NULL: every solution is kkt's */
+  baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
+  bool blocks_only;             /* nothing is handed over */
   baum_i_redundancy redundancy;
   bool mass_ready;     /* a constant M has been evaluated */
   bool jacobian_ready; /* the last evaluation has set all blocks of J */
@@ -79,8 +96,13 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
                                     baum_workspace **out);
 
 /* Once the redundancy is known: accelerations by blocks from now on, where these suit. Also
- * BAUM_ERR_MEMORY. */
+ * BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED where they do not, but nothing else is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
+
+/* How accelerations are solved for, and why so; and why blocks are not used. Without a full stop. */
+enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
+void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
+void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 
 /* What solvers have done for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);

@@ -136,18 +136,32 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
   return BAUM_OK;
 }
 
+/* Where nothing but blocks is allowed. */
+static baum_status refuse(const baum_workspace *w)
+{
+  char text[BAUM_I_SOLVER_TEXT_SIZE];
+  baum_i_blocks_reason(w, text);
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED, "simulation options: solver is block, but %s", text);
+}
+
 baum_status baum_i_use_blocks(baum_workspace *w)
 {
   baum_i_block_path_destroy(w->path);
   w->path = NULL;
-  bool wanted = w->choice == BAUM_I_KKT_AUTO && w->mechanism->nc > 0;
-  if (!wanted) {
+  w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNWANTED};
+  if (w->choice != BAUM_I_KKT_AUTO) {
     return BAUM_OK;
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = baum_i_block_path_create(w, &w->path);
-  return status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
+  baum_status status = baum_i_block_path_create(w, &w->verdict, &w->path);
+  if (status == BAUM_ERR_MEMORY) {
+    return status;
+  }
+  if (status != BAUM_OK) {
+    w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNKNOWN};
+  }
+  return w->blocks_only && !w->path ? refuse(w) : baum_i_message_settle(BAUM_OK, &kept);
 }
 
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)

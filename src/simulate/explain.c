@@ -74,6 +74,20 @@ static void say_integrator(baum_simulation *run)
       run->problem.rate);
 }
 
+static void say_solver(baum_simulation *run)
+{
+  char text[BAUM_I_SOLVER_TEXT_SIZE];
+  baum_i_solver_text(run->workspace, text);
+  if (run->integrator->without_freedom) {
+    say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
+  } else if (baum_i_integrator_offers(run->integrator, BAUM_FORMULATION_INDEX3)) {
+    /* It solves residuals: (5) is solved for the start and for what is given out. */
+    say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n", text);
+  } else {
+    say(run, "solver        %s\n", text);
+  }
+}
+
 void baum_i_run_explain(baum_simulation *run)
 {
   run->explain[0] = '\0';
@@ -87,8 +101,7 @@ void baum_i_run_explain(baum_simulation *run)
     say(run, "gains         alpha %.6g 1/s, beta %.6g 1/s\n              %s\n", run->problem.alpha,
         run->problem.beta, run->gains.why);
   }
-  say(run, "solver        %s on the equations of motion\n",
-      baum_i_kkt_backend(run->workspace->kkt));
+  say_solver(run);
   say(run, "start         t = %.9g s, largest displacement at assembly %.3g of the scale",
       run->state.t, run->counters.start_change);
 }

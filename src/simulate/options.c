@@ -114,7 +114,7 @@ static baum_status check_choices(const baum_simulation_options *o)
   if (o->start < BAUM_START_ASSEMBLE || o->start > BAUM_START_AS_GIVEN) {
     return refuse("start", "", (double)o->start, "is no baum_start");
   }
-  if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_QR) {
+  if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_BLOCK) {
     return refuse("solver", "", (double)o->solver, "is no baum_solver");
   }
   if (!isfinite(o->start_time)) {

@@ -163,6 +163,7 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
   case BAUM_SOLVER_KLU: return BAUM_I_KKT_KLU;
   case BAUM_SOLVER_QR: return BAUM_I_KKT_QR;
   case BAUM_SOLVER_AUTO:
+  case BAUM_SOLVER_BLOCK:
   default: return BAUM_I_KKT_AUTO;
   }
 }
@@ -185,6 +186,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
     status = baum_i_find_redundancy(run->workspace, run->trial.t, run->trial.q);
   }
   if (status == BAUM_OK) {
+    run->workspace->blocks_only = o->solver == BAUM_SOLVER_BLOCK;
     status = baum_i_use_blocks(run->workspace);
   }
   if (status == BAUM_OK) {

@@ -415,6 +415,7 @@ class baum_solver(enum.IntEnum):
     BAUM_SOLVER_AUTO = 0
     BAUM_SOLVER_KLU = 1
     BAUM_SOLVER_QR = 2
+    BAUM_SOLVER_BLOCK = 3
 
 
 baum_progress_fn = CFUNCTYPE(c_int, c_void_p, c_double, c_void_p)

@@ -98,8 +98,8 @@ class Simulation:
     allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
     rtol, atol for the others, and max_step [s] where a force begins late; "kinematics", for
     mechanisms whose drivers leave no freedom, takes neither. start_time [s], default 0. start:
-    "assemble", "exact", "as_given". solver: "auto", "klu", "qr". check_derivatives: compare given
-    derivatives with differences first. max_steps of one call. progress(t) is called every
+    "assemble", "exact", "as_given". solver: "auto", "klu", "qr", "block". check_derivatives: compare
+    given derivatives with differences first. max_steps of one call. progress(t) is called every
     progress_interval seconds of wall time, and cancels when it returns something true.
 
     Warnings of the run become Python warnings of the category baum.Warning. One thread at a time
