@@ -14,7 +14,7 @@
  * so that only c, its *arm*, is stored. Two nodes that share a triple are coupled; S is sparse, and
  * its order of elimination, fill and every index are fixed when the solver is made.
  *
- * Structure here; the arithmetic is block_hot.c.
+ * Structure here; the arithmetic is block_sides_hot.c and block_hot.c.
  */
 #ifndef BAUM_I_LINEAR_BLOCK_H
 #define BAUM_I_LINEAR_BLOCK_H
@@ -203,10 +203,17 @@ typedef struct baum_i_block_rows {
   double *phi_rate; /* (nc) rows of nodes are set */
 } baum_i_block_rows;
 
-/* The hot part. */
-typedef struct baum_i_block_kernel {
+/* The hot part: nodes that are not pins, */
+typedef struct baum_i_block_sides_kernel {
   /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the caller. */
-  void (*set_full)(baum_i_block *block, const baum_i_block_rows *rows);
+  void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
+} baum_i_block_sides_kernel;
+
+extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_plain;
+extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_wide;
+
+/* and the solution. */
+typedef struct baum_i_block_kernel {
   /* Off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
   /* L D L^T, and the right side forward. */

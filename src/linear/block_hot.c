@@ -15,8 +15,7 @@
 #include <string.h>
 
 #include "base/hot.h"
-#include "base/pair.h"
-#include "linear/block.h"
+#include "linear/block_sides.h"
 
 /* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
  * over this: below the first the result is refined, below the second this solver has nothing to say. In
@@ -29,28 +28,7 @@ static const double bad_pivot = 1e-10;
 /* A residual of this many units of its own size is rounding. */
 static const double rounding = 0x1p-47;
 
-/* ---- sides ---- */
-
-/* The three columns of a side. */
-typedef struct columns {
-  baum_i_pair c[3];
-} columns;
-
-static inline columns load_full(const double *side)
-{
-  return (columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
-}
-
-/* Of a side's number as in baum_i_full_pair. */
-static inline columns load_side(const baum_i_block *b, int32_t number)
-{
-  if (number >= 0) {
-    return load_full(b->side + 6 * (size_t)number);
-  }
-  int32_t arm = ~number;
-  double sign = arm % 2 == 0 ? 1.0 : -1.0;
-  return (columns){{{sign, 0.0}, {0.0, sign}, baum_i_load(b->arm + 2 * (size_t)arm)}};
-}
+/* ---- what multipliers do to the motion ---- */
 
 /* motion -= W G^T lambda for the sides of one pin, of which arm and weight are (4). */
 static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, const double *weight,
@@ -68,125 +46,12 @@ static void scatter_full(const baum_i_block *b, const baum_i_full_node *full)
 {
   baum_i_pair lambda = baum_i_load(b->nodes[full->node].lambda);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    columns g = load_full(b->side + 6 * (size_t)s);
+    baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
     double *x = b->motion + b->place[b->side_triple[s]];
     const double *w = b->weight + 2 * (size_t)b->side_triple[s];
     x[0] -= w[0] * baum_i_dot(g.c[0], lambda);
     x[1] -= w[0] * baum_i_dot(g.c[1], lambda);
     x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
-  }
-}
-
-/* ---- full nodes ---- */
-
-/* Row by row, L y = G^T for a body with M = L L^T, over its triples. */
-static void whiten(baum_i_block *b)
-{
-  for (int i = 0; i < b->dense_side_count; i++) {
-    const baum_i_dense_side *d = &b->dense_sides[i];
-    const baum_i_dense_body *body = &b->dense[d->body];
-    int n = b->structure->mass_blocks[body->mass_block].size;
-    const double *l = b->factor + body->factor;
-    double *g = b->side + 6 * (size_t)d->side; /* column j is the j-th pair */
-    for (int j = 0; j < n; j++) {
-      baum_i_pair sum = baum_i_load(g + 2 * j);
-      for (int k = 0; k < j; k++) {
-        sum -= l[j * n + k] * baum_i_load(g + 2 * k);
-      }
-      baum_i_store(g + 2 * j, sum / l[j * n + j]);
-    }
-  }
-}
-
-/* s += w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
-static inline baum_i_square add_sides(baum_i_square s, const columns *n, const double *w,
-                                      const columns *k)
-{
-  for (int c = 0; c < 3; c++) {
-    baum_i_square product = baum_i_outer(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
-    s.column[0] += product.column[0];
-    s.column[1] += product.column[1];
-  }
-  return s;
-}
-
-/* The velocities of all triples: v itself, or a copy in pull[], which only refinement needs, where
- * places lie outside of v. */
-static const double *gather_velocities(const baum_i_block *b, const double *v)
-{
-  if (!v) {
-    return b->nothing;
-  }
-  if (!b->leaves_v) {
-    return v;
-  }
-  memcpy(b->pull, v, (size_t)b->structure->nv * sizeof *v);
-  memset(b->pull + b->structure->nv, 0, 3 * sizeof *v);
-  for (int i = 0; i < b->dense_count; i++) {
-    const baum_i_mass_block *body = &b->structure->mass_blocks[b->dense[i].mass_block];
-    memcpy(b->pull + b->dense[i].place, v + body->first, (size_t)body->size * sizeof *v);
-  }
-  return b->pull;
-}
-
-/* One of both rows of a node. */
-static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
-{
-  if (r < 0) {
-    return 0.0;
-  }
-  rate -= rows->nu[r];
-  rows->phi_rate[r] = rate;
-  return rows->bending * rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
-}
-
-/* With the sides of J itself. */
-static void set_right(const baum_i_block *b, const baum_i_full_node *full,
-                      const baum_i_block_rows *rows, const double *velocity)
-{
-  baum_i_pair rate = {0.0, 0.0};
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    columns g = load_full(b->side + 6 * (size_t)s);
-    const double *v = velocity + b->place[b->side_triple[s]];
-    rate += v[0] * g.c[0] + v[1] * g.c[1] + v[2] * g.c[2];
-  }
-  double *right = b->right + 2 * (size_t)full->node;
-  right[0] = set_row(rows, full->row[0], rate[0]);
-  right[1] = set_row(rows, full->row[1], rate[1]);
-}
-
-static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
-{
-  baum_i_node *node = &b->nodes[full->node];
-  baum_i_square pivot = {
-    {{full->row[0] < 0 ? 1.0 : 0.0, 0.0}, {0.0, full->row[1] < 0 ? 1.0 : 0.0}}};
-  baum_i_pair miss = -baum_i_load(b->right + 2 * (size_t)full->node);
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    columns g = load_full(b->side + 6 * (size_t)s);
-    const double *x = b->from + b->place[b->side_triple[s]];
-    pivot = add_sides(pivot, &g, b->weight + 2 * (size_t)b->side_triple[s], &g);
-    miss += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
-  }
-  baum_i_store_square(node->pivot, pivot);
-  baum_i_store(node->lambda, miss);
-  node->size = pivot.column[0][0] * pivot.column[1][1];
-}
-
-static void set_full(baum_i_block *b, const baum_i_block_rows *rows)
-{
-  if (b->full_count == 0) {
-    return;
-  }
-  for (int i = 0; i < b->entry_count; i++) {
-    b->side[b->entries[i].to] = rows->jacobian[b->entries[i].from];
-  }
-  const double *velocity = gather_velocities(b, rows->v);
-  for (int i = 0; i < b->full_count; i++) {
-    set_right(b, &b->fulls[i], rows, velocity);
-  }
-  whiten(b);
-  for (int i = 0; i < b->full_count; i++) {
-    set_full_node(b, &b->fulls[i]);
   }
 }
 
@@ -212,9 +77,9 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
 static inline baum_i_square couple_sides(const baum_i_block *b, const baum_i_full_pair *pair,
                                          baum_i_square s)
 {
-  columns n = load_side(b, pair->side[0]);
-  columns k = load_side(b, pair->side[1]);
-  return add_sides(s, &n, b->weight + 2 * (size_t)pair->triple, &k);
+  baum_i_columns n = baum_i_load_side(b, pair->side[0]);
+  baum_i_columns k = baum_i_load_side(b, pair->side[1]);
+  return baum_i_add_sides(s, &n, b->weight + 2 * (size_t)pair->triple, &k);
 }
 
 static void couple(baum_i_block *b)
@@ -436,7 +301,7 @@ static bool check_full(const baum_i_block *b, const baum_i_full_node *full)
   baum_i_pair rest = baum_i_load(b->right + 2 * (size_t)full->node);
   baum_i_pair size = magnitude(rest);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    columns g = load_full(b->side + 6 * (size_t)s);
+    baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
     const double *x = b->motion + b->place[b->side_triple[s]];
     for (int c = 0; c < 3; c++) {
       rest -= x[c] * g.c[c];
@@ -471,7 +336,7 @@ static void gather(const baum_i_block *b)
     const baum_i_full_node *full = &b->fulls[i];
     baum_i_pair sum = -baum_i_load(b->rest + 2 * (size_t)full->node);
     for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-      columns g = load_full(b->side + 6 * (size_t)s);
+      baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
       const double *x = b->pull + b->place[b->side_triple[s]];
       sum += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
     }
@@ -572,7 +437,6 @@ static bool read_motion(const baum_i_block *b, double *a)
 }
 
 const baum_i_block_kernel BAUM_I_HOT(baum_i_block_kernel) = {
-  .set_full = set_full,
   .couple = couple,
   .eliminate = eliminate,
   .substitute = substitute,

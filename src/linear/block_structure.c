@@ -10,49 +10,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "linear/vector.h"
+#include "linear/block_builder.h"
 
 /* A body with more sides than the first makes a clique, and so many couplings for each node make
  * fill, so that sparse elimination of the whole system, bodies or joints first as it likes, is the
  * better way. */
 enum { MOST_SIDES = 48, MOST_COUPLINGS = 24, SMALL = 64 };
-
-/* A node before it has its place. */
-typedef struct raw_node {
-  int32_t row[2]; /* -1: none */
-  int32_t first_side;
-  int32_t side_count;
-  bool is_pin;
-} raw_node;
-
-/* A side before its node has its place. `number` as in baum_i_full_pair, but that arms are counted
- * in the order of the rows. */
-typedef struct raw_side {
-  int32_t node;
-  int32_t triple;
-  int32_t number;
-} raw_side;
-
-typedef struct builder {
-  const baum_i_block_layout *layout;
-  baum_i_block *block;
-  int32_t *column_body;      /* (nv) mass block of each column */
-  int32_t *triple_of;        /* (mass_block_count) first triple */
-  int32_t *dense_of;         /* (mass_block_count) in dense[], -1: diagonal */
-  baum_i_vector nodes;       /* raw_node */
-  baum_i_vector sides;       /* raw_side */
-  baum_i_vector full_sides;  /* int32_t triple */
-  baum_i_vector entries;     /* baum_i_side_entry */
-  baum_i_vector dense_sides; /* baum_i_dense_side */
-  int raw_pins;
-  int32_t *sorted_start;    /* (triple_count + 1) sides of a triple */
-  int32_t *sorted;          /* (sides.count) */
-  int32_t *graph_start;     /* (nodes.count + 1) */
-  baum_i_vector neighbours; /* int32_t */
-  int32_t *arm_of;          /* (nodes.count) pin's number in the order of places */
-  unsigned char *is_set;    /* (off_count) by a pair */
-  baum_i_vector alike, opposite, first_pairs, full_pairs, zeros, targets;
-} builder;
 
 /* ---- bodies ---- */
 
@@ -75,7 +38,7 @@ static int count_triples(const baum_i_block_layout *layout, int *dense)
   return count;
 }
 
-static baum_status make_bodies(builder *u)
+static baum_status make_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_block *b = u->block;
@@ -92,7 +55,7 @@ static baum_status make_bodies(builder *u)
 }
 
 /* A diagonal body i is triple 1 + i, so that triples and bodies of the plane have one numbering. */
-static void place_bodies(builder *u)
+static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_block *b = u->block;
@@ -126,26 +89,26 @@ static void place_bodies(builder *u)
 
 /* ---- nodes and sides ---- */
 
-static bool is_dropped(const builder *u, int row)
+static bool is_dropped(const baum_i_block_builder *u, int row)
 {
   return u->layout->dropped && u->layout->dropped[row] != 0;
 }
 
-static baum_status add_side(builder *u, int32_t triple, int32_t number)
+static baum_status add_side(baum_i_block_builder *u, int32_t triple, int32_t number)
 {
-  raw_side *side = baum_i_vector_append(&u->sides);
+  baum_i_raw_side *side = baum_i_vector_append(&u->sides);
   if (!side) {
     return BAUM_ERR_MEMORY;
   }
-  *side = (raw_side){.node = u->nodes.count - 1, .triple = triple, .number = number};
-  raw_node *nodes = u->nodes.items;
+  *side = (baum_i_raw_side){.node = u->nodes.count - 1, .triple = triple, .number = number};
+  baum_i_raw_node *nodes = u->nodes.items;
   nodes[u->nodes.count - 1].side_count++;
   return BAUM_OK;
 }
 
-static raw_node *add_node(builder *u)
+static baum_i_raw_node *add_node(baum_i_block_builder *u)
 {
-  raw_node *node = baum_i_vector_append(&u->nodes);
+  baum_i_raw_node *node = baum_i_vector_append(&u->nodes);
   if (node) {
     node->row[0] = -1;
     node->row[1] = -1;
@@ -154,9 +117,9 @@ static raw_node *add_node(builder *u)
   return node;
 }
 
-static baum_status add_pin(builder *u, int row, const baum_i_block_pin *pin)
+static baum_status add_pin(baum_i_block_builder *u, int row, const baum_i_block_pin *pin)
 {
-  raw_node *node = add_node(u);
+  baum_i_raw_node *node = add_node(u);
   if (!node) {
     return BAUM_ERR_MEMORY;
   }
@@ -171,10 +134,10 @@ static baum_status add_pin(builder *u, int row, const baum_i_block_pin *pin)
 }
 
 /* The full side of the present node on a triple, made when there is none. */
-static baum_status find_side(builder *u, int32_t triple, int32_t *number)
+static baum_status find_side(baum_i_block_builder *u, int32_t triple, int32_t *number)
 {
-  const raw_node *node = (raw_node *)u->nodes.items + u->nodes.count - 1;
-  const raw_side *sides = (raw_side *)u->sides.items + node->first_side;
+  const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
+  const baum_i_raw_side *sides = (baum_i_raw_side *)u->sides.items + node->first_side;
   for (int i = 0; i < node->side_count; i++) {
     if (sides[i].triple == triple) {
       *number = sides[i].number;
@@ -187,7 +150,7 @@ static baum_status find_side(builder *u, int32_t triple, int32_t *number)
 }
 
 /* A dense body's sides are made together, so that they stand one after the other. */
-static baum_status find_dense_sides(builder *u, int32_t body)
+static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
 {
   int before = u->full_sides.count;
   int32_t first = 0;
@@ -211,7 +174,7 @@ static baum_status find_dense_sides(builder *u, int32_t body)
 }
 
 /* One column of J over the rows of the present node. */
-static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
+static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *rows, int c)
 {
   int32_t body = u->column_body[rows->col[c]];
   int j = rows->col[c] - u->layout->structure->mass_blocks[body].first;
@@ -220,7 +183,7 @@ static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
   if (status == BAUM_OK) {
     status = find_side(u, u->triple_of[body] + j / 3, &number);
   }
-  const raw_node *node = (raw_node *)u->nodes.items + u->nodes.count - 1;
+  const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
   for (int r = 0; r < 2 && status == BAUM_OK; r++) {
     if (node->row[r] >= 0) {
       baum_i_side_entry *entry = baum_i_vector_append(&u->entries);
@@ -234,9 +197,10 @@ static baum_status add_column(builder *u, const baum_i_row_block *rows, int c)
   return status;
 }
 
-static baum_status add_full(builder *u, const baum_i_row_block *rows, const int32_t row[2])
+static baum_status add_full(baum_i_block_builder *u, const baum_i_row_block *rows,
+                            const int32_t row[2])
 {
-  raw_node *node = add_node(u);
+  baum_i_raw_node *node = add_node(u);
   if (!node) {
     return BAUM_ERR_MEMORY;
   }
@@ -250,7 +214,7 @@ static baum_status add_full(builder *u, const baum_i_row_block *rows, const int3
 }
 
 /* Rows that are left, two by two. */
-static baum_status add_rows(builder *u, const baum_i_row_block *rows)
+static baum_status add_rows(baum_i_block_builder *u, const baum_i_row_block *rows)
 {
   int32_t pair[2] = {-1, -1};
   int have = 0;
@@ -270,7 +234,7 @@ static baum_status add_rows(builder *u, const baum_i_row_block *rows)
   return status;
 }
 
-static baum_status make_nodes(builder *u)
+static baum_status make_nodes(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_status status = BAUM_OK;
@@ -285,15 +249,8 @@ static baum_status make_nodes(builder *u)
 
 /* ---- the graph ---- */
 
-/* Whether W = 0 there, so that it couples nothing. */
-static bool is_fixed(const builder *u, int triple)
-{
-  const unsigned char *still = u->block->still;
-  return triple == 0 || (triple <= u->layout->structure->mass_block_count && still[triple - 1]);
-}
-
 /* Mass block of a triple that is not ground. */
-static int body_of(const builder *u, int triple)
+static int body_of(const baum_i_block_builder *u, int triple)
 {
   int body = triple - 1;
   for (int i = 0; i < u->layout->structure->mass_block_count; i++) {
@@ -303,7 +260,7 @@ static int body_of(const builder *u, int triple)
 }
 
 /* Sides, triple by triple. */
-static baum_status sort_sides(builder *u)
+static baum_status sort_sides(baum_i_block_builder *u)
 {
   int triples = u->block->triple_count;
   u->sorted_start = baum_i_alloc((size_t)triples + 2, sizeof *u->sorted_start);
@@ -311,13 +268,13 @@ static baum_status sort_sides(builder *u)
   if (!u->sorted_start || !u->sorted) {
     return BAUM_ERR_MEMORY;
   }
-  const raw_side *sides = u->sides.items;
+  const baum_i_raw_side *sides = u->sides.items;
   int32_t *place = u->sorted_start + 1; /* one ahead: filling moves it to its own end */
   for (int i = 0; i < u->sides.count; i++) {
     place[sides[i].triple + 1]++;
   }
   for (int t = 0; t < triples; t++) {
-    if (!is_fixed(u, t) && place[t + 1] > MOST_SIDES) {
+    if (!baum_i_block_is_fixed(u, t) && place[t + 1] > MOST_SIDES) {
       u->block->hub = body_of(u, t);
       return BAUM_ERR_SINGULAR;
     }
@@ -329,14 +286,14 @@ static baum_status sort_sides(builder *u)
   return BAUM_OK;
 }
 
-static baum_status add_neighbours(builder *u, int32_t node, int32_t *mark)
+static baum_status add_neighbours(baum_i_block_builder *u, int32_t node, int32_t *mark)
 {
-  const raw_node *nodes = u->nodes.items;
-  const raw_side *sides = u->sides.items;
+  const baum_i_raw_node *nodes = u->nodes.items;
+  const baum_i_raw_side *sides = u->sides.items;
   mark[node] = node + 1;
   for (int s = 0; s < nodes[node].side_count; s++) {
     int32_t triple = sides[nodes[node].first_side + s].triple;
-    bool couples = !is_fixed(u, triple);
+    bool couples = !baum_i_block_is_fixed(u, triple);
     for (int32_t k = u->sorted_start[triple]; couples && k < u->sorted_start[triple + 1]; k++) {
       int32_t other = sides[u->sorted[k]].node;
       if (mark[other] != node + 1) {
@@ -350,7 +307,7 @@ static baum_status add_neighbours(builder *u, int32_t node, int32_t *mark)
   return BAUM_OK;
 }
 
-static baum_status make_graph(builder *u)
+static baum_status make_graph(baum_i_block_builder *u)
 {
   int count = u->nodes.count;
   u->graph_start = baum_i_alloc((size_t)count + 1, sizeof *u->graph_start);
@@ -364,7 +321,7 @@ static baum_status make_graph(builder *u)
   return status;
 }
 
-static baum_status find_order(builder *u)
+static baum_status find_order(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
   const baum_i_graph graph = {u->nodes.count, u->graph_start, u->neighbours.items};
@@ -379,11 +336,11 @@ static baum_status find_order(builder *u)
 
 /* ---- nodes at their places ---- */
 
-static baum_status place_nodes(builder *u)
+static baum_status place_nodes(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
-  const raw_node *nodes = u->nodes.items;
-  const raw_side *sides = u->sides.items;
+  const baum_i_raw_node *nodes = u->nodes.items;
+  const baum_i_raw_side *sides = u->sides.items;
   b->pins = baum_i_alloc((size_t)u->raw_pins, sizeof *b->pins);
   b->fulls = baum_i_alloc((size_t)(b->node_count - u->raw_pins), sizeof *b->fulls);
   u->arm_of = baum_i_alloc((size_t)b->node_count, sizeof *u->arm_of);
@@ -392,8 +349,8 @@ static baum_status place_nodes(builder *u)
   }
   for (int32_t k = 0; k < b->node_count; k++) {
     int32_t raw = b->order.node[k];
-    const raw_node *node = &nodes[raw];
-    const raw_side *side = &sides[node->first_side];
+    const baum_i_raw_node *node = &nodes[raw];
+    const baum_i_raw_side *side = &sides[node->first_side];
     if (node->is_pin) {
       u->arm_of[raw] = 2 * b->pin_count;
       b->pins[b->pin_count++] =
@@ -412,117 +369,9 @@ static baum_status place_nodes(builder *u)
   return BAUM_OK;
 }
 
-/* ---- couplings ---- */
-
-/* Block below the diagonal of two nodes at their places. */
-static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
-{
-  int32_t low = order->start[earlier];
-  int32_t high = order->start[earlier + 1] - 1;
-  while (low < high) {
-    int32_t middle = (low + high) / 2;
-    if (order->later[middle] < later) {
-      low = middle + 1;
-    } else {
-      high = middle;
-    }
-  }
-  return low;
-}
-
-/* Number of a side with arms counted by places. */
-static int32_t number_of(const builder *u, const raw_side *side)
-{
-  return side->number >= 0 ? side->number : ~(u->arm_of[side->node] + (~side->number) % 2);
-}
-
-static baum_status add_pair(builder *u, const raw_side *x, const raw_side *y)
-{
-  const baum_i_elimination *order = &u->block->order;
-  bool in_order = order->place[x->node] < order->place[y->node];
-  const raw_side *earlier = in_order ? x : y;
-  const raw_side *later = in_order ? y : x;
-  int32_t off = find_off(order, order->place[earlier->node], order->place[later->node]);
-  int32_t k = number_of(u, earlier);
-  int32_t n = number_of(u, later);
-  if (k < 0 && n < 0 && !u->is_set[off]) {
-    u->is_set[off] = 1;
-    bool alike = (~k) % 2 == (~n) % 2;
-    baum_i_pin_pair *pair = baum_i_vector_append(alike ? &u->alike : &u->opposite);
-    if (pair) {
-      *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .triple = x->triple};
-    }
-    return pair ? BAUM_OK : BAUM_ERR_MEMORY;
-  }
-  baum_i_full_pair *pair = baum_i_vector_append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
-  u->is_set[off] = 1;
-  if (pair) {
-    *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
-  }
-  return pair ? BAUM_OK : BAUM_ERR_MEMORY;
-}
-
-static int by_off(const void *a, const void *b)
-{
-  /* Both kinds of pair begin with it. */
-  int32_t x = *(const int32_t *)a;
-  int32_t y = *(const int32_t *)b;
-  return (x > y) - (x < y);
-}
-
-static void sort_pairs(baum_i_vector *pairs)
-{
-  if (pairs->count > 1) {
-    qsort(pairs->items, (size_t)pairs->count, pairs->size, by_off);
-  }
-}
-
-static baum_status make_pairs(builder *u)
-{
-  const raw_side *sides = u->sides.items;
-  u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
-  baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
-  for (int t = 1; t < u->block->triple_count; t++) {
-    bool couples = !is_fixed(u, t);
-    for (int32_t i = u->sorted_start[t]; couples && i < u->sorted_start[t + 1]; i++) {
-      for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {
-        status = add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]);
-      }
-    }
-  }
-  for (int32_t i = 0; i < u->block->off_count && status == BAUM_OK; i++) {
-    status = u->is_set[i] ? BAUM_OK : baum_i_vector_append_number(&u->zeros, i);
-  }
-  sort_pairs(&u->alike);
-  sort_pairs(&u->opposite);
-  sort_pairs(&u->first_pairs);
-  sort_pairs(&u->full_pairs);
-  return status;
-}
-
-/* Blocks that the products of a node's couplings go to: of the f-th with those before it. */
-static baum_status make_targets(builder *u)
-{
-  baum_i_block *b = u->block;
-  const baum_i_elimination *order = &b->order;
-  b->target_start = baum_i_alloc((size_t)b->node_count, sizeof *b->target_start);
-  baum_status status = b->target_start ? BAUM_OK : BAUM_ERR_MEMORY;
-  for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
-    const int32_t *later = order->later + order->start[k];
-    int count = order->start[k + 1] - order->start[k];
-    b->target_start[k] = u->targets.count;
-    for (int f = 1; f < count; f++) {
-      for (int e = 0; e < f && status == BAUM_OK; e++) {
-        status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));
-      }
-    }
-  }
-  return status;
-}
-
 /* ---- all ---- */
 
-static void give_all(builder *u)
+static void give_all(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
   int ignored;
@@ -537,41 +386,61 @@ static void give_all(builder *u)
   b->target = baum_i_vector_give(&u->targets, &ignored);
 }
 
-static void clear(builder *u)
+static void clear(baum_i_block_builder *u)
 {
-  const baum_i_vector *vectors[] = {&u->nodes,      &u->sides, &u->full_sides, &u->entries,
-                                    &u->neighbours, &u->alike, &u->opposite,   &u->first_pairs,
-                                    &u->full_pairs, &u->zeros, &u->targets,    &u->dense_sides};
-  for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) {
-    baum_i_free(vectors[i]->items);
-  }
-  const void *arrays[] = {u->column_body, u->triple_of,   u->dense_of, u->sorted_start,
-                          u->sorted,      u->graph_start, u->arm_of,   u->is_set};
-  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+  const void *const arrays[] = {
+    u->nodes.items,
+    u->sides.items,
+    u->full_sides.items,
+    u->entries.items,
+    u->alike.items,
+    u->opposite.items,
+    u->first_pairs.items,
+    u->full_pairs.items,
+    u->zeros.items,
+    u->targets.items,
+    u->dense_sides.items,
+    u->neighbours.items,
+    u->column_body,
+    u->triple_of,
+    u->dense_of,
+    u->sorted_start,
+    u->sorted,
+    u->graph_start,
+    u->arm_of,
+    u->is_set,
+  };
+  enum { COUNT = sizeof arrays / sizeof arrays[0] };
+  for (int i = 0; i < COUNT; i++) {
     baum_i_free(arrays[i]);
   }
 }
 
-typedef baum_status step(builder *u);
+typedef baum_status step(baum_i_block_builder *u);
 
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block)
 {
-  static step *const steps[] = {make_nodes,  sort_sides, make_graph,  find_order,
-                                place_nodes, make_pairs, make_targets};
-  builder u = {.layout = layout,
-               .block = block,
-               .nodes = {.size = sizeof(raw_node)},
-               .sides = {.size = sizeof(raw_side)},
-               .full_sides = {.size = sizeof(int32_t)},
-               .entries = {.size = sizeof(baum_i_side_entry)},
-               .dense_sides = {.size = sizeof(baum_i_dense_side)},
-               .neighbours = {.size = sizeof(int32_t)},
-               .alike = {.size = sizeof(baum_i_pin_pair)},
-               .opposite = {.size = sizeof(baum_i_pin_pair)},
-               .first_pairs = {.size = sizeof(baum_i_full_pair)},
-               .full_pairs = {.size = sizeof(baum_i_full_pair)},
-               .zeros = {.size = sizeof(int32_t)},
-               .targets = {.size = sizeof(int32_t)}};
+  static step *const steps[] = {make_nodes,
+                                sort_sides,
+                                make_graph,
+                                find_order,
+                                place_nodes,
+                                baum_i_block_make_pairs,
+                                baum_i_block_make_targets};
+  baum_i_block_builder u = {.layout = layout,
+                            .block = block,
+                            .nodes = {.size = sizeof(baum_i_raw_node)},
+                            .sides = {.size = sizeof(baum_i_raw_side)},
+                            .full_sides = {.size = sizeof(int32_t)},
+                            .entries = {.size = sizeof(baum_i_side_entry)},
+                            .dense_sides = {.size = sizeof(baum_i_dense_side)},
+                            .neighbours = {.size = sizeof(int32_t)},
+                            .alike = {.size = sizeof(baum_i_pin_pair)},
+                            .opposite = {.size = sizeof(baum_i_pin_pair)},
+                            .first_pairs = {.size = sizeof(baum_i_full_pair)},
+                            .full_pairs = {.size = sizeof(baum_i_full_pair)},
+                            .zeros = {.size = sizeof(int32_t)},
+                            .targets = {.size = sizeof(int32_t)}};
   baum_status status = make_bodies(&u);
   if (status == BAUM_OK) {
     place_bodies(&u);

@@ -201,10 +201,10 @@ static void order_later(search *s)
   baum_i_elimination *out = s->out;
   out->later = s->later.item;
   s->later.item = NULL;
-  for (int32_t i = 0; i < out->start[out->count]; i++) {
+  for (int32_t i = 0; out->later && i < out->start[out->count]; i++) {
     out->later[i] = out->place[out->later[i]];
   }
-  for (int k = 0; k < out->count; k++) {
+  for (int k = 0; out->later && k < out->count; k++) {
     int32_t count = out->start[k + 1] - out->start[k];
     if (count > 1) {
       qsort(out->later + out->start[k], (size_t)count, sizeof *out->later, ascending);

@@ -87,7 +87,7 @@ static bool run_geometry(const block_solver *s)
                                   .damping = pins.damping,
                                   .stiffness = pins.stiffness,
                                   .phi_rate = w->phi_rate};
-  s->path->kernel->set_full(s->path->block, &rows);
+  s->path->sides_kernel->set(s->path->block, &rows);
   return done;
 }
 
@@ -117,20 +117,23 @@ static bool block_run(void *self, int last_phase)
          BAUM_OK;
 }
 
-/* Three assignments and back are next to nothing beside an evaluation. */
+/* Four assignments and back are next to nothing beside an evaluation. */
 static bool plain_run(void *self, int last_phase)
 {
   block_solver *s = self;
   baum_i_point *point = &s->at->workspace->point;
   const baum_i_block_kernel *kernel = s->path->kernel;
   const baum_i_pins_kernel *pins = s->path->pins_kernel;
+  const baum_i_block_sides_kernel *sides = s->path->sides_kernel;
   const baum_i_frames_kernel *frames = point->kernel;
   s->path->kernel = &baum_i_block_kernel_plain;
   s->path->pins_kernel = &baum_i_pins_kernel_plain;
+  s->path->sides_kernel = &baum_i_block_sides_kernel_plain;
   point->kernel = &baum_i_frames_kernel_plain;
   bool done = block_run(self, last_phase);
   s->path->kernel = kernel;
   s->path->pins_kernel = pins;
+  s->path->sides_kernel = sides;
   point->kernel = frames;
   return done;
 }

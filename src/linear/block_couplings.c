@@ -1,0 +1,114 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Couplings of the Schur complement in blocks: which two sides give to which block below the diagonal,
+ * once nodes have their places. Two pins set their block; what else falls on it is added.
+ */
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "linear/block_builder.h"
+
+/* Block below the diagonal of two nodes at their places. */
+static int32_t find_off(const baum_i_elimination *order, int32_t earlier, int32_t later)
+{
+  int32_t low = order->start[earlier];
+  int32_t high = order->start[earlier + 1] - 1;
+  while (low < high) {
+    int32_t middle = (low + high) / 2;
+    if (order->later[middle] < later) {
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  return low;
+}
+
+/* Number of a side with arms counted by places. */
+static int32_t number_of(const baum_i_block_builder *u, const baum_i_raw_side *side)
+{
+  return side->number >= 0 ? side->number : ~(u->arm_of[side->node] + (~side->number) % 2);
+}
+
+static baum_status add_pair(baum_i_block_builder *u, const baum_i_raw_side *x,
+                            const baum_i_raw_side *y)
+{
+  const baum_i_elimination *order = &u->block->order;
+  bool in_order = order->place[x->node] < order->place[y->node];
+  const baum_i_raw_side *earlier = in_order ? x : y;
+  const baum_i_raw_side *later = in_order ? y : x;
+  int32_t off = find_off(order, order->place[earlier->node], order->place[later->node]);
+  int32_t k = number_of(u, earlier);
+  int32_t n = number_of(u, later);
+  if (k < 0 && n < 0 && !u->is_set[off]) {
+    u->is_set[off] = 1;
+    bool alike = (~k) % 2 == (~n) % 2;
+    baum_i_pin_pair *pair = baum_i_vector_append(alike ? &u->alike : &u->opposite);
+    if (pair) {
+      *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .triple = x->triple};
+    }
+    return pair ? BAUM_OK : BAUM_ERR_MEMORY;
+  }
+  baum_i_full_pair *pair = baum_i_vector_append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
+  u->is_set[off] = 1;
+  if (pair) {
+    *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
+  }
+  return pair ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+static int by_off(const void *a, const void *b)
+{
+  /* Both kinds of pair begin with it. */
+  int32_t x = *(const int32_t *)a;
+  int32_t y = *(const int32_t *)b;
+  return (x > y) - (x < y);
+}
+
+static void sort_pairs(baum_i_vector *pairs)
+{
+  if (pairs->count > 1) {
+    qsort(pairs->items, (size_t)pairs->count, pairs->size, by_off);
+  }
+}
+
+baum_status baum_i_block_make_pairs(baum_i_block_builder *u)
+{
+  const baum_i_raw_side *sides = u->sides.items;
+  u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
+  baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
+  for (int t = 1; t < u->block->triple_count; t++) {
+    bool couples = !baum_i_block_is_fixed(u, t);
+    for (int32_t i = u->sorted_start[t]; couples && i < u->sorted_start[t + 1]; i++) {
+      for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {
+        status = add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]);
+      }
+    }
+  }
+  for (int32_t i = 0; i < u->block->off_count && status == BAUM_OK; i++) {
+    status = u->is_set[i] ? BAUM_OK : baum_i_vector_append_number(&u->zeros, i);
+  }
+  sort_pairs(&u->alike);
+  sort_pairs(&u->opposite);
+  sort_pairs(&u->first_pairs);
+  sort_pairs(&u->full_pairs);
+  return status;
+}
+
+baum_status baum_i_block_make_targets(baum_i_block_builder *u)
+{
+  baum_i_block *b = u->block;
+  const baum_i_elimination *order = &b->order;
+  b->target_start = baum_i_alloc((size_t)b->node_count, sizeof *b->target_start);
+  baum_status status = b->target_start ? BAUM_OK : BAUM_ERR_MEMORY;
+  for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
+    const int32_t *later = order->later + order->start[k];
+    int count = order->start[k + 1] - order->start[k];
+    b->target_start[k] = u->targets.count;
+    for (int f = 1; f < count; f++) {
+      for (int e = 0; e < f && status == BAUM_OK; e++) {
+        status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));
+      }
+    }
+  }
+  return status;
+}

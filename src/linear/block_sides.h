@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sides as pairs, for the hot files: what block_sides_hot.c and block_hot.c share. */
+#ifndef BAUM_I_LINEAR_BLOCK_SIDES_H
+#define BAUM_I_LINEAR_BLOCK_SIDES_H
+
+#include "base/pair.h"
+#include "linear/block.h"
+
+/* The three columns of a side. */
+typedef struct baum_i_columns {
+  baum_i_pair c[3];
+} baum_i_columns;
+
+static inline baum_i_columns baum_i_load_full(const double *side)
+{
+  return (baum_i_columns){{baum_i_load(side), baum_i_load(side + 2), baum_i_load(side + 4)}};
+}
+
+/* Of a side's number as in baum_i_full_pair. */
+static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t number)
+{
+  if (number >= 0) {
+    return baum_i_load_full(b->side + 6 * (size_t)number);
+  }
+  int32_t arm = ~number;
+  double sign = arm % 2 == 0 ? 1.0 : -1.0;
+  return (baum_i_columns){{{sign, 0.0}, {0.0, sign}, baum_i_load(b->arm + 2 * (size_t)arm)}};
+}
+
+/* s += w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
+static inline baum_i_square baum_i_add_sides(baum_i_square s, const baum_i_columns *n,
+                                             const double *w, const baum_i_columns *k)
+{
+  for (int c = 0; c < 3; c++) {
+    baum_i_square product = baum_i_outer(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
+    s.column[0] += product.column[0];
+    s.column[1] += product.column[1];
+  }
+  return s;
+}
+
+#endif
