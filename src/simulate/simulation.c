@@ -168,6 +168,15 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
   }
 }
 
+/* At the start pose: which rows to leave out, and whether blocks suit what is left. */
+static baum_status choose_solver(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  w->blocks_only = run->options.solver == BAUM_SOLVER_BLOCK;
+  baum_status status = baum_i_find_redundancy(w, run->trial.t, run->trial.q);
+  return status == BAUM_OK ? baum_i_use_blocks(w) : status;
+}
+
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
 {
   const baum_simulation_options *o = &run->options;
@@ -183,11 +192,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
     status = baum_i_run_start(run, o->start_time, mechanism->drawn_q, mechanism->drawn_v);
   }
   if (status == BAUM_OK) {
-    status = baum_i_find_redundancy(run->workspace, run->trial.t, run->trial.q);
-  }
-  if (status == BAUM_OK) {
-    run->workspace->blocks_only = o->solver == BAUM_SOLVER_BLOCK;
-    status = baum_i_use_blocks(run->workspace);
+    status = choose_solver(run);
   }
   if (status == BAUM_OK) {
     status = choose_problem(run);
