@@ -16,12 +16,13 @@ static int count_joints(const baum_mechanism *m, int body)
   return count;
 }
 
-static void blocks_text(const baum_i_block *block, char *text, size_t size)
+static void blocks_text(const baum_workspace *w, char *text, size_t size)
 {
-  int couplings = block->off_count;
-  (void)snprintf(text, size, "blocks, %d %s, %d %s; klu and qr where pivots are bad",
-                 block->node_count, block->node_count == 1 ? "node" : "nodes", couplings,
-                 couplings == 1 ? "coupling" : "couplings");
+  const baum_i_block *block = w->path->block;
+  (void)snprintf(text, size, "blocks, %d %s, %d %s%s", block->node_count,
+                 block->node_count == 1 ? "node" : "nodes", block->off_count,
+                 block->off_count == 1 ? "coupling" : "couplings",
+                 w->blocks_only ? ", and nothing else" : "; klu and qr where pivots are bad");
 }
 
 void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
@@ -56,7 +57,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
 void baum_i_solver_text(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
 {
   if (w->path) {
-    blocks_text(w->path->block, text, BAUM_I_SOLVER_TEXT_SIZE);
+    blocks_text(w, text, BAUM_I_SOLVER_TEXT_SIZE);
     return;
   }
   char reason[BAUM_I_SOLVER_TEXT_SIZE];

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which solver a run uses, what it says of it, and what it refuses. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "models.h"
+#include "sentence.h"
+
+#define PI 3.14159265358979323846
+
+enum { ARMS = 60 };
+
+static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU, BAUM_SOLVER_QR,
+                                      BAUM_SOLVER_BLOCK};
+
+static void must(baum_status status)
+{
+  if (status < BAUM_OK) {
+    print_error("%s\n", baum_message());
+  }
+  assert_true(status >= BAUM_OK);
+}
+
+static baum_simulation_options euler(baum_solver solver)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_semi_implicit_euler();
+  o.step = 1e-6;
+  o.solver = solver;
+  return o;
+}
+
+static baum_simulation *start(const baum_mechanism *mechanism, const baum_simulation_options *o)
+{
+  baum_simulation *run = NULL;
+  must(baum_simulation_create(mechanism, o, &run));
+  return run;
+}
+
+static void assert_explained(const baum_simulation *run, const char *line)
+{
+  if (!strstr(baum_simulation_explain(run), line)) {
+    print_error("\"%s\" is not in\n%s\n", line, baum_simulation_explain(run));
+    fail();
+  }
+}
+
+static void assert_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
+                           baum_status want, const char *parts)
+{
+  baum_simulation *run = NULL;
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, parts);
+  assert_null(run);
+}
+
+/* ---- mechanisms ---- */
+
+/* A disc on the ground, as many pendulums on it, and what else one wants. Not frozen. */
+static baum_mechanism *make_hub(int arms)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id hub;
+  must(baum_mechanism_create(&m));
+  baum_planar_body_def disc = baum_planar_body_def_default();
+  disc.name = "hub";
+  disc.mass = 10.0;
+  must(baum_mechanism_add_planar_body(m, &disc, &hub));
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = hub;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  for (int k = 0; k < arms; k++) {
+    double angle = 2.0 * PI * k / arms;
+    baum_planar_body_def arm = baum_planar_body_def_default();
+    arm.position[0] = 1.5 * cos(angle);
+    arm.position[1] = 1.5 * sin(angle);
+    must(baum_mechanism_add_planar_body(m, &arm, &pin.body_b));
+    pin.body_a = hub;
+    pin.point[0] = cos(angle);
+    pin.point[1] = sin(angle);
+    must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  }
+  return m;
+}
+
+static int half_a_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[1] = 3.0;
+  return 0;
+}
+
+static int tie(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[1] - q[0];
+  return 0;
+}
+
+/* Two coordinates that are one; the second is without mass. */
+static baum_mechanism *make_massless(void)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id body;
+  must(baum_mechanism_create(&m));
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.name = "twin";
+  def.size = 2;
+  def.mass = half_a_mass;
+  def.force = pull;
+  def.constant_mass = true;
+  must(baum_mechanism_add_coordinates(m, &def, &body));
+  baum_user_constraint_def same = baum_user_constraint_def_default();
+  same.bodies = &body;
+  same.body_count = 1;
+  same.row_count = 1;
+  same.phi = tie;
+  must(baum_mechanism_add_user_constraint(m, &same, NULL));
+  must(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* ---- tests ---- */
+
+static void all_solvers_find_the_same(void **state)
+{
+  (void)state;
+  model m;
+  model_slider_crank data = {.angle = 1.0, .moving = true};
+  must(model_slider_crank_build(data, &m));
+  const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  double want[17];
+  for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
+    baum_simulation_options o = euler(SOLVERS[k]);
+    baum_simulation *run = start(m.mechanism, &o);
+    double row[17];
+    must(baum_simulation_step(run, 100));
+    assert_int_equal(baum_channels_width(m.mechanism, channels, 2), 17);
+    must(baum_simulation_get(run, channels, 2, row));
+    for (int i = 0; i < 17; i++) {
+      want[i] = k == 0 ? row[i] : want[i];
+      /* Rounding of accelerations of 1e4 m/s^2 and multipliers of 1e3 N, times some condition. */
+      ASSERT_NEAR(row[i], want[i], 1e-11, i < 9 ? 1e-7 : 1e-9);
+    }
+    baum_simulation_destroy(run);
+  }
+  model_destroy(&m);
+}
+
+static void explain_names_the_solver(void **state)
+{
+  (void)state;
+  static const char *const lines[] = {
+    "\nsolver        blocks, 5 nodes, 5 couplings; klu and qr where pivots are bad\n",
+    "\nsolver        klu on the whole system: another solver is asked for\n",
+    "\nsolver        qr on the whole system: another solver is asked for\n",
+    "\nsolver        blocks, 5 nodes, 5 couplings, and nothing else\n",
+  };
+  model m;
+  model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};
+  must(model_slider_crank_build(data, &m));
+  for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
+    baum_simulation_options o = euler(SOLVERS[k]);
+    baum_simulation *run = start(m.mechanism, &o);
+    assert_explained(run, lines[k]);
+    baum_simulation_destroy(run);
+  }
+  model_destroy(&m);
+}
+
+/* Kinematics and residuals are solved by matrices of their own. */
+static void methods_without_accelerations_say_so(void **state)
+{
+  (void)state;
+  model m;
+  model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};
+  must(model_slider_crank_build(data, &m));
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  baum_simulation *run = start(m.mechanism, &o);
+  assert_explained(run, "\nsolver        klu on the constraints\n");
+  baum_simulation_destroy(run);
+#if BAUM_HAVE_SUNDIALS
+  o.integrator = baum_ida();
+  o.rtol = 1e-6;
+  run = start(m.mechanism, &o);
+  assert_explained(run, "\nsolver        klu on the Jacobian of the residual; start and "
+                        "channels: blocks, 5 nodes");
+  baum_simulation_destroy(run);
+#endif
+  model_destroy(&m);
+}
+
+static void bodies_with_very_many_joints_are_named(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_hub(ARMS);
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
+  baum_simulation *run = start(m, &o);
+  must(baum_simulation_step(run, 10));
+  assert_explained(run,
+                   "\nsolver        klu on the whole system: body 1 \"hub\" has 61 joints, too "
+                   "many for blocks\n");
+  baum_simulation_destroy(run);
+  o = euler(BAUM_SOLVER_BLOCK);
+  assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
+                 "solver is block|body 1 \"hub\" has 61 joints, too many for blocks");
+  baum_mechanism_destroy(m);
+}
+
+static void many_joints_below_that_are_fine(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_hub(40);
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
+  baum_simulation *run = start(m, &o);
+  must(baum_simulation_step(run, 10));
+  assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings"); /* a clique */
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+static void masses_that_cannot_be_inverted_are_named(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_massless();
+  baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
+  baum_simulation *run = start(m, &o);
+  const baum_channel channel = {.quantity = BAUM_A};
+  double a[2];
+  must(baum_simulation_get(run, &channel, 1, a));
+  ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* differences of Phi */
+  ASSERT_NEAR(a[1], 3.0, 0.0, 1e-10);
+  assert_explained(run,
+                   "\nsolver        klu on the whole system: the mass matrix of body 1 \"twin\" "
+                   "is not positive definite\n");
+  baum_simulation_destroy(run);
+  o = euler(BAUM_SOLVER_BLOCK);
+  assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
+                 "solver is block|mass matrix of body 1 \"twin\" is not positive definite");
+  baum_mechanism_destroy(m);
+}
+
+static void blocks_alone_stop_close_to_a_singular_pose(void **state)
+{
+  (void)state;
+  model m;
+  model_slider_crank data = {.centric = true, .rod = 0.153, .angle = PI / 2 - 1e-7, .moving = true};
+  must(model_slider_crank_build(data, &m));
+  baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
+  o.start = BAUM_START_AS_GIVEN;
+  assert_refused(m.mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|pivots by blocks are too small");
+  o.solver = BAUM_SOLVER_AUTO;
+  baum_simulation *run = start(m.mechanism, &o);
+  baum_counters counters;
+  must(baum_simulation_counters(run, &counters, sizeof counters));
+  assert_true(counters.full_factorizations > 0); /* klu's */
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+static void no_joints_are_no_nodes(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  must(baum_mechanism_create(&m));
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.velocity[0] = 2.0;
+  def.velocity[1] = 0.0;
+  must(baum_mechanism_add_planar_body(m, &def, NULL));
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
+  o.integrator = baum_rk2();
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  o.step = 0.5;
+  baum_simulation *run = start(m, &o);
+  assert_explained(run, "\nsolver        blocks, 0 nodes, 0 couplings");
+  must(baum_simulation_step(run, 2));
+  const double *q = baum_simulation_q(run);
+  ASSERT_NEAR(q[0], 2.0, 1e-15, 0.0);
+  ASSERT_NEAR(q[1], -9.81 / 2, 1e-15, 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(all_solvers_find_the_same),
+    cmocka_unit_test(explain_names_the_solver),
+    cmocka_unit_test(methods_without_accelerations_say_so),
+    cmocka_unit_test(bodies_with_very_many_joints_are_named),
+    cmocka_unit_test(many_joints_below_that_are_fine),
+    cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
+    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_pose),
+    cmocka_unit_test(no_joints_are_no_nodes),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
