@@ -8,8 +8,8 @@
  *   index 3   Phi
  *
  * What it takes to make this work, all measured:
- * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too; and out of the
- *   norm in which Newton's iteration is judged, by a weight next to nothing.
+ * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too. Newton's
+ *   iteration is judged by sizes of its own (ida_newton.c): left out there too, multipliers run away.
  * - The start is consistent: q and v are given, v' and lambda come from one solution of (5) or (7). IDA's own
  *   search for a consistent start can succeed with wrong accelerations.
  * - The first step is given. IDA's own is too large for index 3.
@@ -34,6 +34,7 @@
 #include <sunmatrix/sunmatrix_sparse.h>
 
 #include "base/alloc.h"
+#include "integrate/ida_newton.h"
 #include "integrate/sundials_common.h"
 
 /* Memory of a run. */
@@ -45,13 +46,15 @@ typedef struct ida_run {
   N_Vector inside; /* interpolated */
   N_Vector tested; /* 1 where the error test looks, else 0 */
   SUNMatrix matrix;
-  SUNLinearSolver solver;           /* what IDA calls: dense, or a front before klu */
-  SUNLinearSolver klu;              /* NULL: dense */
-  N_Vector defect;                  /* b - A x */
-  N_Vector size;                    /* |b| + |A| |x| */
-  N_Vector entry;                   /* largest of each row of A */
-  bool fresh;                       /* pivots were chosen at the present matrix */
-  int64_t full_factorizations;      /* times pivots were chosen */
+  SUNLinearSolver solver;      /* what IDA calls: dense, or a front before klu */
+  SUNLinearSolver klu;         /* NULL: dense */
+  N_Vector defect;             /* b - A x */
+  N_Vector size;               /* |b| + |A| |x| */
+  N_Vector entry;              /* largest of each row of A */
+  bool fresh;                  /* pivots were chosen at the present matrix */
+  double linearized;           /* [1/s] c of the present matrix */
+  int64_t full_factorizations; /* times pivots were chosen */
+  baum_i_ida_newton newton;
   baum_i_residual_matrix *jacobian; /* NULL: differences */
   baum_dae dae;
   baum_i_statistics before; /* up to the last restart */
@@ -107,36 +110,27 @@ static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Ve
   (void)work2;
   (void)work3;
   ida_run *run = user;
+  run->linearized = c;
   copy_pattern(run->jacobian, matrix);
   baum_status status = baum_i_residual_matrix_fill(
     run->jacobian, run->sundials.problem->workspace, &run->dae, c, t, N_VGetArrayPointer(y),
     N_VGetArrayPointer(dy), SUNSparseMatrix_Data(matrix));
-  return baum_i_sundials_answer(&run->sundials, status);
-}
-
-/* Next to nothing beside a relative error of 1, in whatever units. */
-static double multiplier_weight(const double *lambda, int nc)
-{
-  double largest = 1.0;
-  for (int i = 0; i < nc; i++) {
-    largest = fmax(largest, fabs(lambda[i]));
+  if (status == BAUM_OK) {
+    baum_i_ida_newton_measure(&run->newton);
   }
-  return 1e-10 / largest;
+  return baum_i_sundials_answer(&run->sundials, status);
 }
 
 static int weigh(N_Vector y, N_Vector weights, void *user)
 {
-  const ida_run *run = user;
+  ida_run *run = user;
   const baum_i_problem *problem = run->sundials.problem;
   const baum_mechanism *mechanism = problem->workspace->mechanism;
   const double *v = N_VGetArrayPointer(y) + mechanism->nq;
   double *w = N_VGetArrayPointer(weights);
-  double *multipliers = w + mechanism->nq + mechanism->nv;
+  N_VConst(1.0, weights); /* those of multipliers are used nowhere, but must be > 0 */
   baum_i_sundials_weights(problem, v, w);
-  double weight = multiplier_weight(v + mechanism->nv, mechanism->nc);
-  for (int i = 0; i < mechanism->nc; i++) {
-    multipliers[i] = weight;
-  }
+  baum_i_ida_newton_begin_step(&run->newton, v + mechanism->nv, w);
   return 0;
 }
 
@@ -205,16 +199,28 @@ static bool is_accurate(const ida_run *run, SUNMatrix matrix, N_Vector solution,
   return accurate;
 }
 
-static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
-                 sunrealtype tolerance)
+static int solve_accurately(ida_run *run, SUNMatrix matrix, N_Vector x, N_Vector b)
 {
-  ida_run *run = solver->content;
-  int failed = SUNLinSolSolve_KLU(run->klu, matrix, x, b, tolerance);
+  int failed = SUNLinSolSolve_KLU(run->klu, matrix, x, b, 0.0);
   if (failed == 0 && (run->fresh || is_accurate(run, matrix, x, b))) {
     return 0;
   }
   failed = choose_pivots(run, matrix);
-  return failed != 0 ? failed : SUNLinSolSolve_KLU(run->klu, matrix, x, b, tolerance);
+  return failed != 0 ? failed : SUNLinSolSolve_KLU(run->klu, matrix, x, b, 0.0);
+}
+
+static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
+                 sunrealtype tolerance)
+{
+  (void)tolerance;
+  ida_run *run = solver->content;
+  double c = run->linearized;
+  (void)IDAGetCurrentCj(run->ida, &c);
+  double ratio = c / run->linearized;
+  baum_i_ida_newton_scale_right(&run->newton, ratio, b);
+  int failed = solve_accurately(run, matrix, x, b);
+  baum_i_ida_newton_scale_solution(&run->newton, ratio, x);
+  return failed;
 }
 
 static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
@@ -250,6 +256,8 @@ static void begin(ida_run *run, const baum_i_problem *problem, double t)
   bool index3 = problem->formulation == BAUM_FORMULATION_INDEX3;
   bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
   run->dae.index = index3 ? BAUM_RESIDUAL_INDEX3 : BAUM_RESIDUAL_INDEX1;
+  run->newton.sundials = &run->sundials;
+  run->newton.index3 = index3;
   run->dae.alpha = gains ? problem->direction * problem->alpha : 0.0;
   run->dae.beta = gains ? problem->beta : 0.0;
 }
@@ -305,7 +313,7 @@ static void count(const void *self, baum_i_statistics *out)
 /* y and y' that fulfil F = 0. */
 static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
-  const baum_workspace *workspace = problem->workspace;
+  baum_workspace *workspace = problem->workspace;
   size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
   size_t nc = (size_t)workspace->mechanism->nc;
@@ -321,7 +329,14 @@ static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_
   memcpy(dy, state->v, nq * sizeof *dy);
   memcpy(dy + nq, workspace->a, nv * sizeof *dy);
   memset(dy + nq + nv, 0, nc * sizeof *dy);
-  return BAUM_OK;
+  status = baum_i_need_jacobian(workspace);
+  if (status == BAUM_OK) {
+    status = baum_i_evaluate_mass(workspace);
+  }
+  if (status == BAUM_OK) {
+    baum_i_ida_newton_measure(&run->newton);
+  }
+  return status;
 }
 
 /* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. Index 1 tests velocities
@@ -392,6 +407,7 @@ static void destroy(void *self)
     return;
   }
   IDAFree(&run->ida);
+  baum_i_ida_newton_close(&run->newton);
   (void)SUNLinSolFree(run->solver);
   (void)SUNLinSolFree(run->klu);
   SUNMatDestroy(run->matrix);
@@ -402,8 +418,15 @@ static void destroy(void *self)
 
 static void take_vectors(ida_run *run)
 {
-  N_Vector *const all[] = {&run->y,      &run->dy,   &run->inside, &run->tested,
-                           &run->defect, &run->size, &run->entry};
+  N_Vector *const all[] = {&run->y,
+                           &run->dy,
+                           &run->inside,
+                           &run->tested,
+                           &run->defect,
+                           &run->size,
+                           &run->entry,
+                           &run->newton.displacement,
+                           &run->newton.inertia};
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
     *all[k] = baum_i_sundials_vector(&run->sundials);
   }
@@ -441,9 +464,10 @@ static int attach_klu(ida_run *run)
     run->klu = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
   }
   run->solver = run->klu ? make_front(run) : NULL;
-  /* These two have flags of their own; only memory can be wrong. */
+  /* These have flags of their own; only memory can be wrong. Scaling is ours. */
   bool attached = run->solver &&
                   IDASetLinearSolver(run->ida, run->solver, run->matrix) == IDALS_SUCCESS &&
+                  IDASetLinearSolutionScaling(run->ida, SUNFALSE) == IDALS_SUCCESS &&
                   IDASetJacFn(run->ida, linearize) == IDALS_SUCCESS;
   return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
 }
@@ -472,6 +496,9 @@ static int start_ida(ida_run *run, double t)
   }
   if (flag == IDA_SUCCESS) {
     flag = run->jacobian ? attach_klu(run) : attach_dense(run);
+  }
+  if (flag == IDA_SUCCESS) {
+    flag = baum_i_ida_newton_attach(&run->newton, run->ida, run->y);
   }
   double max_step = run->sundials.problem->max_step;
   if (flag == IDA_SUCCESS && isfinite(max_step)) {
@@ -529,6 +556,13 @@ baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
                                                const baum_i_state *start, void **out)
 {
   return create_run(problem, start, true, out);
+}
+
+const double *baum_i_ida_multipliers(const void *run)
+{
+  const ida_run *self = run;
+  const baum_mechanism *mechanism = self->sundials.problem->workspace->mechanism;
+  return N_VGetArrayPointer(self->y) + mechanism->nq + mechanism->nv;
 }
 
 /* ---- the integrator ---- */

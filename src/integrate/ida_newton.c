@@ -1,0 +1,189 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's iteration of IDA on y = (q, v, lambda), with y' = c y + ... and c = O(1/h).
+ *
+ * Convergence. A correction d is as large as the root of the sum of squares of
+ *
+ *   q, v     root mean square of d / tolerance
+ *   lambda   largest |d_i| n_i / E, where n_i is the displacement of row i, so that both are
+ *            energies, and
+ *            E = 1/100 (largest |lambda_i| n_i) + |c| (largest M_jj s_j tolerance_v_j);
+ *            the second part is what the tolerance of v leaves open of M v' = c M v + ...
+ *
+ * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
+ * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
+ * or with a later one after which the rate of this step promises an error below it.
+ *
+ * IDA's own test is no good here. No fixed tolerance suits multipliers, which may vanish and whose
+ * rounding grows with c; and left out of it, as they are of the error test, they run away: order 5
+ * extrapolates an error 63-fold, and an iteration with an older matrix leaves up to a quarter.
+ * Measured: forces 1e14 times too large, which then move q and v by their rounding, and no step
+ * converges any more. Also, IDA trusts a rate from an earlier step while the matrix grows old; what
+ * it takes for converged costs a third of the length of steps.
+ *
+ * Older matrices. With r = c / c0, a matrix made for c0 solves the present system but for terms
+ * that are smaller by h:
+ *
+ *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, 1 or r^2 at index 3),  C = diag(r^-2, r^-1, 1)
+ *
+ * so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a compromise for stiff equations; of
+ * the multipliers it leaves (1 - r) / (1 + r) in each iteration.
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/ida_newton.h"
+
+#include <float.h>
+#include <math.h>
+
+#include <ida/ida.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+/* Their errors do not add up: what matters is that they do not run away. From 1e-1 to 1e-4 the
+ * iterations are as many. */
+static const double MULTIPLIER_TOLERANCE = 1e-2;
+/* 50 times rounding at rtol 1e-13; errors are as with 0.01, steps fewer than with 1. */
+static const double INDEX3_VELOCITY_TOLERANCE = 0.1;
+/* As IDA has it: above, it takes another matrix or a smaller step. */
+static const double WORST_RATE = 0.9;
+
+static const baum_workspace *workspace_of(const baum_i_ida_newton *newton)
+{
+  return newton->sundials->problem->workspace;
+}
+
+/* ---- sizes ---- */
+
+void baum_i_ida_newton_measure(baum_i_ida_newton *newton)
+{
+  const baum_workspace *w = workspace_of(newton);
+  double *inertia = N_VGetArrayPointer(newton->inertia);
+  baum_i_row_displacements(w, N_VGetArrayPointer(newton->displacement));
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      int j = block->first + i;
+      inertia[j] = w->mass[block->value + i * block->size + i] * w->mechanism->scale[j];
+    }
+  }
+}
+
+void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *lambda,
+                                  const double *weights)
+{
+  const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
+  const double *displacement = N_VGetArrayPointer(newton->displacement);
+  const double *inertia = N_VGetArrayPointer(newton->inertia);
+  newton->energy = newton->momentum_q = newton->momentum_v = 0.0;
+  for (int i = 0; i < mechanism->nc; i++) {
+    newton->energy = fmax(newton->energy, fabs(lambda[i]) * displacement[i]);
+  }
+  for (int j = 0; j < mechanism->nv; j++) {
+    newton->momentum_q = fmax(newton->momentum_q, inertia[j] / weights[j]);
+    newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[mechanism->nq + j]);
+  }
+}
+
+static double size_of_motion(const baum_i_ida_newton *newton, double c, const double *d,
+                             const double *weights)
+{
+  int n = workspace_of(newton)->mechanism->nv;
+  double least = newton->index3 ? INDEX3_VELOCITY_TOLERANCE * c : 0.0;
+  double sum = 0.0;
+  for (int i = 0; i < n; i++) {
+    double position = d[i] * weights[i];
+    double velocity = d[n + i] / fmax(1.0 / weights[n + i], least / weights[i]);
+    sum += position * position + velocity * velocity;
+  }
+  return sqrt(sum / (2.0 * n));
+}
+
+static double size_of_multipliers(const baum_i_ida_newton *newton, double c, const double *d)
+{
+  const double *displacement = N_VGetArrayPointer(newton->displacement);
+  double least = newton->index3 ? INDEX3_VELOCITY_TOLERANCE * c * newton->momentum_q : 0.0;
+  double tolerance =
+    MULTIPLIER_TOLERANCE * newton->energy + c * fmax(newton->momentum_v, least) + DBL_MIN;
+  double largest = 0.0;
+  for (int i = 0; i < workspace_of(newton)->mechanism->nc && !isnan(largest); i++) {
+    double size = fabs(d[i]) * displacement[i];
+    largest = size <= largest ? largest : size;
+  }
+  return largest / tolerance;
+}
+
+/* ---- the test ---- */
+
+/* NaN is not converged. */
+static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, sunrealtype tolerance,
+                N_Vector weights, void *user)
+{
+  (void)sum;
+  baum_i_ida_newton *newton = user;
+  const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
+  const double *d = N_VGetArrayPointer(correction);
+  double c = 0.0;
+  int before = 0;
+  (void)IDAGetCurrentCj(newton->ida, &c);
+  (void)SUNNonlinSolGetCurIter(solver, &before);
+  double motion = size_of_motion(newton, fabs(c), d, N_VGetArrayPointer(weights));
+  double multipliers = size_of_multipliers(newton, fabs(c), d + mechanism->nq + mechanism->nv);
+  double size = hypot(motion, multipliers);
+  if (before == 0) {
+    newton->first = size;
+    return size <= tolerance ? 0 : SUN_NLS_CONTINUE;
+  }
+  double rate = pow(size / newton->first, 1.0 / before);
+  if (!(rate <= WORST_RATE)) {
+    return SUN_NLS_CONV_RECVR;
+  }
+  return rate / (1.0 - rate) * size <= tolerance ? 0 : SUN_NLS_CONTINUE;
+}
+
+int baum_i_ida_newton_attach(baum_i_ida_newton *newton, void *ida, N_Vector y)
+{
+  newton->ida = ida;
+  newton->solver = SUNNonlinSol_Newton(y, newton->sundials->context);
+  int flag = newton->solver ? IDASetNonlinearSolver(ida, newton->solver) : IDA_MEM_FAIL;
+  if (flag == IDA_SUCCESS) {
+    /* After the above, which sets IDA's own. */
+    flag = (int)SUNNonlinSolSetConvTestFn(newton->solver, test, newton);
+  }
+  return flag;
+}
+
+void baum_i_ida_newton_close(baum_i_ida_newton *newton)
+{
+  (void)SUNNonlinSolFree(newton->solver);
+}
+
+/* ---- older matrices ---- */
+
+static void scale(double *x, int n, double factor)
+{
+  for (int i = 0; i < n; i++) {
+    x[i] *= factor;
+  }
+}
+
+void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right)
+{
+  const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
+  double *b = N_VGetArrayPointer(right);
+  scale(b, mechanism->nv, ratio);
+  if (newton->index3) {
+    scale(b + mechanism->nq + mechanism->nv, mechanism->nc, ratio * ratio);
+  }
+}
+
+void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
+                                      N_Vector solution)
+{
+  int n = workspace_of(newton)->mechanism->nv;
+  double *x = N_VGetArrayPointer(solution);
+  scale(x, n, 1.0 / (ratio * ratio));
+  scale(x + n, n, 1.0 / ratio);
+}
+
+#endif

@@ -1,0 +1,211 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* IDA from many start poses, at all tolerances, in all formulations: no run fails, and the ends
+ * agree with those of CVODE.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "physics_run.h"
+
+enum { NQ_MAX = 21, FORMULATION_COUNT = 3, LOOSEST = 6, TIGHTEST = 13 };
+
+static const baum_formulation FORMULATIONS[FORMULATION_COUNT] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_INDEX3,
+};
+
+/* Most of the error at the end, lengths in metres and angles in radians, over rtol. The driven
+ * crank is held on its way, where it is stabilized; of the others, errors add up over two turns or
+ * a swing, and at index 3 velocities are not in the error test at all. Measured at most 23, 1.1e3,
+ * 0.7 and 9.5e3, 3.1e3, 7.6e4; four- to tenfold is left for the luck of other last digits. */
+static const double MOST_DRIVEN_ERROR[FORMULATION_COUNT] = {2e2, 1e4, 1e1};
+static const double MOST_FREE_ERROR[FORMULATION_COUNT] = {5e4, 2e4, 3e5};
+/* Beyond, rounding and the error of the reference count as well. */
+static const int TIGHTEST_JUDGED = 10;
+
+typedef struct end {
+  baum_status status;
+  double q[NQ_MAX];
+  baum_counters counters;
+} end;
+
+static end run_to(const model *m, const baum_simulation_options *options, double t)
+{
+  end out = {0};
+  int32_t nq = 0;
+  baum_simulation *run = NULL;
+  check(baum_mechanism_sizes(m->mechanism, &nq, NULL, NULL));
+  assert_true(nq <= NQ_MAX);
+  check(baum_simulation_create(m->mechanism, options, &run));
+  out.status = baum_simulation_advance_to(run, t);
+  memcpy(out.q, baum_simulation_q(run), (size_t)nq * sizeof *out.q);
+  check(baum_simulation_counters(run, &out.counters, sizeof out.counters));
+  baum_simulation_destroy(run);
+  return out;
+}
+
+static end find_reference(const model *m, double t)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_cvode_adams();
+  options.rtol = 1e-12;
+  end out = run_to(m, &options, t);
+  check(out.status);
+  return out;
+}
+
+static double largest_difference(const end *one, const end *other)
+{
+  double largest = 0.0;
+  for (int i = 0; i < NQ_MAX; i++) {
+    largest = fmax(largest, fabs(one->q[i] - other->q[i]));
+  }
+  return largest;
+}
+
+/* Sums over the poses of a mechanism, for each formulation and rtol = 10^-k. */
+typedef struct tally {
+  int runs;
+  int64_t steps;
+  int64_t iterations;
+  int64_t rejected;
+  double error; /* largest, over rtol */
+} tally;
+
+typedef struct table {
+  const char *name;
+  int tightest;
+  const double *most;
+  tally sums[FORMULATION_COUNT][TIGHTEST + 1];
+} table;
+
+static void run_one(table *out, const model *m, double t, const end *reference, int f, int k)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_ida();
+  options.formulation = FORMULATIONS[f];
+  options.rtol = pow(10.0, -k);
+  end found = run_to(m, &options, t);
+  if (found.status < BAUM_OK) {
+    fail_msg("%s, %s, rtol %g: %s", out->name, baum_formulation_name(FORMULATIONS[f]), options.rtol,
+             baum_message());
+  }
+  tally *sum = &out->sums[f][k];
+  sum->error = fmax(sum->error, largest_difference(&found, reference) / options.rtol);
+  sum->runs++;
+  sum->steps += found.counters.steps;
+  sum->iterations += found.counters.nonlinear_iterations;
+  sum->rejected += found.counters.rejected;
+}
+
+static void run_all(table *out, const model *m, double t)
+{
+  end reference = find_reference(m, t);
+  for (int f = 0; f < FORMULATION_COUNT; f++) {
+    for (int k = LOOSEST; k <= out->tightest; k++) {
+      run_one(out, m, t, &reference, f, k);
+    }
+  }
+}
+
+static void judge(const table *found)
+{
+  for (int f = 0; f < FORMULATION_COUNT; f++) {
+    for (int k = LOOSEST; k <= found->tightest; k++) {
+      const tally *sum = &found->sums[f][k];
+      const char *formulation = baum_formulation_name(FORMULATIONS[f]);
+      print_message("%-12s %-12s 1e-%02d %6.0f steps %6.2f iterations each %4.0f rejected, error "
+                    "%.1e rtol\n",
+                    found->name, formulation, k, (double)sum->steps / sum->runs,
+                    (double)sum->iterations / (double)sum->steps, (double)sum->rejected / sum->runs,
+                    sum->error);
+      if (k <= TIGHTEST_JUDGED && !(sum->error <= found->most[f])) {
+        fail_msg("%s, %s, rtol 1e-%02d: error %.2g rtol", found->name, formulation, k, sum->error);
+      }
+    }
+  }
+}
+
+/* ---- slider-cranks, two turns from start angles all around ---- */
+
+static void turn(table *out, bool driven, int poses)
+{
+  for (int k = 0; k < poses; k++) {
+    model m;
+    check(model_slider_crank_build(
+      (model_slider_crank){.driven = driven, .moving = true, .angle = -3.1 + k * (6.2 / poses)},
+      &m));
+    run_all(out, &m, 0.1);
+    model_destroy(&m);
+  }
+  judge(out);
+}
+
+static void a_driven_crank_turns_from_everywhere(void **state)
+{
+  (void)state;
+  need_sundials();
+  table out = {.name = "driven crank", .tightest = 10, .most = MOST_DRIVEN_ERROR};
+  turn(&out, true, 40);
+}
+
+static void a_free_crank_turns_from_everywhere(void **state)
+{
+  (void)state;
+  need_sundials();
+  table out = {.name = "free crank", .tightest = 10, .most = MOST_FREE_ERROR};
+  turn(&out, false, 12);
+}
+
+/* ---- others, as tight as rounding lets them ---- */
+
+static void move(const char *name, baum_status built, model *m, double t)
+{
+  table out = {.name = name, .tightest = TIGHTEST, .most = MOST_FREE_ERROR};
+  check(built);
+  run_all(&out, m, t);
+  model_destroy(m);
+  judge(&out);
+}
+
+static void andrews_mechanism_moves_at_all_tolerances(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  move("Andrews", model_andrews_bodies(&m), &m, 0.03);
+}
+
+static void a_four_bar_moves_at_all_tolerances(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  move("four-bar", model_four_bar(&m), &m, 2.0);
+}
+
+static void a_chain_moves_at_all_tolerances(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  move("chain", model_chain_build(&MODEL_CHAIN_3, &m), &m, 1.0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_driven_crank_turns_from_everywhere),
+    cmocka_unit_test(a_free_crank_turns_from_everywhere),
+    cmocka_unit_test(andrews_mechanism_moves_at_all_tolerances),
+    cmocka_unit_test(a_four_bar_moves_at_all_tolerances),
+    cmocka_unit_test(a_chain_moves_at_all_tolerances),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
