@@ -150,7 +150,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   baum_status status = add_body_forces(w, true, path->constant_force);
   if (status == BAUM_OK && path->force_is_constant) {
     memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
-    baum_i_block_set_force(path->block, w->force);
+    path->sides_kernel->set_force(path->block, w->force);
   }
   return status;
 }
@@ -271,7 +271,7 @@ static baum_status evaluate_forces(baum_workspace *w, bool wanted)
     status = group->type->force(group, &w->point, w->force);
   }
   if (status == BAUM_OK) {
-    baum_i_block_set_force(path->block, w->force);
+    path->sides_kernel->set_force(path->block, w->force);
   }
   return status;
 }

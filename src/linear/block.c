@@ -202,36 +202,6 @@ bool baum_i_block_factor_dense(baum_i_block *block, const double *mass)
 
 /* ---- forces ---- */
 
-/* L y = f */
-static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
-                            const double *force)
-{
-  const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];
-  const double *l = block->factor + dense->factor;
-  double *y = block->free + dense->place;
-  int n = body->size;
-  for (int i = 0; i < n; i++) {
-    double sum = force[body->first + i];
-    for (int k = 0; k < i; k++) {
-      sum -= l[i * n + k] * y[k];
-    }
-    y[i] = sum / l[i * n + i];
-    block->force[dense->place + i] = y[i];
-  }
-}
-
-void baum_i_block_set_force(baum_i_block *block, const double *force)
-{
-  int nv = block->structure->nv;
-  memcpy(block->force, force, (size_t)nv * sizeof *force);
-  for (int i = 0; i < nv; i++) {
-    block->free[i] = block->response[i] * force[i];
-  }
-  for (int i = 0; i < block->dense_count; i++) {
-    set_dense_force(block, &block->dense[i], force);
-  }
-}
-
 void baum_i_block_use_force(baum_i_block *block, bool use)
 {
   block->from = use ? block->free : block->nothing;

@@ -174,9 +174,6 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass);
 /* Factors of the dense bodies; their M may change. False likewise. */
 bool baum_i_block_factor_dense(baum_i_block *block, const double *mass);
 
-/* f, and a0 = W f. */
-void baum_i_block_set_force(baum_i_block *block, const double *force);
-
 /* Whether right sides are (f, r) from now on, as at first, or (0, r). */
 void baum_i_block_use_force(baum_i_block *block, bool use);
 
@@ -203,8 +200,10 @@ typedef struct baum_i_block_rows {
   double *phi_rate; /* (nc) rows of nodes are set */
 } baum_i_block_rows;
 
-/* The hot part: nodes that are not pins, */
+/* The hot part: right sides, and nodes that are not pins, */
 typedef struct baum_i_block_sides_kernel {
+  /* f, and a0 = W f. */
+  void (*set_force)(baum_i_block *block, const double *force);
   /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the caller. */
   void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
 } baum_i_block_sides_kernel;

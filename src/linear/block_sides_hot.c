@@ -9,6 +9,38 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
+/* L y = f */
+static void set_dense_force(baum_i_block *block, const baum_i_dense_body *dense,
+                            const double *force)
+{
+  const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];
+  const double *l = block->factor + dense->factor;
+  double *y = block->free + dense->place;
+  int n = body->size;
+  for (int i = 0; i < n; i++) {
+    double sum = force[body->first + i];
+    for (int k = 0; k < i; k++) {
+      sum -= l[i * n + k] * y[k];
+    }
+    y[i] = sum / l[i * n + i];
+    block->force[dense->place + i] = y[i];
+  }
+}
+
+static void set_force(baum_i_block *block, const double *force)
+{
+  int nv = block->structure->nv;
+  const double *response = block->response;
+  double *free = block->free;
+  memcpy(block->force, force, (size_t)nv * sizeof *force);
+  for (int i = 0; i < nv; i++) {
+    free[i] = response[i] * force[i];
+  }
+  for (int i = 0; i < block->dense_count; i++) {
+    set_dense_force(block, &block->dense[i], force);
+  }
+}
+
 /* Row by row, L y = G^T for a body with M = L L^T, over its triples. */
 static void whiten(baum_i_block *b)
 {
@@ -108,4 +140,5 @@ static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
   }
 }
 
-const baum_i_block_sides_kernel BAUM_I_HOT(baum_i_block_sides_kernel) = {.set = set_all};
+const baum_i_block_sides_kernel BAUM_I_HOT(baum_i_block_sides_kernel) = {.set_force = set_force,
+                                                                         .set = set_all};

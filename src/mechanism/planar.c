@@ -265,8 +265,15 @@ void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *s
 {
   for (int k = 0; k < span->body_count; k++) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+    double *at = x + body->v;
+    if (body->nv == 3) {
+      at[0] += six[3 * k];
+      at[1] += six[3 * k + 1];
+      at[2] += six[3 * k + 2];
+      continue;
+    }
     for (int i = 0; i < body->nv; i++) {
-      x[body->v + i] += six[3 * k + i];
+      at[i] += six[3 * k + i];
     }
   }
 }

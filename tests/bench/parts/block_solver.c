@@ -60,7 +60,7 @@ static bool run_forces(const block_solver *s)
     return true;
   }
   bool done = baum_i_mechanism_force(&w->point, w->force) == BAUM_OK;
-  baum_i_block_set_force(s->path->block, w->force);
+  s->path->sides_kernel->set_force(s->path->block, w->force);
   return done;
 }
 
