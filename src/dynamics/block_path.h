@@ -10,6 +10,7 @@
 
 #include "dynamics/dynamics.h"
 #include "dynamics/pins.h"
+#include "linear/block_cost.h"
 
 struct baum_i_block_path {
   baum_i_block *block;
@@ -46,5 +47,8 @@ typedef struct baum_i_right_side {
  * where the right side needs none. BAUM_ERR_SINGULAR: handed over. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const double *q,
                                     const double *v, const baum_i_right_side *right);
+
+/* One evaluation, refinement, forces and functions of the user left out. path_cost.c */
+baum_i_cost baum_i_block_path_cost(const baum_mechanism *mechanism, const baum_i_block_path *path);
 
 #endif
