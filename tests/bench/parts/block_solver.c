@@ -144,49 +144,11 @@ static void block_read(const void *self, double *a, double *lambda)
   solver_read_workspace(s->at->workspace, a, lambda);
 }
 
-/* ---- cost ---- */
-
-/* Counted from src/dynamics/pins_hot.c and src/linear/block_hot.c; a sine with its cosine is about 40. */
-static double count_flops(const block_solver *s)
-{
-  const baum_i_block *b = s->path->block;
-  double couplings = b->order.start[b->node_count];
-  double targets = 0.0;
-  for (int k = 0; k < b->node_count; k++) {
-    double later = b->order.start[k + 1] - b->order.start[k];
-    targets += later * (later - 1.0) / 2.0;
-  }
-  return 40.0 * s->at->bodies + (77.0 + 18.0) * b->pin_count + 54.0 * b->side_count +
-         10.0 * (b->alike_count + b->opposite_count) + 30.0 * b->full_pair_count +
-         18.0 * b->node_count + (41.0 + 8.0) * couplings + 16.0 * targets;
-}
-
-/* Every number and index of the path once; the traffic is about twice that. */
-static double count_bytes(const block_solver *s)
-{
-  const baum_i_block *b = s->path->block;
-  double couplings = b->order.start[b->node_count];
-  double targets = 0.0;
-  for (int k = 0; k < b->node_count; k++) {
-    double later = b->order.start[k + 1] - b->order.start[k];
-    targets += later * (later - 1.0) / 2.0;
-  }
-  double number = sizeof(double);
-  double bodies = number * (3.0 * 3.0 + 3.0) + sizeof(baum_i_frame); /* q, v, a, turn, frame */
-  double pins = number * (4.0 + 4.0 + 2.0 * 3.0) + sizeof(baum_i_pin_node);
-  double nodes = sizeof(baum_i_node) + number * 2.0 + sizeof(int32_t) * 2.0;
-  double motion = number * (2.0 * b->motion_size + 2.0 * b->triple_count);
-  return bodies * s->at->bodies + motion + pins * b->pin_count + nodes * b->node_count +
-         (4.0 * number + sizeof(int32_t)) * couplings + sizeof(int32_t) * targets +
-         6.0 * number * b->side_count +
-         (double)sizeof(baum_i_pin_pair) * (b->alike_count + b->opposite_count) +
-         (double)sizeof(baum_i_full_pair) * b->full_pair_count;
-}
-
 static solver_cost block_cost(const void *self)
 {
   const block_solver *s = self;
-  return (solver_cost){.bytes = count_bytes(s), .flops = count_flops(s)};
+  baum_i_cost cost = baum_i_block_path_cost(s->at->workspace->mechanism, s->path);
+  return (solver_cost){.bytes = cost.bytes, .flops = cost.flops};
 }
 
 const solver solver_block = {.name = "block",
