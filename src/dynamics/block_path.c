@@ -44,8 +44,8 @@ static void find_traits(const baum_mechanism *m, traits *out)
   }
 }
 
-static baum_status make_block(const baum_workspace *w, baum_i_block_verdict *verdict,
-                              baum_i_block_path *path)
+static baum_status make_block(const baum_workspace *w, const baum_i_left_out *left_out,
+                              baum_i_block_verdict *verdict, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
   traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
@@ -53,11 +53,12 @@ static baum_status make_block(const baum_workspace *w, baum_i_block_verdict *ver
   baum_status status = BAUM_ERR_MEMORY;
   if (t.pins && t.diagonal) {
     find_traits(m, &t);
+    const unsigned char *redundant = w->redundancy.count > 0 ? w->redundancy.dropped : NULL;
     const baum_i_block_layout layout = {.structure = &w->structure,
                                         .pins = t.pins,
                                         .diagonal = t.diagonal,
-                                        .dropped =
-                                          w->redundancy.count > 0 ? w->redundancy.dropped : NULL};
+                                        .dropped = left_out ? left_out->dropped : redundant,
+                                        .still = left_out ? left_out->still : NULL};
     int hub = -1;
     status = baum_i_block_create(&layout, &hub, &path->block);
     verdict->blocks = hub < 0 ? BAUM_I_BLOCKS_FILLED : BAUM_I_BLOCKS_CROWDED;
@@ -68,9 +69,9 @@ static baum_status make_block(const baum_workspace *w, baum_i_block_verdict *ver
   return status;
 }
 
-/* Points of the pins in the solver's order; marks their first rows. */
+/* Points of the pins in the solver's order; marks them among the joints. */
 static baum_status place_points(const baum_workspace *w, baum_i_block_path *path,
-                                unsigned char *is_pin_row)
+                                unsigned char *is_done)
 {
   const baum_i_block *block = path->block;
   path->points = baum_i_alloc(4 * (size_t)block->pin_count, sizeof *path->points);
@@ -79,15 +80,15 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
   }
   for (int i = 0; i < block->pin_count; i++) {
     int joint = baum_i_row_joint(w->mechanism, block->pins[i].row);
-    is_pin_row[block->pins[i].row] = 1;
+    is_done[joint] = 1;
     const double *points = w->point.parameters + w->mechanism->joints[joint]->element.parameter;
     memcpy(path->points + 4 * (size_t)i, points, 4 * sizeof *points);
   }
   return BAUM_OK;
 }
 
-/* The groups of the mechanism without the pins of the block. */
-static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_pin_row,
+/* The groups of the mechanism without the pins of the block and what is left out. */
+static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_done,
                                baum_i_block_path *path)
 {
   path->groups = baum_i_alloc((size_t)m->joint_group_count, sizeof *path->groups);
@@ -101,7 +102,7 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
     baum_i_joint_group *group = &path->groups[path->group_count];
     *group = (baum_i_joint_group){.type = all->type, .joints = next};
     for (int i = 0; i < all->count; i++) {
-      if (!is_pin_row[all->joints[i]->row]) {
+      if (!is_done[all->joints[i]->element.index]) {
         next[group->count++] = all->joints[i];
       }
     }
@@ -111,14 +112,17 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
   return BAUM_OK;
 }
 
-static baum_status arrange_joints(const baum_workspace *w, baum_i_block_path *path)
+static baum_status arrange_joints(const baum_workspace *w, const baum_i_left_out *left_out,
+                                  baum_i_block_path *path)
 {
-  unsigned char *is_pin_row = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  baum_status status = is_pin_row ? place_points(w, path, is_pin_row) : BAUM_ERR_MEMORY;
+  size_t joints = (size_t)w->mechanism->joint_count;
+  unsigned char *is_done =
+    left_out ? baum_i_copy(left_out->joints, joints, 1) : baum_i_alloc(joints, 1);
+  baum_status status = is_done ? place_points(w, path, is_done) : BAUM_ERR_MEMORY;
   if (status == BAUM_OK) {
-    status = make_groups(w->mechanism, is_pin_row, path);
+    status = make_groups(w->mechanism, is_done, path);
   }
-  baum_i_free(is_pin_row);
+  baum_i_free(is_done);
   return status;
 }
 
@@ -189,11 +193,12 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status fill(baum_workspace *w, baum_i_block_verdict *verdict, baum_i_block_path *path)
+static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
+                        baum_i_block_verdict *verdict, baum_i_block_path *path)
 {
-  baum_status status = make_block(w, verdict, path);
+  baum_status status = make_block(w, left_out, verdict, path);
   if (status == BAUM_OK) {
-    status = arrange_joints(w, path);
+    status = arrange_joints(w, left_out, path);
   }
   if (status == BAUM_OK) {
     status = prepare_masses(w, verdict, path);
@@ -205,8 +210,8 @@ static baum_status fill(baum_workspace *w, baum_i_block_verdict *verdict, baum_i
   return status;
 }
 
-baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_verdict *verdict,
-                                     baum_i_block_path **out)
+baum_status baum_i_block_path_create(baum_workspace *w, const baum_i_left_out *left_out,
+                                     baum_i_block_verdict *verdict, baum_i_block_path **out)
 {
   *out = NULL;
   baum_i_block_path *path = baum_i_alloc(1, sizeof *path);
@@ -216,7 +221,8 @@ baum_status baum_i_block_path_create(baum_workspace *w, baum_i_block_verdict *ve
   path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
   path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
   path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
-  baum_status status = fill(w, verdict, path);
+  path->still_count = left_out ? left_out->count : 0;
+  baum_status status = fill(w, left_out, verdict, path);
   if (status != BAUM_OK) {
     baum_i_block_path_destroy(path);
     if (status == BAUM_ERR_MEMORY) {

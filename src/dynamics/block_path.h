@@ -25,14 +25,24 @@ struct baum_i_block_path {
   bool force_is_constant;      /* and there is no other */
   bool mass_is_constant;
   bool always_check; /* many nodes: the residual is looked at whatever the pivots are */
+  int still_count;   /* bodies that are left out */
   int64_t factorizations;
   int64_t refinements;
 };
 
-/* For the redundant rows as they are known now. BAUM_OK also where blocks do not suit, as *verdict
- * tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
-baum_status baum_i_block_path_create(baum_workspace *workspace, baum_i_block_verdict *verdict,
-                                     baum_i_block_path **out);
+/* What a path may leave out: bodies that stay at rest, and what holds them. */
+typedef struct baum_i_left_out {
+  int count;
+  unsigned char *still;   /* (body_count) from the first body: a = 0 */
+  unsigned char *joints;  /* (joint_count) whose rows are not looked at */
+  unsigned char *dropped; /* (nc) their rows, and the redundant ones */
+} baum_i_left_out;
+
+/* For the redundant rows as they are known now; left_out may be NULL: nothing. BAUM_OK also where
+ * blocks do not suit, as *verdict tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
+ * BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_block_path_create(baum_workspace *workspace, const baum_i_left_out *left_out,
+                                     baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
 
 /* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or nothing. */

@@ -154,7 +154,7 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = baum_i_block_path_create(w, &w->verdict, &w->path);
+  baum_status status = baum_i_block_path_create(w, NULL, &w->verdict, &w->path);
   if (status == BAUM_ERR_MEMORY) {
     return status;
   }
