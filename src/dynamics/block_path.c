@@ -102,7 +102,7 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
     baum_i_joint_group *group = &path->groups[path->group_count];
     *group = (baum_i_joint_group){.type = all->type, .joints = next};
     for (int i = 0; i < all->count; i++) {
-      if (!is_done[all->joints[i]->element.index]) {
+      if (!is_done[all->joints[i]->element.index - 1]) {
         next[group->count++] = all->joints[i];
       }
     }
