@@ -432,8 +432,9 @@ static void take_vectors(ida_run *run)
   }
 }
 
-static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
+static int choose_tested(ida_run *run)
 {
+  const baum_mechanism *mechanism = run->sundials.problem->workspace->mechanism;
   bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
   int tested = index3 ? mechanism->nq : mechanism->nq + mechanism->nv;
   double *id = N_VGetArrayPointer(run->tested);
@@ -441,6 +442,8 @@ static void choose_tested(ida_run *run, const baum_mechanism *mechanism)
   for (int i = 0; i < n; i++) {
     id[i] = i < tested ? 1.0 : 0.0;
   }
+  int flag = IDASetId(run->ida, run->tested);
+  return flag == IDA_SUCCESS ? IDASetSuppressAlg(run->ida, SUNTRUE) : flag;
 }
 
 static int attach_dense(ida_run *run)
@@ -489,10 +492,7 @@ static int start_ida(ida_run *run, double t)
     flag = IDAWFtolerances(run->ida, weigh);
   }
   if (flag == IDA_SUCCESS) {
-    flag = IDASetId(run->ida, run->tested);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = IDASetSuppressAlg(run->ida, SUNTRUE);
+    flag = choose_tested(run);
   }
   if (flag == IDA_SUCCESS) {
     flag = run->jacobian ? attach_klu(run) : attach_dense(run);
@@ -524,7 +524,6 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
   if (status != BAUM_OK) {
     return status;
   }
-  choose_tested(run, mechanism);
   int flag = start_ida(run, start->t);
   run->sundials.unfinished = flag != IDA_SUCCESS;
   return flag == IDA_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
