@@ -40,12 +40,13 @@ baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
   return status == BAUM_OK ? baum_i_evaluate_mass(w) : status;
 }
 
-/* Rows at (t, q, v), Phi', and gamma where it is not NULL. */
+/* Rows at (t, q, v) and Phi'. */
 static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, const double *v,
-                                 double *gamma)
+                                 bool with_gamma)
 {
   baum_i_point_set(&w->point, t, q, v);
-  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = gamma};
+  const baum_i_rows rows = {
+    .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = with_gamma ? w->gamma : NULL};
   baum_status status = baum_i_mechanism_rows(&w->point, &rows);
   w->jacobian_ready = status == BAUM_OK;
   if (status == BAUM_OK) {
@@ -56,12 +57,12 @@ static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, c
 
 baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const double *v)
 {
-  return evaluate_rows(w, t, q, v, NULL);
+  return evaluate_rows(w, t, q, v, false);
 }
 
 baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, const double *v)
 {
-  baum_status status = evaluate_rows(w, t, q, v, w->gamma);
+  baum_status status = evaluate_rows(w, t, q, v, true);
   if (status == BAUM_OK) {
     status = baum_i_evaluate_mass(w);
   }

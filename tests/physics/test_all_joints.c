@@ -139,6 +139,9 @@ static int try_methods(const joint_scene *scene, const outcome *reference)
   int tried = 0;
   for (int k = 0; baum_integrator_at(k); k++) {
     const baum_integrator *integrator = baum_integrator_at(k);
+    if (!baum_integrator_has_fixed_step(integrator) && !baum_has("sundials")) {
+      continue;
+    }
     for (int f = BAUM_FORMULATION_DEFAULT + 1; baum_formulation_name((baum_formulation)f); f++) {
       if (baum_integrator_offers(integrator, (baum_formulation)f)) {
         try_method(scene, reference, integrator, (baum_formulation)f);
