@@ -199,6 +199,56 @@ static void the_multipliers_stay(void **state)
   }
 }
 
+static const double SLEDGE_SPEED[2] = {0.6, 0.8}; /* [m/s] */
+
+static baum_mechanism *make_sledge(void)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_body_id id;
+  baum_planar_body_def body = baum_planar_body_def_default();
+  baum_planar_translational_def rail = baum_planar_translational_def_default();
+  body.mass = 2.0;
+  body.inertia = 0.1;
+  body.position[0] = body.position[1] = body.angle = body.angular_velocity = 0.0;
+  memcpy(body.velocity, SLEDGE_SPEED, sizeof body.velocity);
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(mechanism, 0.0, 0.0, 0.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, &id), BAUM_OK);
+  rail.body_a = BAUM_GROUND;
+  rail.body_b = id;
+  rail.point[0] = rail.point[1] = 0.0;
+  memcpy(rail.axis, SLEDGE_SPEED, sizeof rail.axis);
+  assert_int_equal(baum_mechanism_add_planar_translational(mechanism, &rail, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  return mechanism;
+}
+
+/* A weightless sledge on a rail: its multipliers are rounding alone, which is never a small share
+ * of themselves. */
+static void multipliers_may_vanish(void **state)
+{
+  (void)state;
+  static const baum_formulation FORMS[] = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_INDEX3};
+  baum_mechanism *mechanism = make_sledge();
+  for (int f = 0; f < 2; f++) {
+    for (int k = 4; k <= 13; k++) {
+      integrator_run run;
+      integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), FORMS[f]);
+      setup.gain = 10.0;
+      setup.rtol = pow(10.0, -k);
+      assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+      assert_int_equal(integrator_run_to(&run, 10.0), BAUM_OK);
+      /* No step has an error, so that each is twice the last, from sqrt(rtol) s on. */
+      assert_true(run.steps < 100);
+      for (int i = 0; i < 2; i++) { /* some steps, each with some rounding of 10 m */
+        ASSERT_NEAR(run.q[i], SLEDGE_SPEED[i] * 10.0, 0.0, 1e-12);
+      }
+      integrator_run_close(&run);
+    }
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
 /* ---- units ---- */
 
 /* Free swing of a point of m kg: the multipliers are m times as large, the motion is the same, and so are the steps. */
@@ -298,6 +348,7 @@ int main(void)
     cmocka_unit_test(violation_is_as_the_formulation_says),
     cmocka_unit_test(the_exact_jacobian_is_as_good_as_differences),
     cmocka_unit_test(the_multipliers_stay),
+    cmocka_unit_test(multipliers_may_vanish),
     cmocka_unit_test(the_unit_of_mass_makes_no_difference),
     cmocka_unit_test(the_start_is_smooth),
     cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),
