@@ -17,6 +17,11 @@ enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
+/* Where inverse masses differ by more than the first, and a0 of a light body is larger than all of a by more
+ * than the second, a = a0 - W J^T lambda has lost so much that the residual is looked at. */
+static const double UNEVEN = 1e3;
+static const double CANCELLED = 2048.0;
+
 /* ---- create ---- */
 
 static bool is_diagonal(const baum_i_body *body)
@@ -193,6 +198,19 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
+/* Rotations by the scale of length; dense bodies are not asked. */
+static bool is_uneven(const baum_mechanism *m, const baum_i_block *block)
+{
+  double least = INFINITY;
+  double most = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    double response = block->response[i] / (m->scale[i] * m->scale[i]);
+    least = response > 0.0 ? fmin(least, response) : least;
+    most = fmax(most, response);
+  }
+  return block->dense_count > 0 || most > UNEVEN * least;
+}
+
 static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
                         baum_i_block_verdict *verdict, baum_i_block_path *path)
 {
@@ -206,6 +224,7 @@ static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
   if (status == BAUM_OK) {
     status = prepare_forces(w, path);
   }
+  path->uneven = status == BAUM_OK && is_uneven(w->mechanism, path->block);
   path->always_check = path->block && path->block->node_count > FEW_NODES;
   return status;
 }
@@ -351,7 +370,20 @@ static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
   return done || change <= SETTLING ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-static baum_status solve(baum_i_block_path *path, double *lambda)
+/* Whether little is left of a0. */
+static bool has_cancelled(const baum_i_block *block)
+{
+  double before = 0.0;
+  double after = 0.0;
+  for (int i = 0; i < block->motion_size; i++) {
+    before = fmax(before, fabs(block->from[i]));
+    after = fmax(after, fabs(block->motion[i]));
+  }
+  return before > CANCELLED * after;
+}
+
+/* last: nobody corrects the result, so that its residual is looked at. */
+static baum_status solve(baum_i_block_path *path, bool last, double *lambda)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
@@ -362,7 +394,8 @@ static baum_status solve(baum_i_block_path *path, double *lambda)
     return BAUM_ERR_SINGULAR;
   }
   kernel->substitute(block, lambda);
-  bool look = pivots != BAUM_I_PIVOTS_GOOD || path->always_check;
+  bool look = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
+              (path->uneven && has_cancelled(block));
   baum_status status = look ? refine(path, pivots) : BAUM_OK;
   kernel->read_lambda(block, look, lambda);
   return status;
@@ -379,6 +412,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
                                     const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
+  w->jacobian_ready = false; /* half of it is overwritten where a function fails */
   baum_status status = evaluate_joints(w, !v);
   if (status == BAUM_OK) {
     status = evaluate_masses(w);
@@ -391,7 +425,8 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
   }
   w->jacobian_ready = w->path->block->pin_count == 0;
   set_nodes(w, v, right);
-  status = solve(w->path, w->lambda);
+  /* Positions are projected by several solutions, velocities by one. */
+  status = solve(w->path, v && !right->force, w->lambda);
   if (status == BAUM_OK) {
     bool finite = w->path->kernel->read_motion(w->path->block, w->a);
     clear_dropped(w);

@@ -25,6 +25,7 @@ struct baum_i_block_path {
   bool force_is_constant;      /* and there is no other */
   bool mass_is_constant;
   bool always_check; /* many nodes: the residual is looked at whatever the pivots are */
+  bool uneven;       /* so are masses: it is looked at where a is small against a0 */
   int still_count;   /* bodies that are left out */
   int64_t factorizations;
   int64_t refinements;

@@ -1,0 +1,301 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Mechanisms by chance: the solver by blocks against that of the whole system, and both against
+ * quadruple precision; projections by blocks likewise.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "dynamics/block_path.h"
+#include "quad_saddle.h"
+#include "random_mechanism.h"
+
+/* Errors are relative to the largest element. Chance gives a few poses in a thousand whose condition costs
+ * a handful of digits; there the solver of the whole system may lose as many. */
+static const double ERROR = 1e-9;
+static const double AS_OTHERS = 30.0;
+/* Phi, Phi' and gamma are sums of some dozen terms of size 10. */
+static const double ROUNDING = 1e-11;
+
+/* Many, so that every shape comes, one hub below and one above what blocks are good for. */
+static const random_kind kinds[] = {
+  {.bodies = 4, .joints = 4, .pins = 100, .span = 3.0, .loads = 2},
+  {.bodies = 8, .joints = 9, .pins = 70, .span = 3.0, .loads = 3},
+  {.bodies = 12, .joints = 12, .pins = 40, .particles = 25, .span = 10.0, .loads = 3},
+  {.bodies = 8,
+   .joints = 7,
+   .pins = 30,
+   .particles = 25,
+   .coordinates = 30,
+   .span = 3.0,
+   .constant = true,
+   .loads = 3},
+  {.bodies = 8,
+   .joints = 7,
+   .pins = 30,
+   .particles = 25,
+   .coordinates = 30,
+   .span = 3.0,
+   .loads = 3},
+  {.bodies = 6, .joints = 14, .pins = 60, .span = 3.0, .loads = 2},
+  {.bodies = 6, .joints = 5, .pins = 60, .span = 1e5, .loads = 4},
+  {.bodies = 5, .joints = 0, .particles = 40, .coordinates = 20, .span = 3.0, .loads = 2},
+  {.bodies = 40, .joints = 44, .pins = 85, .span = 3.0, .loads = 10},
+  {.bodies = 40, .joints = 40, .pins = 80, .particles = 10, .span = 3.0, .hub = true, .loads = 10},
+  {.bodies = 80, .joints = 80, .pins = 80, .particles = 10, .span = 3.0, .hub = true, .loads = 10},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds, SEEDS = 25, LARGE_SEEDS = 6, SIZE = 512 };
+
+/* Both solvers of one mechanism, and what they gave. */
+typedef struct pair {
+  random_mechanism *random;
+  baum_workspace *blocks;
+  baum_workspace *whole;
+  int nv;
+  int nc;
+  double q[SIZE];
+  double v[SIZE];
+  double a[SIZE];
+  double lambda[SIZE];
+  int solved; /* poses */
+  int singular;
+  int projected;
+  int by_blocks; /* mechanisms */
+} pair;
+
+static baum_workspace *make_workspace(const baum_mechanism *m, bool blocks)
+{
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  if (!blocks) {
+    baum_i_block_path_destroy(w->path);
+    w->path = NULL;
+  }
+  return w;
+}
+
+static void begin(pair *p, uint64_t seed, const random_kind *kind)
+{
+  random_mechanism_make(p->random, seed, kind);
+  const baum_mechanism *m = p->random->mechanism;
+  p->nv = m->nv;
+  p->nc = m->nc;
+  assert_true(p->nv <= SIZE && p->nc <= SIZE);
+  p->blocks = make_workspace(m, true);
+  p->whole = make_workspace(m, false);
+  p->by_blocks += p->blocks->path ? 1 : 0;
+}
+
+static void finish(pair *p)
+{
+  baum_workspace_destroy(p->blocks);
+  baum_workspace_destroy(p->whole);
+  random_mechanism_destroy(p->random);
+}
+
+static void pose(pair *p, double away)
+{
+  chance *c = &p->random->chance;
+  for (int i = 0; i < p->nv; i++) {
+    p->q[i] = p->random->mechanism->drawn_q[i] + away * chance_number(c, -1.0, 1.0);
+    p->v[i] = chance_number(c, -3.0, 3.0);
+  }
+}
+
+static void check_rows(const double *got, const double *want, int count, const char *what)
+{
+  for (int i = 0; i < count; i++) {
+    if (!(fabs(got[i] - want[i]) <= ROUNDING * (1.0 + fabs(want[i])))) {
+      fail_msg("%s of row %d is %.17g, must be %.17g", what, i, got[i], want[i]);
+    }
+  }
+}
+
+static void check_error(double found, double other, const char *what)
+{
+  if (!(found <= ERROR + AS_OTHERS * other)) {
+    fail_msg("error of %s %.2g, of the whole system %.2g", what, found, other);
+  }
+}
+
+static void check_acceleration(pair *p, double t)
+{
+  const baum_workspace *b = p->blocks;
+  const baum_workspace *w = p->whole;
+  baum_status status = baum_i_acceleration(p->blocks, t, p->q, p->v, 0.0, 0.0);
+  assert_int_equal(status, baum_i_acceleration(p->whole, t, p->q, p->v, 0.0, 0.0));
+  const unsigned char *dropped = b->redundancy.count > 0 ? b->redundancy.dropped : NULL;
+  if (status != BAUM_OK) {
+    assert_int_equal(status, BAUM_ERR_SINGULAR);
+    p->singular++;
+    return;
+  }
+  check_rows(b->phi, w->phi, p->nc, "Phi");
+  check_rows(b->phi_rate, w->phi_rate, p->nc, "Phi'");
+  check_rows(b->gamma, w->gamma, p->nc, "gamma");
+  double a[SIZE];
+  double lambda[SIZE];
+  memcpy(a, b->a, (size_t)p->nv * sizeof *a);
+  memcpy(lambda, b->lambda, (size_t)p->nc * sizeof *lambda);
+  if (!quad_acceleration(p->whole, t, p->q, p->v, dropped, p->a, p->lambda)) {
+    p->singular++;
+    return;
+  }
+  check_error(quad_error(p->nv, a, p->a), quad_error(p->nv, w->a, p->a), "a");
+  check_error(quad_error(p->nc, lambda, p->lambda), quad_error(p->nc, w->lambda, p->lambda),
+              "lambda");
+  p->solved++;
+}
+
+/* What is left of the rows that count, at (q, v). */
+static double violation(pair *p, const double *q, const double *v)
+{
+  baum_workspace *w = p->whole;
+  double worst = 0.0;
+  assert_int_equal(baum_i_violation(w, 0.0, q, v), BAUM_OK);
+  for (int i = 0; i < p->nc; i++) {
+    if (!w->redundancy.dropped[i]) {
+      worst = fmax(worst, fmax(fabs(w->phi[i]), fabs(w->phi_rate[i])));
+    }
+  }
+  return worst;
+}
+
+static void check_projection(pair *p)
+{
+  double q[SIZE];
+  double v[SIZE];
+  memcpy(q, p->q, sizeof q);
+  memcpy(v, p->v, sizeof v);
+  baum_status status = baum_workspace_project(p->blocks, 0.0, p->q, p->v);
+  assert_int_equal(status, baum_workspace_project(p->whole, 0.0, q, v));
+  if (status != BAUM_OK) {
+    return;
+  }
+  /* Singular poses may be near; both must give the same change all the same. */
+  for (int i = 0; i < p->nv; i++) {
+    assert_true(fabs(p->q[i] - q[i]) <= 1e-8 * (1.0 + fabs(q[i])));
+    assert_true(fabs(p->v[i] - v[i]) <= 1e-8 * (3.0 + fabs(v[i])));
+  }
+  assert_true(violation(p, p->q, p->v) <= ROUNDING + AS_OTHERS * violation(p, q, v));
+  p->projected++;
+}
+
+static void blocks_agree_with_the_whole_system(void **state)
+{
+  pair *p = *state;
+  for (int k = 0; k < KINDS; k++) {
+    bool large = kinds[k].bodies > 12;
+    for (uint64_t seed = 0; seed < (large ? LARGE_SEEDS : SEEDS); seed++) {
+      begin(p, seed, &kinds[k]);
+      pose(p, 0.0);
+      check_acceleration(p, 0.0);
+      pose(p, 1.0);
+      check_acceleration(p, 0.7);
+      pose(p, 0.01);
+      check_acceleration(p, 0.1);
+      check_projection(p);
+      finish(p);
+    }
+  }
+  /* Chance makes many structures that cannot move; the rest is what is tested. */
+  print_message("%d poses, %d singular, %d projections, %d mechanisms by blocks\n", p->solved,
+                p->singular, p->projected, p->by_blocks);
+  assert_true(p->solved > 2 * p->singular);
+  assert_true(p->projected > 100);
+  assert_true(p->by_blocks > 200);
+}
+
+/* ---- a light body with a load on it ---- */
+
+/* Welded to a pendulum of 1 kg. */
+static baum_mechanism *make_light(double mass)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id heavy;
+  baum_body_id light;
+  baum_joint_id joint;
+  baum_force_id force;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.position[0] = 0.3;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &heavy), BAUM_OK);
+  body.mass = mass;
+  body.inertia = 0.1 * mass;
+  body.position[0] = 0.9;
+  body.position[1] = 0.2;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &light), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = heavy;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &joint), BAUM_OK);
+  baum_planar_fixed_def weld = baum_planar_fixed_def_default();
+  weld.body_a = heavy;
+  weld.body_b = light;
+  weld.point[0] = 0.6;
+  weld.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_fixed(m, &weld, &joint), BAUM_OK);
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = light;
+  load.force[0] = 3.0;
+  load.force[1] = 5.0;
+  load.torque = 1.7;
+  assert_int_equal(baum_mechanism_add_planar_load(m, &load, &force), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* Its free acceleration is 5 N over its mass, of which next to nothing is left. */
+static void loaded_light_bodies_keep_all_digits(void **state)
+{
+  (void)state;
+  for (double mass = 1.0; mass > 1e-13; mass /= 10.0) {
+    baum_mechanism *m = make_light(mass);
+    baum_workspace *w = make_workspace(m, true);
+    const double v[6] = {0.0};
+    double a[6];
+    double lambda[5];
+    assert_non_null(w->path);
+    assert_true(quad_acceleration(w, 0.0, m->drawn_q, v, NULL, a, lambda));
+    assert_int_equal(baum_i_acceleration(w, 0.0, m->drawn_q, v, 0.0, 0.0), BAUM_OK);
+    /* Up to 1e3 between the masses three digits may go unseen. */
+    assert_true(quad_error(6, w->a, a) <= (mass > 0.5e-3 ? 1e-11 : 1e-14));
+    assert_true(quad_error(5, w->lambda, lambda) <= 1e-14);
+    baum_workspace_destroy(w);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static int set_up(void **state)
+{
+  pair *p = calloc(1, sizeof *p);
+  assert_non_null(p);
+  p->random = calloc(1, sizeof *p->random);
+  assert_non_null(p->random);
+  *state = p;
+  return 0;
+}
+
+static int tear_down(void **state)
+{
+  pair *p = *state;
+  free(p->random);
+  free(p);
+  return 0;
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test_setup_teardown(blocks_agree_with_the_whole_system, set_up, tear_down),
+    cmocka_unit_test(loaded_light_bodies_keep_all_digits),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
