@@ -24,8 +24,8 @@ enum { MIDDLE = TOLERANCES / 2 };
  * would have 6.8 if it were always there. */
 static const double LEAST_FALL = 7.0;
 /* IDA is at order 5 nearly always, and its four fits are what BDF promises with their scatter:
- * measured 6.3 to 7.4 here, and 6.4 in the mean of 40 start poses of each mechanism (CVODE's BDF,
- * 6.5). Order 3 would have 5.6, and an error that stops falling less. */
+ * measured 6.3 to 7.4 here, and 6.4 in the mean of 40 start poses or ends of each mechanism
+ * (CVODE's BDF, 6.5). Order 3 would have 5.6, and an error that stops falling less. */
 static const double LEAST_FALL_OF_IDA = 6.0;
 /* Of a single mechanism, where a lucky run at one end weighs more. */
 static const double LEAST_SINGLE_FALL = 5.5;
