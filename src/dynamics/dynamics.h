@@ -33,6 +33,7 @@ typedef struct baum_i_redundancy {
 } baum_i_redundancy;
 
 typedef struct baum_i_block_path baum_i_block_path;
+typedef struct baum_i_immobile baum_i_immobile;
 
 /* Whether accelerations go by blocks, or why not. */
 typedef enum baum_i_blocks {
@@ -58,6 +59,7 @@ struct baum_workspace {
   baum_i_block_path *path;      /* NULL: every solution is kkt's */
   baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
   bool blocks_only;             /* nothing is handed over */
+  baum_i_immobile *immobile;    /* NULL: nothing is left out of baum_i_motion() */
   baum_i_redundancy redundancy;
   bool mass_ready;     /* a constant M has been evaluated */
   bool jacobian_ready; /* the last evaluation has set all blocks of J */
@@ -122,6 +124,10 @@ baum_status baum_i_violation(baum_workspace *workspace, double t, const double *
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
+/* Likewise a alone: what cannot move may be left out, and lambda, J and the rows of that are then not
+ * there. */
+baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
+                          double alpha, double beta);
 /* Blocks of J at the point of the last evaluation, where that did without. */
 baum_status baum_i_need_jacobian(baum_workspace *workspace);
 /* As reported: (5), multipliers of least norm where they are not unique; J is there. */

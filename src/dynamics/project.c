@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "dynamics/block_path.h"
+#include "dynamics/immobile.h"
 
 enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
@@ -131,6 +131,11 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
   if (workspace->mechanism->nc == 0) {
     return BAUM_OK;
   }
+  baum_i_block_path *whole = baum_i_enter_motion(workspace);
   baum_status status = project_positions(workspace, t, q);
-  return status == BAUM_OK ? project_velocities(workspace, t, q, v) : status;
+  if (status == BAUM_OK) {
+    status = project_velocities(workspace, t, q, v);
+  }
+  baum_i_leave_motion(workspace, whole);
+  return status;
 }

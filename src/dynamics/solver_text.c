@@ -2,7 +2,7 @@
 /* How accelerations are solved for, in words. */
 #include <stdio.h>
 
-#include "dynamics/block_path.h"
+#include "dynamics/immobile.h"
 
 static int count_joints(const baum_mechanism *m, int body)
 {
@@ -16,13 +16,19 @@ static int count_joints(const baum_mechanism *m, int body)
   return count;
 }
 
-static void blocks_text(const baum_workspace *w, char *text, size_t size)
+static void blocks_text(const baum_workspace *w, const baum_i_block_path *path, char *text,
+                        size_t size)
 {
-  const baum_i_block *block = w->path->block;
-  (void)snprintf(text, size, "blocks, %d %s, %d %s%s", block->node_count,
+  const baum_i_block *block = path->block;
+  char left_out[64] = "";
+  if (path->still_count > 0) {
+    (void)snprintf(left_out, sizeof left_out, "; %d %s at rest left out", path->still_count,
+                   path->still_count == 1 ? "body" : "bodies");
+  }
+  (void)snprintf(text, size, "blocks, %d %s, %d %s%s%s", block->node_count,
                  block->node_count == 1 ? "node" : "nodes", block->off_count,
-                 block->off_count == 1 ? "coupling" : "couplings",
-                 w->blocks_only ? ", and nothing else" : "; klu and qr where pivots are bad");
+                 block->off_count == 1 ? "coupling" : "couplings", left_out,
+                 w->blocks_only ? "; and nothing else" : "; klu and qr where pivots are bad");
 }
 
 void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
@@ -56,8 +62,9 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
 
 void baum_i_solver_text(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
 {
-  if (w->path) {
-    blocks_text(w, text, BAUM_I_SOLVER_TEXT_SIZE);
+  const baum_i_block_path *path = baum_i_motion_path(w);
+  if (path) {
+    blocks_text(w, path, text, BAUM_I_SOLVER_TEXT_SIZE);
     return;
   }
   char reason[BAUM_I_SOLVER_TEXT_SIZE];

@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "dynamics/block_path.h"
+#include "dynamics/immobile.h"
 
 /* One array of the workspace; the list below is the one place that knows them. */
 typedef struct array {
@@ -167,9 +167,10 @@ baum_status baum_i_use_blocks(baum_workspace *w)
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 {
   baum_i_kkt_counters sum = baum_i_kkt_get_counters(w->kkt);
-  if (w->path) {
-    sum.factorizations += w->path->factorizations;
-    sum.refinements += w->path->refinements;
+  const baum_i_block_path *paths[2] = {w->path, w->immobile ? w->immobile->path : NULL};
+  for (int k = 0; k < 2; k++) {
+    sum.factorizations += paths[k] ? paths[k]->factorizations : 0;
+    sum.refinements += paths[k] ? paths[k]->refinements : 0;
   }
   return sum;
 }
@@ -186,6 +187,7 @@ void baum_workspace_destroy(baum_workspace *workspace)
   }
   baum_i_point_release(&workspace->point);
   baum_i_block_path_destroy(workspace->path);
+  baum_i_immobile_destroy(workspace->immobile);
   baum_i_free(workspace->redundancy.dropped);
   baum_i_kkt_destroy(workspace->redundancy.kkt);
   baum_i_kkt_destroy(workspace->kkt);

@@ -72,7 +72,7 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
   int nv = workspace->mechanism->nv;
   const double *q = N_VGetArrayPointer(y);
   double *dy = N_VGetArrayPointer(rate);
-  baum_status status = baum_i_problem_acceleration(problem, t, q, q + nq);
+  baum_status status = baum_i_problem_motion(problem, t, q, q + nq);
   if (status == BAUM_OK) {
     memcpy(dy, q + nq, (size_t)nq * sizeof *dy);
     memcpy(dy + nq, workspace->a, (size_t)nv * sizeof *dy);
@@ -100,7 +100,7 @@ static baum_status difference(const baum_i_problem *problem, double t, double *y
   double kept = y[j];
   double step = choose_difference(kept, s);
   y[j] += step;
-  baum_status status = baum_i_problem_acceleration(problem, t, y, y + nq);
+  baum_status status = baum_i_problem_motion(problem, t, y, y + nq);
   y[j] = kept;
   for (int i = 0; i < nv && status == BAUM_OK; i++) {
     column[i] = (workspace->a[i] - a[i]) / step;

@@ -65,11 +65,17 @@ const char *baum_formulation_name(baum_formulation formulation)
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v)
 {
-  if (problem->formulation != BAUM_FORMULATION_BAUMGARTE) {
-    return baum_i_acceleration(problem->workspace, t, q, v, 0.0, 0.0);
-  }
-  double alpha = problem->direction * problem->alpha;
-  return baum_i_acceleration(problem->workspace, t, q, v, alpha, problem->beta);
+  bool stabilized = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  double alpha = stabilized ? problem->direction * problem->alpha : 0.0;
+  return baum_i_acceleration(problem->workspace, t, q, v, alpha, stabilized ? problem->beta : 0.0);
+}
+
+baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
+                                  const double *v)
+{
+  bool stabilized = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  double alpha = stabilized ? problem->direction * problem->alpha : 0.0;
+  return baum_i_motion(problem->workspace, t, q, v, alpha, stabilized ? problem->beta : 0.0);
 }
 
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,

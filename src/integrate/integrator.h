@@ -57,7 +57,7 @@ struct baum_integrator {
   void (*destroy)(void *self); /* NULL is fine */
 
   /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by
-   * the caller through baum_i_problem_acceleration(). state->t is set by the caller. NULL for variable step. */
+   * the caller through baum_i_problem_motion(). state->t is set by the caller. NULL for variable step. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
@@ -76,6 +76,10 @@ struct baum_integrator {
 /* a and lambda at a state as the formulation says, into workspace->a, ->lambda. */
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v);
+
+/* Likewise a alone, as a method needs it that asks for nothing else: what cannot move may be left out. */
+baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
+                                  const double *v);
 
 /* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
  * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i. */

@@ -59,7 +59,7 @@ static baum_status evaluate_stage(const rk_run *run, int stage, const baum_i_pro
   combine(run, stage, row, run->velocities, h, state->q, run->positions);
   combine(run, stage, row, run->accelerations, h, state->v, velocity);
   double t = state->t + run->table->c[stage] * h;
-  baum_status status = baum_i_problem_acceleration(problem, t, run->positions, velocity);
+  baum_status status = baum_i_problem_motion(problem, t, run->positions, velocity);
   if (status == BAUM_OK) {
     keep(run, stage, problem->workspace->a);
   }

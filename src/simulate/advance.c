@@ -91,7 +91,7 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
 {
   baum_i_state *trial = &run->trial;
   const baum_i_state *state = &run->state;
-  baum_status status = baum_i_problem_acceleration(&run->problem, state->t, state->q, state->v);
+  baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
   if (status != BAUM_OK) {
     return explain_callback(run, status);
   }

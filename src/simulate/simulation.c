@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/options.h"
 #include "simulate/run.h"
@@ -168,13 +169,27 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
   }
 }
 
-/* At the start pose: which rows to leave out, and whether blocks suit what is left. */
+/* Others solve for poses or for residuals. */
+static bool goes_by_accelerations(const baum_integrator *integrator)
+{
+  return !integrator->without_freedom &&
+         !baum_i_integrator_offers(integrator, BAUM_FORMULATION_INDEX3);
+}
+
+/* At the start pose: which rows and bodies to leave out, and whether blocks suit what is left. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
+  const baum_i_state *start = &run->trial;
   w->blocks_only = run->options.solver == BAUM_SOLVER_BLOCK;
-  baum_status status = baum_i_find_redundancy(w, run->trial.t, run->trial.q);
-  return status == BAUM_OK ? baum_i_use_blocks(w) : status;
+  baum_status status = baum_i_find_redundancy(w, start->t, start->q);
+  if (status == BAUM_OK) {
+    status = baum_i_use_blocks(w);
+  }
+  if (status == BAUM_OK && goes_by_accelerations(run->integrator)) {
+    status = baum_i_leave_out_immobile(w, start->t, start->q, start->v);
+  }
+  return status;
 }
 
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
@@ -164,6 +165,7 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy)
   const baum_i_state *trial = &run->trial;
   double kinetic = 0.0;
   double potential = 0.0;
+  baum_i_look_at_immobile(w, trial->q, trial->v);
   baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
   if (status == BAUM_OK) {
     status = baum_i_energy(w, trial->t, trial->q, trial->v, &kinetic, &potential);
@@ -262,6 +264,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   if (status != BAUM_OK) {
     simulation->counters.start_change = start_change;
+    baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
     return baum_i_run_fail(simulation, status);
   }
   baum_i_run_accept(simulation, energy);

@@ -177,7 +177,7 @@ static void explain_names_the_solver(void **state)
     "\nsolver        blocks, 5 nodes, 5 couplings; klu and qr where pivots are bad\n",
     "\nsolver        klu on the whole system: another solver is asked for\n",
     "\nsolver        qr on the whole system: another solver is asked for\n",
-    "\nsolver        blocks, 5 nodes, 5 couplings, and nothing else\n",
+    "\nsolver        blocks, 5 nodes, 5 couplings; and nothing else\n",
   };
   model m;
   model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};

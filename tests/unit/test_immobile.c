@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies that cannot move, left out of a run's motion. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "dynamics/immobile.h"
+#include "simulate/run.h"
+
+#define PI 3.14159265358979323846
+
+enum { MOST = 300 };
+
+static void must(baum_status status)
+{
+  if (status < BAUM_OK) {
+    print_error("%s\n", baum_message());
+  }
+  assert_true(status >= BAUM_OK);
+}
+
+/* ---- parts ---- */
+
+static baum_mechanism *begin(void)
+{
+  baum_mechanism *m = NULL;
+  must(baum_mechanism_create(&m));
+  return m;
+}
+
+static baum_body_id add_body(baum_mechanism *m, double x, double y)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.position[0] = x;
+  def.position[1] = y;
+  def.inertia = 0.1;
+  must(baum_mechanism_add_planar_body(m, &def, &id));
+  return id;
+}
+
+static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  baum_joint_id id;
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  must(baum_mechanism_add_planar_revolute(m, &def, &id));
+  return id;
+}
+
+static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
+{
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  baum_joint_id id;
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = 0.3;
+  def.point[1] = -0.2;
+  must(baum_mechanism_add_planar_fixed(m, &def, &id));
+  return id;
+}
+
+/* Two frames, one welded to the other and this to the ground, that carry a double pendulum. */
+enum { FRAMES = 2, BODIES = 4 };
+
+typedef struct mounted {
+  baum_mechanism *mechanism;
+  baum_joint_id foot;
+  baum_joint_id shoulder;
+} mounted;
+
+static mounted make_mounted(void)
+{
+  mounted out = {.mechanism = begin()};
+  baum_mechanism *m = out.mechanism;
+  baum_body_id low = add_body(m, 0.0, -1.0);
+  baum_body_id high = add_body(m, 0.0, 0.0);
+  baum_body_id arm = add_body(m, 0.5, 0.0);
+  baum_body_id hand = add_body(m, 1.0, -0.5);
+  out.foot = weld(m, BAUM_GROUND, low);
+  (void)weld(m, low, high);
+  out.shoulder = pin(m, high, arm, 0.0, 0.0);
+  (void)pin(m, arm, hand, 1.0, 0.0);
+  must(baum_mechanism_freeze(m));
+  return out;
+}
+
+static baum_simulation_options fixed_step(void)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  return o;
+}
+
+static baum_simulation *start(const baum_mechanism *m, const baum_simulation_options *o)
+{
+  baum_simulation *run = NULL;
+  must(baum_simulation_create(m, o, &run));
+  return run;
+}
+
+static int left_out(const baum_simulation *run)
+{
+  const baum_i_immobile *immobile = run->workspace->immobile;
+  return immobile && immobile->rests ? immobile->path->still_count : 0;
+}
+
+/* By the solver of the whole system. */
+static baum_simulation *start_whole(const baum_mechanism *m, baum_simulation_options o)
+{
+  o.solver = BAUM_SOLVER_KLU;
+  return start(m, &o);
+}
+
+static void assert_same(const baum_simulation *run, const baum_simulation *want, double tolerance)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  for (int i = 0; i < m->nv; i++) {
+    ASSERT_NEAR(baum_simulation_q(run)[i], baum_simulation_q(want)[i], 0.0, tolerance);
+    ASSERT_NEAR(baum_simulation_v(run)[i], baum_simulation_v(want)[i], 0.0, tolerance);
+  }
+}
+
+/* Run both ways for 0.5 s and compare. */
+static void assert_same_motion(const baum_mechanism *m, int count)
+{
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(m, &o);
+  baum_simulation *whole = start_whole(m, o);
+  assert_int_equal(left_out(run), count);
+  assert_int_equal(left_out(whole), 0);
+  must(baum_simulation_advance_to(run, 0.5));
+  must(baum_simulation_advance_to(whole, 0.5));
+  assert_same(run, whole, 1e-11); /* rounding of 500 steps */
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(whole);
+}
+
+/* ---- what is left out ---- */
+
+static void welded_frames_are_left_out_and_the_motion_is_the_same(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(it.mechanism, &o);
+  assert_non_null(strstr(baum_simulation_explain(run),
+                         "blocks, 2 nodes, 1 coupling; 2 bodies at rest left out;"));
+  baum_simulation_destroy(run);
+  assert_same_motion(it.mechanism, FRAMES);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+/* A triangle on the ground is rigid without a weld; a pendulum has nothing to do with it. */
+static void rigid_islands_are_left_out(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id left = add_body(m, 0.5, 0.5);
+  baum_body_id right = add_body(m, 1.5, 0.5);
+  baum_body_id bob = add_body(m, 5.0, 0.0);
+  pin(m, BAUM_GROUND, left, 0.0, 0.0);
+  pin(m, BAUM_GROUND, right, 2.0, 0.0);
+  pin(m, left, right, 1.0, 1.0);
+  pin(m, BAUM_GROUND, bob, 4.0, 0.0);
+  must(baum_mechanism_freeze(m));
+  assert_same_motion(m, 2);
+  baum_mechanism_destroy(m);
+}
+
+/* What carries more joints than blocks are good for does not matter when it stands still. */
+static void a_hub_at_rest_is_no_hub(void **state)
+{
+  (void)state;
+  enum { ARMS = 60 };
+  baum_mechanism *m = begin();
+  baum_body_id hub = add_body(m, 0.0, 0.0);
+  weld(m, BAUM_GROUND, hub);
+  for (int k = 0; k < ARMS; k++) {
+    double c = cos(2.0 * PI * k / ARMS);
+    double s = sin(2.0 * PI * k / ARMS);
+    pin(m, hub, add_body(m, 1.5 * c, 1.5 * s), c, s);
+  }
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(m, &o);
+  assert_non_null(strstr(baum_simulation_explain(run),
+                         "blocks, 60 nodes, 0 couplings; 1 body at rest left out;"));
+  baum_simulation_destroy(run);
+  assert_same_motion(m, 1);
+  baum_mechanism_destroy(m);
+}
+
+static void nothing_but_frames_is_nothing_to_solve(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0));
+  must(baum_mechanism_freeze(m));
+  assert_same_motion(m, 1);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- what is not ---- */
+
+static void what_a_driver_holds_is_not_left_out(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_driver_def def = baum_driver_def_default();
+  def.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
+  def.value = 0.0;
+  must(baum_mechanism_add_driver(m, &def, NULL));
+  must(baum_mechanism_freeze(m));
+  assert_same_motion(m, 0);
+  baum_mechanism_destroy(m);
+}
+
+/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as redundant as
+ * one of the cranks' own. */
+static void nothing_is_left_out_where_another_row_was_spared(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id coupler = add_body(m, 1.0, 1.0);
+  baum_body_id frame = add_body(m, 2.0, -1.0);
+  for (int k = 0; k < 3; k++) {
+    baum_body_id crank = add_body(m, k, 0.5);
+    pin(m, k == 2 ? frame : BAUM_GROUND, crank, k, 0.0);
+    pin(m, crank, coupler, k, 1.0);
+  }
+  baum_joint_id foot = weld(m, BAUM_GROUND, frame);
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = fixed_step();
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  baum_simulation *run = start(m, &o);
+  int32_t first = 0;
+  must(baum_mechanism_rows(m, foot, &first, NULL));
+  const unsigned char *dropped = run->workspace->redundancy.dropped + first;
+  assert_int_equal(run->workspace->redundancy.count, 1);
+  assert_int_equal(dropped[0] + dropped[1] + dropped[2], 1); /* otherwise this tests nothing */
+  assert_int_equal(left_out(run), 0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+static void methods_that_need_multipliers_leave_out_nothing(void **state)
+{
+  (void)state;
+  if (!BAUM_HAVE_SUNDIALS) {
+    skip();
+  }
+  mounted it = make_mounted();
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_ida();
+  o.rtol = 1e-6;
+  baum_simulation *run = start(it.mechanism, &o);
+  assert_int_equal(left_out(run), 0);
+  must(baum_simulation_advance_to(run, 0.1));
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+/* ---- they stay where they are ---- */
+
+static void bodies_left_out_do_not_move_by_a_digit(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  for (int32_t k = 0; baum_integrator_at(k); k++) {
+    const baum_integrator *integrator = baum_integrator_at(k);
+    for (int f = 0; integrator->formulations[f] != BAUM_FORMULATION_DEFAULT; f++) {
+      baum_simulation_options o = baum_simulation_options_default();
+      o.integrator = integrator;
+      o.formulation = integrator->formulations[f];
+      o.step = baum_integrator_has_fixed_step(integrator) ? 1e-3 : (double)NAN;
+      o.rtol = baum_integrator_has_fixed_step(integrator) ? (double)NAN : 1e-6;
+      baum_simulation *run = start(it.mechanism, &o);
+      double q[3 * FRAMES];
+      memcpy(q, baum_simulation_q(run), sizeof q);
+      bool leaves_out = left_out(run) == FRAMES;
+      assert_true(leaves_out || strcmp(integrator->name, "ida") == 0);
+      must(baum_simulation_advance_to(run, 0.2));
+      for (int i = 0; leaves_out && i < 3 * FRAMES; i++) {
+        assert_true(baum_simulation_q(run)[i] == q[i]);
+        assert_true(baum_simulation_v(run)[i] == 0.0);
+      }
+      baum_simulation_destroy(run);
+    }
+  }
+  baum_mechanism_destroy(it.mechanism);
+}
+
+/* ---- what is reported is of the whole ---- */
+
+static void reactions_of_what_is_left_out_are_right(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(it.mechanism, &o);
+  baum_simulation *whole = start_whole(it.mechanism, o);
+  const baum_channel channels[] = {{.quantity = BAUM_JOINT_REACTION, .joint = it.foot},
+                                   {.quantity = BAUM_JOINT_REACTION, .joint = it.shoulder},
+                                   {.quantity = BAUM_LAMBDA},
+                                   {.quantity = BAUM_A},
+                                   {.quantity = BAUM_PHI},
+                                   {.quantity = BAUM_PHI_RATE}};
+  double got[MOST];
+  double want[MOST];
+  int32_t width = baum_channels_width(it.mechanism, channels, 6);
+  assert_true(width > 0 && width <= MOST);
+  must(baum_simulation_advance_to(run, 0.3));
+  must(baum_simulation_advance_to(whole, 0.3));
+  must(baum_simulation_get(run, channels, 6, got));
+  must(baum_simulation_get(whole, channels, 6, want));
+  for (int i = 0; i < width; i++) {
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions apart by 1e-12, forces up to 1e2 N */
+  }
+  assert_true(want[1] > 10.0);                /* the foot carries something */
+  must(baum_simulation_advance_to(run, 0.4)); /* a look at the whole changes nothing */
+  must(baum_simulation_advance_to(whole, 0.4));
+  assert_same(run, whole, 1e-11);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(whole);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+static void violations_of_what_is_left_out_are_watched(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(it.mechanism, &o);
+  must(baum_simulation_advance_to(run, 0.2));
+  for (int i = 0; i < 3 * FRAMES; i++) {
+    /* What assembly left: some rounding of lengths of about 1. */
+    assert_true(fabs(run->workspace->phi[i]) < 1e-14);
+    assert_true(run->workspace->phi_rate[i] == 0.0);
+    assert_true(run->workspace->gamma[i] == 0.0);
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+/* ---- states that have them elsewhere ---- */
+
+static void frames_out_of_place_are_solved_for(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  baum_simulation_options o = fixed_step();
+  o.start = BAUM_START_AS_GIVEN;
+  baum_simulation *run = start(it.mechanism, &o);
+  double q[3 * BODIES];
+  double v[3 * BODIES];
+  memcpy(q, baum_simulation_q(run), sizeof q);
+  memcpy(v, baum_simulation_v(run), sizeof v);
+  assert_int_equal(left_out(run), FRAMES);
+  q[0] += 1e-3;
+  must(baum_simulation_set_state(run, 0.0, q, v));
+  assert_int_equal(left_out(run), 0);
+  must(baum_simulation_advance_to(run, 0.5));
+  ASSERT_NEAR(baum_simulation_q(run)[0], 0.0, 0.0, 1e-5); /* the gains have brought it back */
+  q[0] -= 1e-3;
+  v[1] = 1e-3;
+  must(baum_simulation_set_state(run, 0.0, q, v));
+  assert_int_equal(left_out(run), 0);
+  v[1] = 0.0;
+  must(baum_simulation_set_state(run, 0.0, q, v));
+  assert_int_equal(left_out(run), FRAMES);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+static void a_start_out_of_place_leaves_out_nothing(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = add_body(m, 1.0, 0.0);
+  def.point_a[0] = 1.001;
+  def.point_a[1] = 0.0;
+  def.point_b[0] = 0.0;
+  def.point_b[1] = 0.0;
+  must(baum_mechanism_add_planar_fixed(m, &def, NULL));
+  must(baum_mechanism_freeze(m));
+  baum_simulation_options o = fixed_step();
+  o.start = BAUM_START_AS_GIVEN;
+  baum_simulation *run = start(m, &o);
+  assert_int_equal(left_out(run), 0);
+  must(baum_simulation_advance_to(run, 0.5));
+  ASSERT_NEAR(baum_simulation_q(run)[0], 1.001, 0.0, 1e-5);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+static void a_state_that_is_refused_changes_nothing(void **state)
+{
+  (void)state;
+  mounted it = make_mounted();
+  baum_simulation_options o = fixed_step();
+  o.start = BAUM_START_EXACT;
+  baum_simulation *run = start(it.mechanism, &o);
+  double q[3 * BODIES];
+  double v[3 * BODIES];
+  memcpy(q, baum_simulation_q(run), sizeof q);
+  memcpy(v, baum_simulation_v(run), sizeof v);
+  q[0] += 1e-3;
+  assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
+  assert_int_equal(left_out(run), FRAMES);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(it.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(welded_frames_are_left_out_and_the_motion_is_the_same),
+    cmocka_unit_test(rigid_islands_are_left_out),
+    cmocka_unit_test(a_hub_at_rest_is_no_hub),
+    cmocka_unit_test(nothing_but_frames_is_nothing_to_solve),
+    cmocka_unit_test(what_a_driver_holds_is_not_left_out),
+    cmocka_unit_test(nothing_is_left_out_where_another_row_was_spared),
+    cmocka_unit_test(methods_that_need_multipliers_leave_out_nothing),
+    cmocka_unit_test(bodies_left_out_do_not_move_by_a_digit),
+    cmocka_unit_test(reactions_of_what_is_left_out_are_right),
+    cmocka_unit_test(violations_of_what_is_left_out_are_watched),
+    cmocka_unit_test(frames_out_of_place_are_solved_for),
+    cmocka_unit_test(a_start_out_of_place_leaves_out_nothing),
+    cmocka_unit_test(a_state_that_is_refused_changes_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
