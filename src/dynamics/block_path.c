@@ -269,11 +269,15 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
 
 /* ---- solve ---- */
 
-static baum_status evaluate_joints(baum_workspace *w, bool at_rest)
+/* Without bending gamma is zero, not what it was, for that may be infinite. */
+static baum_status evaluate_joints(baum_workspace *w, bool bending)
 {
   const baum_i_block_path *path = w->path;
   const baum_i_rows rows = {
-    .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = at_rest ? NULL : w->gamma};
+    .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = bending ? w->gamma : NULL};
+  if (!bending) {
+    memset(w->gamma, 0, (size_t)w->mechanism->nc * sizeof *w->gamma);
+  }
   baum_status status = BAUM_OK;
   for (int k = 0; k < path->group_count && status == BAUM_OK; k++) {
     status = path->groups[k].type->evaluate(&path->groups[k], &w->point, &rows);
@@ -413,7 +417,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
 {
   baum_i_point_set(&w->point, t, q, v);
   w->jacobian_ready = false; /* half of it is overwritten where a function fails */
-  baum_status status = evaluate_joints(w, !v);
+  baum_status status = evaluate_joints(w, right->bending != 0.0);
   if (status == BAUM_OK) {
     status = evaluate_masses(w);
   }

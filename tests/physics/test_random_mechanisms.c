@@ -211,6 +211,50 @@ static void blocks_agree_with_the_whole_system(void **state)
   assert_true(p->by_blocks > 200);
 }
 
+/* ---- what came before ---- */
+
+/* One of the first functions that the first user constraint calls answers NaN. */
+static void spoil(pair *p, int call)
+{
+  random_rows *rows = &p->random->rows[0];
+  rows->fail_at = call;
+  rows->answer = 0;
+  assert_int_not_equal(baum_i_acceleration(p->blocks, 0.0, p->q, p->v, 0.0, 0.0), BAUM_OK);
+  assert_int_equal(rows->fail_at, 0);
+}
+
+/* An evaluation that has failed leaves no trace in the next one: by blocks, and to the last digit. */
+static void failed_evaluations_leave_no_trace(void **state)
+{
+  pair *p = *state;
+  const random_kind rows_only = {
+    .bodies = 3, .joints = 1, .coordinates = 100, .span = 3.0, .constant = true};
+  enum { CALLS = 4 /* Phi, J, nu, gamma */ };
+  int seen = 0;
+  for (uint64_t seed = 0; seed < SEEDS; seed++) {
+    double want[2][SIZE];
+    for (int call = 0; call <= CALLS; call++) {
+      begin(p, seed, &rows_only);
+      bool has_rows = p->random->rows_count > 0 && p->nc > 0 && p->blocks->path;
+      pose(p, 0.01);
+      if (has_rows && call > 0) {
+        spoil(p, call);
+      }
+      if (has_rows) {
+        assert_int_equal(baum_workspace_project(p->blocks, 0.0, p->q, p->v), BAUM_OK);
+        assert_int_equal(baum_i_kkt_get_counters(p->blocks->kkt).factorizations, 0);
+        double *q = call > 0 ? p->q : memcpy(want[0], p->q, sizeof p->q);
+        double *v = call > 0 ? p->v : memcpy(want[1], p->v, sizeof p->v);
+        assert_memory_equal(q, want[0], (size_t)p->nv * sizeof *q);
+        assert_memory_equal(v, want[1], (size_t)p->nv * sizeof *v);
+        seen++;
+      }
+      finish(p);
+    }
+  }
+  assert_true(seen > SEEDS);
+}
+
 /* ---- a light body with a load on it ---- */
 
 /* Welded to a pendulum of 1 kg. */
@@ -295,6 +339,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(blocks_agree_with_the_whole_system, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(failed_evaluations_leave_no_trace, set_up, tear_down),
     cmocka_unit_test(loaded_light_bodies_keep_all_digits),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
