@@ -523,6 +523,45 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
+/** What an evaluation of the accelerations costs in a run, and what it is spared. Counts follow from
+ *  the structure; forces and functions of the user are not counted. */
+typedef struct baum_report {
+  size_t struct_size;      /**< Set by baum_mechanism_report(). */
+  int32_t bodies;          /**< [-] without ground. */
+  int32_t joints;          /**< [-] with drivers and user constraints. */
+  int32_t forces;          /**< [-] gravity not among them. */
+  int32_t velocities;      /**< [-] nv. */
+  int32_t rows;            /**< [-] nc. */
+  int32_t freedoms;        /**< [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
+  int32_t redundant_rows;  /**< [-] left out of every solution. */
+  int32_t constant_rows;   /**< [-] without time derivatives, for they are not of time. */
+  int32_t islands;         /**< [-] of bodies that joints hold together, ground left out. */
+  int32_t immobile_bodies; /**< [-] that cannot move. */
+  int32_t left_out_bodies; /**< [-] of these, left out of runs while they rest. */
+  bool constant_mass;      /**< Masses are constant: inverted once. */
+  bool constant_force;     /**< So are all forces. */
+  bool blocks;             /**< Solved by blocks (BAUM_SOLVER_BLOCK); else by KLU. */
+  int32_t nodes;           /**< [-] pairs of rows; 0 for KLU. */
+  int32_t couplings;       /**< [-] of nodes when these are eliminated; 0 for KLU. */
+  int32_t fill;            /**< [-] couplings that no body makes, but elimination; 0 for KLU. */
+  int32_t most_couplings;  /**< [-] of one node; 0 for KLU. */
+  int32_t most_joints;     /**< [-] of one body that is not left out. */
+  baum_body_id most_joined; /**< That body; none when there are no joints. */
+  double flops;             /**< [-] operations on numbers per evaluation; NaN: not known. */
+  double bytes;             /**< [B] of all numbers and indices that are touched; NaN likewise. */
+  char text[2048];          /**< The same in lines, by name, with the reasons. */
+} baum_report;
+
+/** Find out what a mechanism costs, at the assembled start pose, at t = 0, with the solver that a run
+ *  takes by itself.
+ *  @param[in]  mechanism    frozen
+ *  @param[out] out          filled also when the mechanism cannot be assembled
+ *  @param      caller_size  sizeof *out
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY
+ */
+BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
+                                           size_t caller_size);
+
 /** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v) with
  *  differences, in the drawn pose and at three poses and other times beside it. An entry is wrong
  *  when it is off by more than 1e-6 of itself and 1e-9 of its row. mass() must be symmetric, and

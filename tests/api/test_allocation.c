@@ -258,6 +258,7 @@ static baum_status build_everything(void *context)
   every_element parts = {.fault = NULL};
   baum_mechanism *copy = GARBAGE;
   baum_mobility mobility;
+  baum_report report;
   baum_status status = every_element_build(&parts);
   if (status == BAUM_OK) {
     status = baum_mechanism_freeze(parts.mechanism);
@@ -276,6 +277,10 @@ static baum_status build_everything(void *context)
   }
   if (status == BAUM_OK) {
     assert_int_equal(mobility.freedoms, EVERY_NV - EVERY_NC);
+    status = baum_mechanism_report(copy, &report, sizeof report);
+  }
+  if (status == BAUM_OK) {
+    assert_int_equal(report.freedoms, EVERY_NV - EVERY_NC);
     status = baum_mechanism_check_derivatives(parts.mechanism);
   }
   baum_mechanism_destroy(parts.mechanism);

@@ -42,6 +42,7 @@ static void calls_on_no_mechanism_are_refused(void **state)
   baum_mechanism *copy = GARBAGE;
   double numbers[3];
   baum_mobility mobility;
+  baum_report report;
   ASSERT_SAYS(baum_mechanism_create(NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   ASSERT_SAYS(baum_mechanism_copy(NULL, &copy), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   assert_null(copy);
@@ -60,6 +61,8 @@ static void calls_on_no_mechanism_are_refused(void **state)
               "the mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_mobility(NULL, &mobility, sizeof mobility), BAUM_ERR_ARGUMENT,
               "baum_mechanism_mobility: the mechanism is NULL");
+  ASSERT_SAYS(baum_mechanism_report(NULL, &report, sizeof report), BAUM_ERR_ARGUMENT,
+              "baum_mechanism_report: the mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_check_derivatives(NULL), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   assert_false(baum_mechanism_is_frozen(NULL));
   assert_null(baum_mechanism_body_name(NULL, body));
@@ -73,6 +76,7 @@ static void calls_that_need_a_frozen_mechanism_refuse_an_open_one(void **state)
   every_element parts = {.fault = NULL};
   assert_int_equal(every_element_build(&parts), BAUM_OK);
   baum_mobility mobility;
+  baum_report report;
   baum_workspace *workspace = GARBAGE;
   int32_t number = 77;
   const baum_channel channel = {.quantity = BAUM_Q};
@@ -85,6 +89,8 @@ static void calls_that_need_a_frozen_mechanism_refuse_an_open_one(void **state)
   assert_int_equal(number, 77);
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, &mobility, sizeof mobility), BAUM_ERR_STATE,
               "baum_mechanism_mobility: the mechanism is not frozen");
+  ASSERT_SAYS(baum_mechanism_report(parts.mechanism, &report, sizeof report), BAUM_ERR_STATE,
+              "baum_mechanism_report: the mechanism is not frozen");
   ASSERT_SAYS(baum_mechanism_check_derivatives(parts.mechanism), BAUM_ERR_STATE,
               "baum_mechanism_check_derivatives: the mechanism is not frozen");
   ASSERT_SAYS(baum_workspace_create(parts.mechanism, &workspace), BAUM_ERR_STATE,
@@ -100,6 +106,7 @@ static void outputs_of_a_mechanism_may_not_be_null_unless_they_may(void **state)
   (void)state;
   every_element parts = every_element_make(NULL);
   baum_mobility mobility;
+  baum_report report;
   ASSERT_SAYS(baum_mechanism_copy(parts.mechanism, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   ASSERT_SAYS(baum_mechanism_get_gravity(parts.mechanism, NULL), BAUM_ERR_ARGUMENT,
               "gravity is NULL");
@@ -108,6 +115,9 @@ static void outputs_of_a_mechanism_may_not_be_null_unless_they_may(void **state)
               "out is NULL");
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, &mobility, 0), BAUM_ERR_ARGUMENT,
               "size is 0");
+  ASSERT_SAYS(baum_mechanism_report(parts.mechanism, NULL, sizeof report), BAUM_ERR_ARGUMENT,
+              "out is NULL");
+  ASSERT_SAYS(baum_mechanism_report(parts.mechanism, &report, 0), BAUM_ERR_ARGUMENT, "size is 0");
   assert_int_equal(baum_mechanism_sizes(parts.mechanism, NULL, NULL, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_rows(parts.mechanism, parts.pin, NULL, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_columns(parts.mechanism, parts.bob, NULL, NULL), BAUM_OK);
@@ -125,18 +135,23 @@ static void reports_are_cut_to_the_callers_size(void **state)
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
   const size_t size = 3 * sizeof(size_t);
   baum_mobility mobility;
+  baum_report report;
   baum_counters counters;
   baum_amplification amplification;
   memset(&mobility, 0xA5, sizeof mobility);
+  memset(&report, 0xA5, sizeof report);
   memset(&counters, 0xA5, sizeof counters);
   memset(&amplification, 0xA5, sizeof amplification);
   assert_int_equal(baum_mechanism_mobility(parts.mechanism, &mobility, size), BAUM_OK);
+  assert_int_equal(baum_mechanism_report(parts.mechanism, &report, size), BAUM_OK);
   assert_int_equal(baum_simulation_counters(run, &counters, size), BAUM_OK);
   assert_int_equal(baum_stability_at(baum_euler(), 0.5, 0.5, &amplification, size), BAUM_OK);
   assert_int_equal(mobility.struct_size, size);
+  assert_int_equal(report.struct_size, size);
   assert_int_equal(counters.struct_size, size);
   assert_int_equal(amplification.struct_size, size);
   assert_int_equal(((unsigned char *)&mobility)[size], 0xA5);
+  assert_int_equal(((unsigned char *)&report)[size], 0xA5);
   assert_int_equal(((unsigned char *)&counters)[size], 0xA5);
   assert_int_equal(((unsigned char *)&amplification)[size], 0xA5);
   baum_simulation_destroy(run);

@@ -100,6 +100,21 @@ class Building(unittest.TestCase):
         self.assertEqual(str(mobility), mobility.text)
         self.assertIn("1 freedom", str(mobility))
 
+    def test_report_tells_what_it_costs(self):
+        report = slider_crank().report()
+        self.assertEqual((report.rows, report.freedoms, report.nodes), (8, 1, 4))
+        self.assertIs(report.blocks, True)
+        self.assertEqual(report.most_joined.name, "crank")
+        self.assertGreater(report.flops, 500.0)
+        self.assertEqual(str(report), report.text)
+        self.assertIn("\nsolver        blocks, 4 nodes", str(report))
+
+    def test_nobody_has_most_joints_where_there_are_none(self):
+        m = baum.Mechanism()
+        m.planar_body()
+        m.freeze()
+        self.assertIsNone(m.report().most_joined)
+
     def test_printing_tells_what_it_is(self):
         m = slider_crank()
         self.assertEqual(repr(m), "<mechanism: 3 bodies, 4 joints, 0 forces, 0 inputs, frozen>")

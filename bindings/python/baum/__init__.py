@@ -22,7 +22,7 @@ from .integrators import (
     Amplification, Integrator, integrators, stability, stability_deadbeat, stability_limit,
     stability_nearest,
 )
-from .mechanism import Mechanism, Mobility, Sizes
+from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, Run
 from .simulation import Simulation
 from .workspace import Workspace
@@ -39,9 +39,9 @@ def has(feature):
 
 __all__ = [
     "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Input",
-    "Integrator", "Joint", "Mechanism", "Mobility", "Retry", "Run", "Simulation", "Sizes",
-    "Status", "Warning", "Workspace", "a", "auto", "deadbeat", "energy", "fixed", "frequency",
-    "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate", "q",
-    "scaled", "stability", "stability_deadbeat", "stability_limit", "stability_nearest", "taylor",
-    "v",
+    "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
+    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "deadbeat", "energy", "fixed",
+    "frequency", "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate",
+    "q", "scaled", "stability", "stability_deadbeat", "stability_limit", "stability_nearest",
+    "taylor", "v",
 ]

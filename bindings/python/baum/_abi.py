@@ -158,6 +158,35 @@ class baum_mobility(Structure):
     ]
 
 
+class baum_report(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("bodies", c_int32),
+        ("joints", c_int32),
+        ("forces", c_int32),
+        ("velocities", c_int32),
+        ("rows", c_int32),
+        ("freedoms", c_int32),
+        ("redundant_rows", c_int32),
+        ("constant_rows", c_int32),
+        ("islands", c_int32),
+        ("immobile_bodies", c_int32),
+        ("left_out_bodies", c_int32),
+        ("constant_mass", c_bool),
+        ("constant_force", c_bool),
+        ("blocks", c_bool),
+        ("nodes", c_int32),
+        ("couplings", c_int32),
+        ("fill", c_int32),
+        ("most_couplings", c_int32),
+        ("most_joints", c_int32),
+        ("most_joined", baum_body_id),
+        ("flops", c_double),
+        ("bytes", c_double),
+        ("text", c_char * 2048),
+    ]
+
+
 class baum_residual(enum.IntEnum):
     BAUM_RESIDUAL_INDEX1 = 1
     BAUM_RESIDUAL_INDEX3 = 3
@@ -580,6 +609,7 @@ PROTOTYPES = {
     "baum_mechanism_joint_name": (c_char_p, [c_void_p, baum_joint_id]),
     "baum_mechanism_input_name": (c_char_p, [c_void_p, baum_input_id]),
     "baum_mechanism_mobility": (c_int, [c_void_p, POINTER(baum_mobility), c_size_t]),
+    "baum_mechanism_report": (c_int, [c_void_p, POINTER(baum_report), c_size_t]),
     "baum_mechanism_check_derivatives": (c_int, [c_void_p]),
     "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_workspace_destroy": (None, [c_void_p]),
@@ -845,6 +875,7 @@ STRUCTS = [
     baum_coupling_def,
     baum_user_force_def,
     baum_mobility,
+    baum_report,
     baum_dae,
     baum_sparse,
     baum_planar_body_def,

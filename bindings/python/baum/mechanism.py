@@ -27,6 +27,16 @@ class Mobility(namedtuple("Mobility", [name for name, _ in _abi.baum_mobility._f
         return self.text
 
 
+class Report(namedtuple("Report", [name for name, _ in _abi.baum_report._fields_[1:]])):
+    """What an evaluation of the accelerations costs in a run, and what it is spared. str() says it
+    in lines, by name, with the reasons."""
+
+    __slots__ = ()
+
+    def __str__(self):
+        return self.text
+
+
 class Mechanism(Adding):
     """Bodies, joints, forces and inputs: added, then frozen, then constant and shared between
     threads.
@@ -246,12 +256,23 @@ class Mechanism(Adding):
     def mobility(self):
         """Freedoms, redundant and conflicting rows, bodies without a joint, at the assembled start
         pose."""
-        struct = _abi.baum_mobility()
-        self._long(lib.baum_mechanism_mobility, ctypes.byref(struct), ctypes.sizeof(struct))
-        values = {name: getattr(struct, name) for name in Mobility._fields}
-        values["worst_joint"] = self.find("joint", struct.worst_joint)
-        values["text"] = struct.text.decode(errors="replace")
+        values = self._survey(lib.baum_mechanism_mobility, _abi.baum_mobility())
+        values["worst_joint"] = self.find("joint", values["worst_joint"])
         return Mobility(**values)
+
+    def report(self):
+        """What an evaluation of the accelerations costs: nodes, couplings, islands, flops and
+        bytes; and what it is spared, such as bodies that cannot move."""
+        values = self._survey(lib.baum_mechanism_report, _abi.baum_report())
+        values["most_joined"] = self.find("body", values["most_joined"])
+        return Report(**values)
+
+    def _survey(self, function, struct):
+        """The fields of a struct that a function of the library fills."""
+        self._long(function, ctypes.byref(struct), ctypes.sizeof(struct))
+        values = {name: getattr(struct, name) for name, _ in struct._fields_[1:]}
+        values["text"] = struct.text.decode(errors="replace")
+        return values
 
     def check_derivatives(self):
         """Compare the derivatives that functions give with differences; baum.Error names the wrong

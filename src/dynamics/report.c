@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an evaluation of a mechanism costs and what it is spared, in numbers and in words. */
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/immobile.h"
+#include "dynamics/islands.h"
+
+/* Append to the report's text; what does not fit is cut. */
+static void BAUM_I_PRINTF(2, 3) say(baum_report *report, const char *format, ...)
+{
+  size_t used = strlen(report->text);
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(report->text + used, sizeof report->text - used, format, arguments);
+  va_end(arguments);
+}
+
+static const char *plural(int count)
+{
+  return count == 1 ? "" : "s";
+}
+
+/* ---- the mechanism ---- */
+
+static void report_sizes(const baum_workspace *w, bool assembled, baum_report *report)
+{
+  const baum_mechanism *m = w->mechanism;
+  report->bodies = m->body_count;
+  report->joints = m->joint_count;
+  report->forces = m->force_count;
+  report->velocities = m->nv;
+  report->rows = m->nc;
+  report->redundant_rows = w->redundancy.count;
+  report->freedoms = assembled ? m->nv - (m->nc > 0 ? w->redundancy.rank : 0) : -1;
+  for (int k = 0; k < m->joint_count; k++) {
+    report->constant_rows += m->joints[k]->type->scleronomic ? m->joints[k]->rows : 0;
+  }
+  say(report, "mechanism     bodies %d, joints %d, forces %d; velocities %d, rows %d",
+      m->body_count, m->joint_count, m->force_count, m->nv, m->nc);
+  if (assembled) {
+    say(report, ", freedoms %d\n", report->freedoms);
+  } else {
+    say(report, "\n              cannot be assembled\n");
+  }
+}
+
+/* ---- islands ---- */
+
+static void report_islands(const baum_i_islands *islands, baum_report *report)
+{
+  const baum_i_island *largest = NULL;
+  for (int k = 0; k < islands->count; k++) {
+    const baum_i_island *island = &islands->island[k];
+    largest = !largest || island->bodies > largest->bodies ? island : largest;
+  }
+  report->islands = islands->count;
+  report->immobile_bodies = islands->immobile_count;
+  say(report, "islands       %d", islands->count);
+  if (largest) {
+    say(report, "%s of %d bod%s, %d joint%s, %d row%s", islands->count > 1 ? ", the largest" : ",",
+        largest->bodies, largest->bodies == 1 ? "y" : "ies", largest->joints,
+        plural(largest->joints), largest->rows, plural(largest->rows));
+  }
+  say(report, islands->count > 1 ? "; they do not couple\n" : "\n");
+}
+
+/* ---- the solver ---- */
+
+/* joints (body_count + 1) of each body */
+static void count_joints(const baum_mechanism *m, int *joints)
+{
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_span *span = &m->joints[k]->span;
+    for (int i = 0; i < span->body_count; i++) {
+      joints[span->bodies[i]]++;
+    }
+  }
+}
+
+/* Of the bodies that are not left out. */
+static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
+{
+  const baum_mechanism *m = w->mechanism;
+  const baum_i_block_path *path = baum_i_motion_path(w);
+  int *joints = baum_i_alloc((size_t)m->body_count + 1, sizeof *joints);
+  if (!joints) {
+    return baum_i_fail_memory();
+  }
+  count_joints(m, joints);
+  for (int i = 1; i <= m->body_count; i++) {
+    bool takes_part = !path || !path->block->still[i - 1];
+    if (takes_part && joints[i] > report->most_joints) {
+      report->most_joints = joints[i];
+      report->most_joined = (baum_body_id){i, m->tag};
+    }
+  }
+  baum_i_free(joints);
+  return BAUM_OK;
+}
+
+static void say_most_joined(const baum_mechanism *m, baum_report *report)
+{
+  if (report->most_joints > 0) {
+    char label[BAUM_I_LABEL_SIZE];
+    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, "body", label);
+    say(report, "; %s has most joints, %d", label, report->most_joints);
+  }
+}
+
+static void report_block(const baum_i_block_path *path, baum_report *report)
+{
+  const baum_i_block *block = path->block;
+  report->blocks = true;
+  report->left_out_bodies = path->still_count;
+  report->nodes = block->node_count;
+  report->couplings = block->off_count;
+  report->fill = block->zero_count;
+  for (int k = 0; k < block->node_count; k++) {
+    int later = block->order.start[k + 1] - block->order.start[k];
+    report->most_couplings = later > report->most_couplings ? later : report->most_couplings;
+  }
+  say(report, "fill          %d of %d coupling%s, at most %d of one node", report->fill,
+      report->couplings, plural(report->couplings), report->most_couplings);
+}
+
+static baum_status report_solver(const baum_workspace *w, baum_report *report)
+{
+  const baum_i_block_path *path = baum_i_motion_path(w);
+  char text[BAUM_I_SOLVER_TEXT_SIZE];
+  baum_i_solver_text(w, text);
+  say(report, "solver        %s\n", text);
+  baum_status status = find_most_joined(w, report);
+  if (path) {
+    report_block(path, report);
+  } else {
+    say(report, "fill          not by blocks");
+  }
+  say_most_joined(w->mechanism, report);
+  say(report, "\n");
+  return status;
+}
+
+/* ---- cost ---- */
+
+/* KLU knows it once it has factored. */
+static void cost_of_whole(baum_workspace *w, const double *q, const double *v, baum_report *report)
+{
+  if (baum_i_acceleration(w, 0.0, q, v, 0.0, 0.0) == BAUM_OK) {
+    (void)baum_i_kkt_cost(w->kkt, &report->flops, &report->bytes);
+  }
+}
+
+/* Four digits, however large. */
+static void say_number(baum_report *report, double number, const char *unit)
+{
+  static const char *const powers[] = {"", "k", "M", "G", "T"};
+  int power = 0;
+  while (number >= 9999.5 && power < 4) {
+    number *= 1e-3;
+    power++;
+  }
+  say(report, "%.4g %s%s", number, powers[power], unit);
+}
+
+static void report_cost(baum_workspace *w, const double *q, const double *v, baum_report *report)
+{
+  const baum_i_block_path *path = baum_i_motion_path(w);
+  report->flops = (double)NAN;
+  report->bytes = (double)NAN;
+  if (path) {
+    baum_i_cost cost = baum_i_block_path_cost(w->mechanism, path);
+    report->flops = cost.flops;
+    report->bytes = cost.bytes;
+  } else {
+    cost_of_whole(w, q, v, report);
+  }
+  if (isnan(report->flops)) {
+    say(report, "cost          not known\n");
+    return;
+  }
+  say(report, "cost          ");
+  say_number(report, report->flops, "flop on ");
+  say_number(report, report->bytes, "B per evaluation");
+  say(report, "%s%s\n", path ? "" : ", of the solution alone",
+      w->mechanism->force_count > 0 ? "; forces not counted" : "");
+}
+
+/* ---- what is spared ---- */
+
+static bool has_constant_force(const baum_mechanism *m)
+{
+  for (int k = 0; k < m->body_group_count; k++) {
+    if (!m->body_groups[k].type->constant_force) {
+      return false;
+    }
+  }
+  return m->force_count == 0;
+}
+
+/* One more thing; the line is begun by the first. */
+static void BAUM_I_PRINTF(3, 4) spare(baum_report *report, int *count, const char *format, ...)
+{
+  char text[160];
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  say(report, "%s%s", (*count)++ > 0 ? "; " : "spared        ", text);
+}
+
+static void report_spared(const baum_mechanism *m, baum_report *report)
+{
+  int count = 0;
+  report->constant_mass = m->constant_mass;
+  report->constant_force = has_constant_force(m);
+  if (report->constant_mass) {
+    spare(report, &count, "masses are constant%s", report->blocks ? ", inverted once" : "");
+  }
+  if (report->constant_force) {
+    spare(report, &count, "forces are constant%s", report->blocks ? ", set once" : "");
+  }
+  if (report->constant_rows > 0) {
+    spare(report, &count, "%d of %d row%s have no time derivatives", report->constant_rows, m->nc,
+          plural(m->nc));
+  }
+  if (report->redundant_rows > 0) {
+    spare(report, &count, "%d redundant row%s", report->redundant_rows,
+          plural(report->redundant_rows));
+  }
+  if (report->immobile_bodies > 0) {
+    spare(report, &count, "%d bod%s that cannot move, %d of them left out", report->immobile_bodies,
+          report->immobile_bodies == 1 ? "y" : "ies", report->left_out_bodies);
+  }
+  if (count == 0) {
+    say(report, "spared        nothing");
+  }
+}
+
+/* ---- the whole ---- */
+
+/* A pose to look at: assembled, or as drawn where that fails; at rest. */
+static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
+{
+  memcpy(q, w->mechanism->drawn_q, (size_t)w->mechanism->nq * sizeof *q);
+  baum_status status = baum_i_assemble(w, 0.0, q, NULL, w->mechanism->held);
+  *assembled = status == BAUM_OK;
+  return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
+}
+
+static baum_status survey(baum_workspace *w, double *q, double *v, baum_report *report)
+{
+  bool assembled = false;
+  baum_i_islands islands = {0};
+  baum_status status = find_pose(w, q, &assembled);
+  if (status == BAUM_OK && assembled) {
+    status = baum_i_leave_out_immobile(w, 0.0, q, v);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_find_islands(w, &islands);
+  }
+  if (status == BAUM_OK) {
+    report_sizes(w, assembled, report);
+    report_islands(&islands, report);
+    status = report_solver(w, report);
+  }
+  if (status == BAUM_OK) {
+    report_cost(w, q, v, report);
+    report_spared(w->mechanism, report);
+  }
+  baum_i_islands_clear(&islands);
+  return status;
+}
+
+baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
+                                  size_t caller_size)
+{
+  if (!out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_report: out is NULL or its size is 0");
+  }
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_report");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_workspace *w = NULL;
+  status = baum_workspace_create(mechanism, &w);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_report report = {.struct_size = sizeof report};
+  double *q = baum_i_alloc(2 * (size_t)mechanism->nv, sizeof *q);
+  status = q ? survey(w, q, q + mechanism->nq, &report) : baum_i_fail_memory();
+  if (status == BAUM_OK) {
+    report.struct_size = caller_size < sizeof report ? caller_size : sizeof report;
+    memcpy(out, &report, report.struct_size);
+  }
+  baum_i_free(q);
+  baum_workspace_destroy(w);
+  return baum_i_message_settle(status, &kept);
+}

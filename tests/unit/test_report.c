@@ -1,0 +1,299 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is said of the cost of mechanisms whose cost can be counted by hand. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "assert_near.h"
+#include "models.h"
+
+#define PI 3.14159265358979323846
+
+static void must(baum_status status)
+{
+  if (status != BAUM_OK) {
+    print_error("%s\n", baum_message());
+  }
+  assert_int_equal(status, BAUM_OK);
+}
+
+static baum_report report_of(const baum_mechanism *m)
+{
+  baum_report report;
+  must(baum_mechanism_report(m, &report, sizeof report));
+  assert_int_equal(report.struct_size, sizeof report);
+  return report;
+}
+
+/* Freezes, reports and gives up. */
+static baum_report report_once(baum_mechanism *m)
+{
+  must(baum_mechanism_freeze(m));
+  baum_report report = report_of(m);
+  baum_mechanism_destroy(m);
+  return report;
+}
+
+static void assert_says(const baum_report *report, const char *part)
+{
+  if (!strstr(report->text, part)) {
+    print_error("\"%s\" is not in\n%s\n", part, report->text);
+    fail();
+  }
+}
+
+/* ---- parts ---- */
+
+static baum_mechanism *begin(void)
+{
+  baum_mechanism *m = NULL;
+  must(baum_mechanism_create(&m));
+  return m;
+}
+
+static baum_body_id add_body(baum_mechanism *m, const char *name, double x, double y)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.name = name;
+  def.position[0] = x;
+  def.position[1] = y;
+  must(baum_mechanism_add_planar_body(m, &def, &id));
+  return id;
+}
+
+static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  must(baum_mechanism_add_planar_revolute(m, &def, NULL));
+}
+
+static void weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
+{
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = 0.0;
+  def.point[1] = 0.0;
+  must(baum_mechanism_add_planar_fixed(m, &def, NULL));
+}
+
+static void pin_around(baum_mechanism *m, baum_body_id hub, int arms)
+{
+  for (int k = 0; k < arms; k++) {
+    double c = cos(2.0 * PI * k / arms);
+    double s = sin(2.0 * PI * k / arms);
+    pin(m, hub, add_body(m, NULL, 1.5 * c, 1.5 * s), c, s);
+  }
+}
+
+/* ---- numbers ---- */
+
+static void a_slider_crank_is_counted(void **state)
+{
+  (void)state;
+  model m;
+  model_slider_crank data = {.driven = true, .angle = 1.0, .doubled_guide = true};
+  must(model_slider_crank_build(data, &m));
+  baum_report r = report_of(m.mechanism);
+  model_destroy(&m);
+  assert_int_equal(r.bodies, 3);
+  assert_int_equal(r.joints, 6);
+  assert_int_equal(r.forces, 0);
+  assert_int_equal(r.velocities, 9);
+  assert_int_equal(r.rows, 11);
+  assert_int_equal(r.freedoms, 0);
+  assert_int_equal(r.redundant_rows, 2);
+  assert_int_equal(r.constant_rows, 10); /* all but the motor's */
+  assert_int_equal(r.islands, 1);
+  assert_int_equal(r.immobile_bodies, 0);
+  assert_int_equal(r.left_out_bodies, 0);
+  assert_true(r.constant_mass && r.constant_force && r.blocks);
+  /* Three pins, one guide, the motor. The crank couples two pins and the motor, the rod two pins, the
+   * slider a pin and the guide. */
+  assert_int_equal(r.nodes, 5);
+  assert_int_equal(r.couplings, 5);
+  assert_int_equal(r.fill, 0);
+  assert_int_equal(r.most_couplings, 2);
+  assert_int_equal(r.most_joints, 3);
+  assert_int_equal(r.most_joined.index1, 1); /* the crank, before the slider */
+  assert_says(&r,
+              "mechanism     bodies 3, joints 6, forces 0; velocities 9, rows 11, freedoms 0\n");
+  assert_says(&r, "islands       1, of 3 bodies, 6 joints, 11 rows\n");
+  assert_says(&r, "solver        blocks, 5 nodes, 5 couplings; klu and qr where pivots are bad\n");
+  assert_says(&r,
+              "fill          0 of 5 couplings, at most 2 of one node; body 1 \"crank\" has most "
+              "joints, 3\n");
+  assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
+}
+
+/* One link: a sine with its cosine 65, its pin 75 and what it does to the motion 18, the pivot 14. Two of
+ * them are coupled: block 9, elimination 46, back 8. */
+static void a_chain_costs_what_its_links_cost(void **state)
+{
+  (void)state;
+  double bytes[3];
+  for (int k = 0; k < 3; k++) {
+    static const int links[] = {1, 10, 100};
+    model m;
+    model_chain data = {.links = links[k]};
+    must(model_chain_build(&data, &m));
+    baum_report r = report_of(m.mechanism);
+    model_destroy(&m);
+    assert_int_equal(r.nodes, links[k]);
+    assert_int_equal(r.couplings, links[k] - 1);
+    ASSERT_NEAR(r.flops, 172.0 * links[k] + 63.0 * (links[k] - 1), 0.0, 0.0);
+    bytes[k] = r.bytes;
+  }
+  /* So many per link, and so many for ground. */
+  ASSERT_NEAR(bytes[2] - bytes[1], 10.0 * (bytes[1] - bytes[0]), 0.0, 1e-9);
+  assert_true(bytes[0] > 300.0 && bytes[0] < 1000.0);
+}
+
+/* A ring of n pins, off the ground: the first n - 3 that go couple their neighbours. */
+static void fill_is_what_bodies_do_not_make(void **state)
+{
+  (void)state;
+  enum { RING = 9 };
+  baum_mechanism *m = begin();
+  baum_body_id bodies[RING];
+  for (int k = 0; k < RING; k++) {
+    bodies[k] = add_body(m, NULL, cos(2.0 * PI * k / RING), sin(2.0 * PI * k / RING));
+  }
+  for (int k = 0; k < RING; k++) {
+    double angle = 2.0 * PI * (k + 0.5) / RING;
+    pin(m, bodies[k], bodies[(k + 1) % RING], cos(angle), sin(angle));
+  }
+  baum_report r = report_once(m);
+  assert_int_equal(r.nodes, RING);
+  assert_int_equal(r.couplings, 2 * RING - 3);
+  assert_int_equal(r.fill, RING - 3);
+  assert_int_equal(r.most_couplings, 2);
+  assert_int_equal(r.most_joints, 2);
+  assert_int_equal(r.freedoms, 3 * RING - 2 * RING);
+}
+
+static void islands_are_counted(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id a = add_body(m, NULL, 1.0, 0.0);
+  baum_body_id b = add_body(m, NULL, 2.0, 0.0);
+  (void)add_body(m, NULL, 5.0, 5.0);
+  pin(m, BAUM_GROUND, a, 0.0, 0.0);
+  pin(m, a, b, 1.5, 0.0);
+  pin(m, BAUM_GROUND, add_body(m, NULL, 1.0, 3.0), 0.0, 3.0);
+  baum_report r = report_once(m);
+  assert_int_equal(r.islands, 3);
+  assert_int_equal(r.couplings, 1);
+  assert_says(&r,
+              "islands       3, the largest of 2 bodies, 2 joints, 4 rows; they do not couple\n");
+}
+
+static void bodies_that_cannot_move_are_told(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id low = add_body(m, "low", 0.0, -1.0);
+  baum_body_id high = add_body(m, "high", 0.0, 0.0);
+  weld(m, BAUM_GROUND, low);
+  weld(m, low, high);
+  pin_around(m, high, 60);
+  baum_report r = report_once(m);
+  assert_int_equal(r.immobile_bodies, 2);
+  assert_int_equal(r.left_out_bodies, 2);
+  assert_int_equal(r.islands, 60);
+  assert_int_equal(r.nodes, 60);
+  assert_int_equal(r.couplings, 0);
+  assert_int_equal(r.most_joints, 1); /* of what moves */
+  assert_true(r.blocks);
+  assert_says(&r, "60 nodes, 0 couplings; 2 bodies at rest left out;");
+  assert_says(&r, "2 bodies that cannot move, 2 of them left out");
+}
+
+static void no_joints_cost_no_solution(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  (void)add_body(m, NULL, 0.0, 0.0);
+  baum_report r = report_once(m);
+  assert_int_equal(r.nodes, 0);
+  assert_int_equal(r.freedoms, 3);
+  assert_int_equal(r.most_joints, 0);
+  assert_int_equal(r.most_joined.index1, 0);
+  ASSERT_NEAR(r.flops, 65.0, 0.0, 0.0);
+}
+
+/* ---- where blocks do not suit ---- */
+
+static void a_hub_is_named_and_klu_counts(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id hub = add_body(m, "hub", 0.0, 0.0);
+  pin(m, BAUM_GROUND, hub, 0.0, 0.0);
+  pin_around(m, hub, 60);
+  baum_report r = report_once(m);
+  assert_false(r.blocks);
+  assert_int_equal(r.nodes, 0);
+  assert_int_equal(r.most_joints, 61);
+  assert_int_equal(r.most_joined.index1, 1);
+  assert_says(&r,
+              "solver        klu on the whole system: body 1 \"hub\" has 61 joints, too many for "
+              "blocks\n");
+  assert_says(&r, "fill          not by blocks; body 1 \"hub\" has most joints, 61\n");
+  assert_says(&r, "per evaluation, of the solution alone\n");
+  /* 305 unknowns; every number of M, J and J^T at least once, but nothing like a full matrix. */
+  double entries = 61 * 3 + 2 * (60 * 2 * 4 + 2 * 2);
+  assert_true(r.flops > 2.0 * entries && r.flops < 305.0 * 305.0 * 305.0 / 3.0);
+  assert_true(r.bytes > 12.0 * entries && r.bytes < 12.0 * 305.0 * 305.0);
+}
+
+/* ---- where there is no start ---- */
+
+static void what_cannot_be_assembled_has_a_cost_nevertheless(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = add_body(m, NULL, 1.0, 0.0);
+  rod.point_a[0] = 0.0;
+  rod.point_a[1] = 0.0;
+  rod.point_b[0] = 0.0;
+  rod.point_b[1] = 0.0;
+  rod.length = 1.0;
+  must(baum_mechanism_add_planar_distance(m, &rod, NULL));
+  rod.length = 2.0;
+  must(baum_mechanism_add_planar_distance(m, &rod, NULL));
+  baum_report r = report_once(m);
+  assert_int_equal(r.freedoms, -1);
+  assert_int_equal(r.nodes, 2);
+  assert_true(r.flops > 0.0);
+  assert_says(&r, "rows 2\n              cannot be assembled\n");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_slider_crank_is_counted),
+    cmocka_unit_test(a_chain_costs_what_its_links_cost),
+    cmocka_unit_test(fill_is_what_bodies_do_not_make),
+    cmocka_unit_test(islands_are_counted),
+    cmocka_unit_test(bodies_that_cannot_move_are_told),
+    cmocka_unit_test(no_joints_cost_no_solution),
+    cmocka_unit_test(a_hub_is_named_and_klu_counts),
+    cmocka_unit_test(what_cannot_be_assembled_has_a_cost_nevertheless),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
