@@ -136,12 +136,29 @@ void baum_i_look_at_immobile(baum_workspace *w, const double *q, double *v)
 
 /* ---- make and give up ---- */
 
-static baum_status remember(const baum_mechanism *m, const baum_i_left_out *left_out,
+/* Phi is of the position stage. */
+static void remember_rows(const baum_workspace *w, const baum_i_left_out *left_out,
+                          baum_i_immobile *out)
+{
+  const baum_mechanism *m = w->mechanism;
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    for (int i = joint->row; left_out->joints[k] && i < joint->row + joint->rows; i++) {
+      out->row[out->row_count] = i;
+      out->phi[out->row_count++] = w->phi[i];
+    }
+  }
+}
+
+static baum_status remember(const baum_workspace *w, const baum_i_left_out *left_out,
                             const double *q, baum_i_immobile *out)
 {
+  const baum_mechanism *m = w->mechanism;
+  out->row = baum_i_alloc((size_t)m->nc, sizeof *out->row);
+  out->phi = baum_i_alloc((size_t)m->nc, sizeof *out->phi);
   out->velocity = baum_i_alloc((size_t)m->nv, sizeof *out->velocity);
   out->position = baum_i_alloc((size_t)m->nv, sizeof *out->position);
-  if (!out->velocity || !out->position) {
+  if (!out->velocity || !out->position || !out->row || !out->phi) {
     return baum_i_fail_memory();
   }
   for (int i = 1; i <= m->body_count; i++) {
@@ -151,6 +168,7 @@ static baum_status remember(const baum_mechanism *m, const baum_i_left_out *left
       out->position[out->count++] = q[k];
     }
   }
+  remember_rows(w, left_out, out);
   out->rests = true;
   return BAUM_OK;
 }
@@ -163,6 +181,8 @@ void baum_i_immobile_destroy(baum_i_immobile *immobile)
   baum_i_block_path_destroy(immobile->path);
   baum_i_free(immobile->velocity);
   baum_i_free(immobile->position);
+  baum_i_free(immobile->row);
+  baum_i_free(immobile->phi);
   baum_i_free(immobile);
 }
 
@@ -176,7 +196,7 @@ static baum_status leave_out(baum_workspace *w, const baum_i_left_out *left_out,
     status = baum_i_block_path_create(w, left_out, &verdict, &immobile->path);
   }
   if (status == BAUM_OK && immobile->path) {
-    status = remember(w->mechanism, left_out, q, immobile);
+    status = remember(w, left_out, q, immobile);
   }
   if (status != BAUM_OK || !immobile->path) {
     baum_i_immobile_destroy(immobile);
@@ -240,11 +260,25 @@ void baum_i_leave_motion(baum_workspace *w, baum_i_block_path *whole)
   w->path = whole;
 }
 
+/* The rows that nothing evaluates, of which other states may have left something. */
+static void set_rows_at_rest(baum_workspace *w)
+{
+  const baum_i_immobile *immobile = w->immobile;
+  for (int i = 0; i < immobile->row_count; i++) {
+    w->phi[immobile->row[i]] = immobile->phi[i];
+    w->phi_rate[immobile->row[i]] = 0.0;
+    w->gamma[immobile->row[i]] = 0.0;
+  }
+}
+
 baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const double *v,
                           double alpha, double beta)
 {
   baum_i_block_path *whole = baum_i_enter_motion(w);
   baum_status status = baum_i_acceleration(w, t, q, v, alpha, beta);
+  if (w->path != whole) {
+    set_rows_at_rest(w);
+  }
   baum_i_leave_motion(w, whole);
   return status;
 }

@@ -16,6 +16,9 @@ struct baum_i_immobile {
   int count;               /* of velocities */
   int *velocity;           /* (count) which they are */
   double *position;        /* (count) where they rest */
+  int row_count;           /* of what holds them */
+  int *row;                /* (row_count) which they are */
+  double *phi;             /* (row_count) Phi where they rest */
   bool rests;              /* the present state has them there */
 };
 

@@ -423,6 +423,15 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   q[0] += 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
   assert_int_equal(left_out(run), FRAMES);
+  q[0] -= 1e-3;
+  v[0] = 1e-3;
+  assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
+  /* Its violations are not those of the steps that follow. */
+  must(baum_simulation_step(run, 1));
+  baum_counters counters;
+  must(baum_simulation_counters(run, &counters, sizeof counters));
+  assert_true(counters.max_phi < 1e-9);
+  assert_true(counters.max_phi_rate < 1e-9);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(it.mechanism);
 }
