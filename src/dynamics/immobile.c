@@ -190,11 +190,11 @@ void baum_i_immobile_destroy(baum_i_immobile *immobile)
 static baum_status leave_out(baum_workspace *w, const baum_i_left_out *left_out, const double *q)
 {
   baum_i_immobile *immobile = baum_i_alloc(1, sizeof *immobile);
-  baum_i_block_verdict verdict;
-  baum_status status = immobile ? BAUM_OK : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    status = baum_i_block_path_create(w, left_out, &verdict, &immobile->path);
+  if (!immobile) {
+    return baum_i_fail_memory();
   }
+  baum_i_block_verdict verdict;
+  baum_status status = baum_i_block_path_create(w, left_out, &verdict, &immobile->path);
   if (status == BAUM_OK && immobile->path) {
     status = remember(w, left_out, q, immobile);
   }
