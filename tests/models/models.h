@@ -58,16 +58,17 @@ typedef struct model_slider_crank {
   bool driven;  /* the crank turns at 150 rad/s for ever, else only at start */
   bool rough;   /* rod and slider are drawn on one line and out of place, the crank in place */
   bool centric; /* no eccentricity */
-  bool doubled_guide;       /* a second guide on the same line: two redundant rows */
-  bool moving;              /* velocities of all bodies are given, not of the crank alone */
-  double angle;             /* [rad] of the crank at start */
-  double rod;               /* [m] its length; 0: that of the source */
-  double rod_mass;          /* [kg] 0: that of the source */
+  bool doubled_guide; /* a second guide on the same line: two redundant rows */
+  bool moving;        /* velocities of all bodies are given, not of the crank alone */
+  double angle;       /* [rad] of the crank at start */
+  double rod;         /* [m] its length; 0: that of the source */
+  double rod_mass;    /* [kg] 0: that of the source */
+  int frames;         /* bodies welded to the ground, one on the other, that carry the crank */
   const model_units *units; /* NULL: SI */
 } model_slider_crank;
 
-/* Three bodies, three pins, a guide, the second guide if doubled, and the motor if driven.
- * q = (x, y, angle) of crank, rod, slider. */
+/* Three bodies, three pins, a guide, the second guide if doubled, the motor if driven, and frames with
+ * their welds. q = (x, y, angle) of crank, rod, slider, frames. */
 baum_status model_slider_crank_build(model_slider_crank options, model *out);
 
 /* ---- Andrews' squeezing mechanism ------------------------------------------------------------ */

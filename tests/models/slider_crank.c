@@ -95,6 +95,25 @@ static bodies add_bodies(builder *build, const model_slider_crank *options, cons
   return out;
 }
 
+/* Returns the last of them, with its centre of mass at the crank's pin; none: ground. */
+static baum_body_id add_frames(builder *build, int count)
+{
+  baum_body_id last = BAUM_GROUND;
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_planar_fixed_def weld = baum_planar_fixed_def_default();
+  def.mass = 2.0;
+  weld.point_a[0] = weld.point_a[1] = weld.point_b[0] = weld.point_b[1] = 0.0;
+  for (int k = 0; k < count && build_fine(build); k++) {
+    baum_joint_id id = {0};
+    weld.body_a = last;
+    last = build_body(build, &def);
+    weld.body_b = last;
+    baum_status status = baum_mechanism_add_planar_fixed(build->out->mechanism, &weld, &id);
+    build_joint(build, status, id);
+  }
+  return last;
+}
+
 static void add_motor(builder *build, baum_joint_id pin, double angle)
 {
   if (!build_fine(build)) {
@@ -116,8 +135,9 @@ baum_status model_slider_crank_build(model_slider_crank options, model *out)
   build_gravity(&build, 9.81);
   pose at = find_pose(&options);
   bodies body = add_bodies(&build, &options, &at);
-  baum_joint_id pin = build_pin(&build, "A", (place){BAUM_GROUND, {0.0, 0.0}},
-                                (place){body.crank, {-CRANK / 2, 0.0}});
+  baum_body_id frame = add_frames(&build, options.frames);
+  baum_joint_id pin =
+    build_pin(&build, "A", (place){frame, {0.0, 0.0}}, (place){body.crank, {-CRANK / 2, 0.0}});
   build_pin(&build, "B", (place){body.crank, {CRANK / 2, 0.0}},
             (place){body.rod, {-at.rod / 2, 0.0}});
   build_pin(&build, "C", (place){body.rod, {at.rod / 2, 0.0}}, (place){body.slider, {0.0, 0.0}});
