@@ -18,10 +18,10 @@
 #include "linear/block_sides.h"
 
 /* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
- * over this: below the first the result is refined, below the second this solver has nothing to say. In
- * long ladders healthy pivots fall with the number of nodes, and all pivots share what one of few
- * would cost. */
-static const double weak_pivot = 1e-4;
+ * over this, and several small pivots multiply: below the first the result is refined, below the second
+ * this solver has nothing to say. In long ladders healthy pivots fall with the number of nodes, and all
+ * of them share what one of few would cost. */
+static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 static const double bad_pivot = 1e-10;
 
