@@ -198,17 +198,40 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
   return positive ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Rotations by the scale of length; dense bodies are not asked. */
-static bool is_uneven(const baum_mechanism *m, const baum_i_block *block)
+/* Smallest and largest of what has been seen. */
+typedef struct range {
+  double least;
+  double most;
+} range;
+
+static void see(range *r, double x)
 {
-  double least = INFINITY;
-  double most = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    double response = block->response[i] / (m->scale[i] * m->scale[i]);
-    least = response > 0.0 ? fmin(least, response) : least;
-    most = fmax(most, response);
+  r->least = x > 0.0 && x < r->least ? x : r->least;
+  r->most = x > r->most ? x : r->most;
+}
+
+/* Whether joints may hold a light body by a heavy one: how easily a body's side of a pin moves, w_0 + w_2 |p|^2,
+ * and how easily bodies turn that other joints hold by each other. Dense bodies are not asked. */
+static bool is_uneven(const baum_i_block_path *path)
+{
+  const baum_i_block *b = path->block;
+  range moves = {.least = INFINITY};
+  range turns = {.least = INFINITY};
+  for (int i = 0; i < 2 * b->pin_count; i++) {
+    const double *w = b->weight + 2 * (size_t)b->pins[i / 2].triple[i % 2];
+    const double *p = path->points + 2 * (size_t)i;
+    see(&moves, w[0] + w[1] * (p[0] * p[0] + p[1] * p[1]));
   }
-  return block->dense_count > 0 || most > UNEVEN * least;
+  for (int i = 0; i < b->full_count; i++) {
+    const baum_i_full_node *full = &b->fulls[i];
+    for (int k = full->first_side; full->side_count > 1 && k < full->first_side + full->side_count;
+         k++) {
+      see(&moves, b->weight[2 * (size_t)b->side_triple[k]]);
+      see(&turns, b->weight[2 * (size_t)b->side_triple[k] + 1]);
+    }
+  }
+  return b->dense_count > 0 || moves.most > UNEVEN * moves.least ||
+         turns.most > UNEVEN * turns.least;
 }
 
 static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
@@ -224,7 +247,7 @@ static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
   if (status == BAUM_OK) {
     status = prepare_forces(w, path);
   }
-  path->uneven = status == BAUM_OK && is_uneven(w->mechanism, path->block);
+  path->uneven = status == BAUM_OK && is_uneven(path);
   path->always_check = path->block && path->block->node_count > FEW_NODES;
   return status;
 }
@@ -380,8 +403,10 @@ static bool has_cancelled(const baum_i_block *block)
   double before = 0.0;
   double after = 0.0;
   for (int i = 0; i < block->motion_size; i++) {
-    before = fmax(before, fabs(block->from[i]));
-    after = fmax(after, fabs(block->motion[i]));
+    double a0 = fabs(block->from[i]);
+    double a = fabs(block->motion[i]);
+    before = a0 > before ? a0 : before;
+    after = a > after ? a : after;
   }
   return before > CANCELLED * after;
 }

@@ -175,7 +175,8 @@ static baum_i_pivots eliminate(baum_i_block *b)
   baum_i_node *nodes = b->nodes;
   double *off = b->off;
   double margin = INFINITY;
-  double weak = weak_pivot * fmin(1.0, many_nodes / b->node_count);
+  double few = fmin(1.0, many_nodes / b->node_count);
+  double weak = weak_pivot * few * sqrt(few);
   for (ptrdiff_t k = 0; k < b->node_count; k++) {
     baum_i_node *node = &nodes[k];
     const double *d = node->pivot;
