@@ -4,9 +4,9 @@
  *
  *  A mechanism is made by `add` calls, then frozen, then constant; a frozen one may be shared
  *  between threads. *Bodies* are anything with coordinates (planar.h, or user coordinates below),
- *  *joints* anything with constraint rows (planar.h, drivers, or user constraints), *forces* the
- *  rest. A mechanism that is given wholly by functions of the user is one body of user coordinates
- *  and one user constraint.
+ *  *joints* anything with constraint rows (planar.h, planar_joints.h, drivers, couplings, or user
+ *  constraints), *forces* the rest. A mechanism that is given wholly by functions of the user is one
+ *  body of user coordinates and one user constraint.
  *
  *  Equations (Flores et al. 2008, numbers in brackets): constraints Phi(q, t) = 0 (1), their rate
  *  Phi' = J v - nu (3), their second derivative J a - gamma (4), and M a + J^T lambda = g (2).

@@ -88,7 +88,7 @@ typedef struct baum_planar_rack_and_pinion_def {
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
-  double radius;  /**< [m] of the pinion, not 0; the sign as above. Default: 0, must be set. */
+  double radius;  /**< [m] of its pitch circle, not 0; sign as above. Default: 0, must be set. */
   double offset;  /**< [m] that is kept. Default: NaN, that of the drawn pose. */
 } baum_planar_rack_and_pinion_def;
 
@@ -148,8 +148,10 @@ typedef struct baum_planar_gear_def {
   baum_body_id body_a;  /**< Default: none, must be set. */
   baum_body_id body_b;  /**< Default: none, must be set; not body_a. */
   baum_body_id carrier; /**< Neither body_a nor body_b. Default: BAUM_GROUND. */
-  double radius_a;      /**< [m] not 0; negative: internal teeth. Default: 0, must be set. */
-  double radius_b;      /**< [m] not 0; negative: internal teeth. Default: 0, must be set. */
+  double radius_a;      /**< [m] of its pitch circle, not 0; negative: internal teeth.
+                             Default: 0, must be set. */
+  double radius_b;      /**< [m] of its pitch circle, not 0; negative: internal teeth.
+                             Default: 0, must be set. */
   double offset;        /**< [m] that is kept. Default: NaN, that of the drawn pose. */
 } baum_planar_gear_def;
 

@@ -247,23 +247,25 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
 
 /* ---- what comes out -------------------------------------------------------------------------- */
 
-/** What a channel holds; in brackets its number of columns. Accelerations, multipliers, reactions
- *  and efforts come from one solution of (5) at the present state, without stabilization terms,
- *  which is made only when a channel asks for one of them. The effort of a driver is its force [N]
- *  or torque [N m] on the coordinate it drives: times the coordinate's rate it is the power that
- *  the driver puts into the mechanism. */
+/** What a channel holds; in brackets its number of columns. Units are m, rad, N, N m and s, or what
+ *  those of a user's coordinates and rows make of them; a multiplier has J per unit of its row.
+ *  Accelerations, multipliers, reactions and efforts come from one solution of (5) at the present
+ *  state, without stabilization terms, which is made only when a channel asks for one of them. The
+ *  effort of a driver is its force [N] or torque [N m] on the coordinate it drives: times the
+ *  coordinate's rate it is the power that the driver puts into the mechanism. */
 typedef enum baum_quantity {
   BAUM_Q = 1,         /**< Positions (nq). */
   BAUM_V = 2,         /**< Velocities (nv). */
   BAUM_A = 3,         /**< Accelerations (nv). */
   BAUM_LAMBDA = 4,    /**< Multipliers of `joint`, or of all (nc). */
   BAUM_PHI = 5,       /**< Constraint violation of `joint`, or of all (nc). */
-  BAUM_PHI_RATE = 6,  /**< Its rate J v - nu. */
+  BAUM_PHI_RATE = 6,  /**< Its rate J v - nu, of `joint`, or of all (nc). */
   BAUM_ENERGY = 7,    /**< Kinetic and potential energy [J] (2). */
   BAUM_BODY_POSE = 8, /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
   BAUM_BODY_VELOCITY = 9,      /**< Likewise velocities. */
-  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3); of others, such as user
-                                    constraints, gears and couplings, -J^T lambda. */
+  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3), see planar.h; of others, such as
+                                    user constraints, gears and couplings, -J^T lambda over the
+                                    velocities of their bodies. */
   BAUM_JOINT_COORDINATE = 11,  /**< Coordinate and rate of a joint that has one (2). */
   BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_POSE: x'', y'' and angular acceleration. */
   BAUM_DRIVE_EFFORT = 13       /**< Effort of the driver `joint` (1). */

@@ -55,11 +55,11 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   char joint[BAUM_I_LABEL_SIZE];
   name_worst_joint(run, run->trial.t, drawn, joint);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
-                     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g; the drawing "
-                     "fits least in %s; draw the start pose closer",
+                     "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
+                     "drawing fits least in %s; draw the start pose closer",
                      run->trial.t, baum_i_label(&body->element, "body", label),
                      fabs(run->trial.q[coordinate] - drawn[coordinate]), unit_of(body, coordinate),
-                     limit * scale, joint);
+                     limit * scale, unit_of(body, coordinate), joint);
 }
 
 /* Largest displacement of all into `largest`. */

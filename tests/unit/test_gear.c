@@ -145,9 +145,11 @@ static void wrong_bodies_are_refused(void **state)
   planar_scene scene = planar_scene_make();
   baum_planar_gear_def def = good(&scene);
   def.carrier = scene.link;
-  check_refused(scene.mechanism, add, &def, "joint 1 \"G\": carrier and body_a are the same body");
+  check_refused(scene.mechanism, add, &def,
+                "joint 1 \"G\": carrier and body_a are both body 1 \"link\"");
   def.carrier = scene.crank;
-  check_refused(scene.mechanism, add, &def, "joint 1 \"G\": carrier and body_b are the same body");
+  check_refused(scene.mechanism, add, &def,
+                "joint 1 \"G\": carrier and body_b are both body 3 \"crank\"");
   def.carrier = scene.ball;
   check_refused(scene.mechanism, add, &def,
                 "joint 1 \"G\": carrier is body 2 \"ball\", which has no angle");
@@ -155,7 +157,7 @@ static void wrong_bodies_are_refused(void **state)
   check_refused(scene.mechanism, add, &def, "joint 1 \"G\": carrier is none, must be given");
   def = good(&scene);
   def.body_b = BAUM_GROUND;
-  check_refused(scene.mechanism, add, &def, "joint 1 \"G\": carrier and body_b are the same body");
+  check_refused(scene.mechanism, add, &def, "joint 1 \"G\": carrier and body_b are both ground");
   def.body_b = scene.bead;
   check_refused(scene.mechanism, add, &def,
                 "joint 1 \"G\": body_b is body 4 \"bead\", which has no angle");
