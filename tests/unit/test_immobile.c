@@ -282,6 +282,9 @@ static void bodies_left_out_do_not_move_by_a_digit(void **state)
   mounted it = make_mounted();
   for (int32_t k = 0; baum_integrator_at(k); k++) {
     const baum_integrator *integrator = baum_integrator_at(k);
+    if (!baum_integrator_has_fixed_step(integrator) && !BAUM_HAVE_SUNDIALS) {
+      continue;
+    }
     for (int f = 0; integrator->formulations[f] != BAUM_FORMULATION_DEFAULT; f++) {
       baum_simulation_options o = baum_simulation_options_default();
       o.integrator = integrator;
