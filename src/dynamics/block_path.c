@@ -131,20 +131,6 @@ static baum_status arrange_joints(const baum_workspace *w, const baum_i_left_out
   return status;
 }
 
-/* Forces of bodies, either those that depend on nothing or all others, added to `force`. */
-static baum_status add_body_forces(baum_workspace *w, bool constant, double *force)
-{
-  const baum_mechanism *m = w->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < m->body_group_count && status == BAUM_OK; k++) {
-    const baum_i_body_group *group = &m->body_groups[k];
-    if (group->type->constant_force == constant) {
-      status = group->type->force(group, &w->point, force);
-    }
-  }
-  return status;
-}
-
 static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
@@ -156,7 +142,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   for (int k = 0; k < m->body_group_count; k++) {
     path->force_is_constant = path->force_is_constant && m->body_groups[k].type->constant_force;
   }
-  baum_status status = add_body_forces(w, true, path->constant_force);
+  baum_status status = baum_i_mechanism_add_body_forces(&w->point, true, path->constant_force);
   if (status == BAUM_OK && path->force_is_constant) {
     memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
     path->sides_kernel->set_force(path->block, w->force);
@@ -311,17 +297,12 @@ static baum_status evaluate_joints(baum_workspace *w, bool bending)
 static baum_status evaluate_forces(baum_workspace *w, bool wanted)
 {
   const baum_i_block_path *path = w->path;
-  const baum_mechanism *m = w->mechanism;
   baum_i_block_use_force(path->block, wanted);
   if (path->force_is_constant || !wanted) {
     return BAUM_OK;
   }
-  memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
-  baum_status status = add_body_forces(w, false, w->force);
-  for (int k = 0; k < m->force_group_count && status == BAUM_OK; k++) {
-    const baum_i_force_group *group = &m->force_groups[k];
-    status = group->type->force(group, &w->point, w->force);
-  }
+  memcpy(w->force, path->constant_force, (size_t)w->mechanism->nv * sizeof *w->force);
+  baum_status status = baum_i_mechanism_add_varying_forces(&w->point, w->force);
   if (status == BAUM_OK) {
     path->sides_kernel->set_force(path->block, w->force);
   }

@@ -133,20 +133,35 @@ baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass)
   return status;
 }
 
-baum_status baum_i_mechanism_force(baum_i_point *point, double *force)
+baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  clear(force, mechanism->nv);
   baum_status status = BAUM_OK;
   for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
-    status = group->type->force(group, point, force);
+    if (group->type->constant_force == constant) {
+      status = group->type->force(group, point, force);
+    }
   }
+  return status;
+}
+
+baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  baum_status status = baum_i_mechanism_add_body_forces(point, false, force);
   for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
     const baum_i_force_group *group = &mechanism->force_groups[k];
     status = group->type->force(group, point, force);
   }
   return status;
+}
+
+baum_status baum_i_mechanism_force(baum_i_point *point, double *force)
+{
+  clear(force, point->mechanism->nv);
+  baum_status status = baum_i_mechanism_add_body_forces(point, true, force);
+  return status == BAUM_OK ? baum_i_mechanism_add_varying_forces(point, force) : status;
 }
 
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)

@@ -414,6 +414,10 @@ baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu);             /*
 baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma);       /* (nc) */
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass);         /* (mass_size) */
 baum_status baum_i_mechanism_force(baum_i_point *point, double *force);       /* (nv) */
+/* Its parts, added to (nv): of bodies whose force depends on parameters only, or of the others; */
+baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force);
+/* of those others and of all forces. */
+baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force);
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential);
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
                                               const baum_i_body_blocks *blocks);
