@@ -114,3 +114,33 @@ void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double dire
   memcpy(out->gamma_q, row.gamma_q, sizeof row.gamma_q);
   memcpy(out->gamma_v, row.gamma_v, sizeof row.gamma_v);
 }
+
+/* ---- members of types ---- */
+
+static void linearize_normal(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                             baum_i_planar_blocks *out)
+{
+  baum_i_axis_row_linearize(pair, pair->numbers + BAUM_I_AXIS_NORMAL, w, lambda[0], out);
+}
+
+baum_status baum_i_axis_joint_linearize(const baum_i_joint_group *group, baum_i_point *point,
+                                        const double *w, const double *lambda,
+                                        const baum_i_joint_blocks *blocks)
+{
+  return baum_i_planar_linearize(group, point, w, lambda, linearize_normal, blocks);
+}
+
+void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+                                  baum_i_coordinate *out)
+{
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  baum_i_axis_coordinate(&pair, pair.numbers + BAUM_I_AXIS, out);
+}
+
+void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+                                            const double w[6], double lambda,
+                                            baum_i_coordinate_blocks *out)
+{
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  baum_i_axis_linearize(&pair, pair.numbers + BAUM_I_AXIS, w, lambda, out);
+}

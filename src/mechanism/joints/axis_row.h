@@ -111,4 +111,18 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
 
+/* ---- members of types whose numbers, after both points, begin with an axis and its normal, and whose one
+ * row that is not linear is the projection on the normal ---- */
+
+enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
+
+baum_status baum_i_axis_joint_linearize(const baum_i_joint_group *group, baum_i_point *point,
+                                        const double *w, const double *lambda,
+                                        const baum_i_joint_blocks *blocks);
+void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+                                  baum_i_coordinate *out);
+void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+                                            const double w[6], double lambda,
+                                            baum_i_coordinate_blocks *out);
+
 #endif

@@ -11,7 +11,7 @@
 #include "mechanism/joints/axis_row.h"
 
 /* Own numbers, after both points. */
-enum { AXIS = 0, NORMAL = 2, OWN_COUNT = 4 };
+enum { OWN_COUNT = BAUM_I_AXIS_NUMBERS };
 
 static const baum_planar_pin_in_slot_def defaults = {
   .struct_size = sizeof(baum_planar_pin_in_slot_def),
@@ -49,7 +49,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   const baum_planar_pin_in_slot_def *def = joint->element.def;
   baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
-  baum_i_axis_lower(def->axis, def->point, &a, numbers + AXIS, numbers + NORMAL);
+  baum_i_axis_lower(def->axis, def->point, &a, numbers + BAUM_I_AXIS, numbers + BAUM_I_AXIS_NORMAL);
   return BAUM_OK;
 }
 
@@ -57,23 +57,17 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 
 static void one_phi(const baum_i_planar_pair *pair, double *out)
 {
-  out[0] = baum_i_axis_value(pair, pair->numbers + NORMAL);
+  out[0] = baum_i_axis_value(pair, pair->numbers + BAUM_I_AXIS_NORMAL);
 }
 
 static void one_jacobian(const baum_i_planar_pair *pair, double *six)
 {
-  baum_i_axis_gradient(pair, pair->numbers + NORMAL, six);
+  baum_i_axis_gradient(pair, pair->numbers + BAUM_I_AXIS_NORMAL, six);
 }
 
 static void one_gamma(const baum_i_planar_pair *pair, double *out)
 {
-  out[0] = baum_i_axis_gamma(pair, pair->numbers + NORMAL);
-}
-
-static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
-                          baum_i_planar_blocks *out)
-{
-  baum_i_axis_row_linearize(pair, pair->numbers + NORMAL, w, lambda[0], out);
+  out[0] = baum_i_axis_gamma(pair, pair->numbers + BAUM_I_AXIS_NORMAL);
 }
 
 /* ---- type ---- */
@@ -83,25 +77,6 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 {
   static const baum_i_planar_kernels kernels = {one_phi, one_jacobian, one_gamma};
   return baum_i_planar_evaluate(group, point, &kernels, out);
-}
-
-static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(group, point, w, lambda, one_linearize, blocks);
-}
-
-static void coordinate(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out)
-{
-  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-  baum_i_axis_coordinate(&pair, pair.numbers + AXIS, out);
-}
-
-static void coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
-                                 const double w[6], double lambda, baum_i_coordinate_blocks *out)
-{
-  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-  baum_i_axis_linearize(&pair, pair.numbers + AXIS, w, lambda, out);
 }
 
 static const baum_i_joint_type type = {
@@ -116,11 +91,11 @@ static const baum_i_joint_type type = {
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .evaluate = evaluate,
-  .linearize = linearize,
+  .linearize = baum_i_axis_joint_linearize,
   .place = baum_i_planar_place,
   .coordinate_unit = "m",
-  .coordinate = coordinate,
-  .coordinate_linearize = coordinate_linearize,
+  .coordinate = baum_i_axis_joint_coordinate,
+  .coordinate_linearize = baum_i_axis_joint_coordinate_linearize,
 };
 
 BAUM_I_DEFINE(joint, planar_pin_in_slot, type)
