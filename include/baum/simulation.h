@@ -63,9 +63,11 @@ BAUM_API const baum_integrator *baum_integrator_at(int32_t k);
 BAUM_API const char *baum_integrator_name(const baum_integrator *integrator);
 /** Order of accuracy of a fixed-step integrator, 0 for variable order or NULL. */
 BAUM_API int32_t baum_integrator_order(const baum_integrator *integrator);
-/** Whether the integrator takes `step` (true) or `rtol` (false; baum_kinematics() takes neither).
- *  NULL gives false. */
+/** Whether the integrator takes `step`. NULL gives false. */
 BAUM_API bool baum_integrator_has_fixed_step(const baum_integrator *integrator);
+/** Whether the integrator takes `rtol`; one that takes both is given one of them, and
+ *  baum_kinematics() takes neither. NULL gives false. */
+BAUM_API bool baum_integrator_has_variable_step(const baum_integrator *integrator);
 
 /** Form of the equations of motion; h is the step. */
 typedef enum baum_formulation {
@@ -131,6 +133,10 @@ typedef struct baum_simulation_options {
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
   void *user;                 /**< Passed to progress, not owned. Default: NULL. */
+  double tolerance_q;         /**< [-] > 0, factor on rtol and atol for positions. Default: 1. */
+  double tolerance_v;         /**< [-] > 0, likewise for velocities. Default: 1. */
+  double tolerance_lambda;    /**< [-] > 0, likewise for multipliers, which IDA alone has among its
+                                unknowns. Default: infinity, they are not tested. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.

@@ -3,8 +3,8 @@
  * questions about stability. Names no integrator, so that a program links only those it calls.
  *
  * Tolerances of coordinate i with scale s_i (a length or an angle), rate w = 1/T and present size |v|:
- *   position  rtol s_i + atol
- *   velocity  rtol s_i max(w, max_k |v_k| / s_k) + atol
+ *   position  f_q (rtol s_i + atol)
+ *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
  * so that neither the number of turns of a crank nor the choice of units makes a difference.
  */
 #include "integrate/integrator.h"
@@ -29,6 +29,11 @@ int32_t baum_integrator_order(const baum_integrator *integrator)
 bool baum_integrator_has_fixed_step(const baum_integrator *integrator)
 {
   return integrator && integrator->step;
+}
+
+bool baum_integrator_has_variable_step(const baum_integrator *integrator)
+{
+  return integrator && integrator->advance && !integrator->without_freedom;
 }
 
 bool baum_integrator_offers(const baum_integrator *integrator, baum_formulation formulation)
@@ -78,6 +83,11 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
   return baum_i_motion(problem->workspace, t, q, v, alpha, stabilized ? problem->beta : 0.0);
 }
 
+bool baum_i_problem_has_fixed_step(const baum_i_problem *problem)
+{
+  return !isnan(problem->step);
+}
+
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v)
 {
@@ -88,8 +98,8 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
   }
   for (int i = 0; i < mechanism->nv; i++) {
     double tolerance = problem->rtol * mechanism->scale[i];
-    tolerance_q[i] = tolerance + problem->atol;
-    tolerance_v[i] = tolerance * rate + problem->atol;
+    tolerance_q[i] = problem->tolerance_q * (tolerance + problem->atol);
+    tolerance_v[i] = problem->tolerance_v * (tolerance * rate + problem->atol);
   }
 }
 

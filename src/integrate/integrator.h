@@ -17,13 +17,17 @@
 typedef struct baum_i_problem {
   baum_workspace *workspace;
   baum_formulation formulation;
-  double alpha;     /* [1/s] >= 0 */
-  double beta;      /* [1/s] >= 0 */
-  double direction; /* +1 forward, -1 backward in time: alpha carries it */
-  double rtol;      /* NaN for fixed step */
-  double atol;      /* >= 0 */
-  double rate;      /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
-  double max_step;  /* [s] > 0, INFINITY for none; variable step */
+  double alpha;            /* [1/s] >= 0 */
+  double beta;             /* [1/s] >= 0 */
+  double direction;        /* +1 forward, -1 backward in time: alpha carries it */
+  double step;             /* [s] > 0, or NaN: variable */
+  double rtol;             /* NaN for fixed step */
+  double atol;             /* >= 0 */
+  double rate;             /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
+  double max_step;         /* [s] > 0, INFINITY for none; variable step */
+  double tolerance_q;      /* [-] > 0, factors on rtol and atol */
+  double tolerance_v;      /* [-] > 0 */
+  double tolerance_lambda; /* [-] > 0, INFINITY: multipliers are outside of the error test */
 } baum_i_problem;
 
 /* Time, positions, velocities. */
@@ -57,18 +61,23 @@ struct baum_integrator {
   void (*destroy)(void *self); /* NULL is fine */
 
   /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by
-   * the caller through baum_i_problem_motion(). state->t is set by the caller. NULL for variable step. */
+   * the caller through baum_i_problem_motion(). state->t is set by the caller. NULL where there is only variable step.
+   * A method that has this and `advance` takes the one that problem->step asks for. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Variable step; NULL for fixed step. */
+  /* Fixed step, methods with a memory: the last step is kept; before, it may have been a trial that is not. NULL for
+   * one-step methods. */
+  void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
+
+  /* Variable step; NULL where there is only fixed step. */
   /* One step of its own length in problem->direction; state receives its end. On failure the state is that of the
    * last good step, from which the next call begins anew. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Begin anew from a state, in problem->direction. Allocates nothing. */
+  /* Begin anew from a state, in problem->direction. Allocates nothing. NULL where nothing is remembered. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
@@ -81,8 +90,11 @@ baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t,
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v);
 
+/* Of fixed step? Else variable, or kinematics. */
+bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
+
 /* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
- * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i. */
+ * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
 

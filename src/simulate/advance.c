@@ -4,8 +4,8 @@
  * Fixed step: times are origin + k h. A step is made on the trial state, projected there if the
  * formulation says so, checked, and only then becomes the present state. A sample off the grid is
  * such a trial that is not kept.
- * Variable step: the method runs ahead by whole steps of its own;
- * what is reported is interpolated inside the last.
+ * Variable step: the method runs ahead by whole steps of its own; what is reported is interpolated
+ * inside the last, and this copy is projected if the formulation says so.
  */
 #include <math.h>
 #include <string.h>
@@ -46,7 +46,7 @@ static bool progress_cancels(baum_simulation *run)
  * its last step ended, which a variable-step method keeps ahead. */
 static baum_status may_go_on(baum_simulation *run, int64_t taken)
 {
-  double t = run->integrator->step ? run->state.t : run->ahead.t;
+  double t = baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
   if (atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run)) {
     return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", t);
   }
@@ -117,6 +117,9 @@ static void keep_trial(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
+  if (run->integrator->accept) {
+    run->integrator->accept(run->self, &run->problem, &run->state);
+  }
 }
 
 /* ---- a fixed-step method to a target ---- */
@@ -221,6 +224,9 @@ static baum_status interpolate(baum_simulation *run, double t)
     run->trial.t = t;
     status = check_finite(run, &run->trial);
   }
+  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
+    status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
+  }
   if (status == BAUM_OK) {
     baum_i_run_copy(run, &run->trial, &run->state);
   }
@@ -280,7 +286,8 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
   if (status != BAUM_OK) {
     return status;
   }
-  return run->integrator->step ? advance_fixed(run, t, taken) : advance_variable(run, t, taken);
+  return baum_i_problem_has_fixed_step(&run->problem) ? advance_fixed(run, t, taken)
+                                                      : advance_variable(run, t, taken);
 }
 
 /* Look at the state where the call ends, which no later step has looked at yet. */
@@ -334,7 +341,7 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
 
 static baum_status one_step(baum_simulation *run)
 {
-  if (run->integrator->step) {
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
     return whole_step(run, 1);
   }
   baum_status status = internal_step(run);
@@ -421,8 +428,8 @@ static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t
                               const baum_i_state **at)
 {
   *at = &run->state;
-  return last || !run->integrator->step ? advance(run, t, taken)
-                                        : advance_beside(run, t, taken, at);
+  bool beside = !last && baum_i_problem_has_fixed_step(&run->problem);
+  return beside ? advance_beside(run, t, taken, at) : advance(run, t, taken);
 }
 
 baum_status baum_simulation_sample(baum_simulation *simulation, const double *times, int64_t n,

@@ -59,7 +59,7 @@ static void say_integrator(baum_simulation *run)
         run->integrator->name);
     return;
   }
-  if (run->integrator->step) {
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
     say(run, "integrator    %s, order %d, fixed step %.6g s\n", run->integrator->name,
         run->integrator->order, o->step);
     return;

@@ -23,6 +23,9 @@ void baum_simulation_options_init(baum_simulation_options *options, size_t calle
     .check_derivatives = true,
     .max_steps = 1000000000,
     .progress_interval = 0.05,
+    .tolerance_q = 1.0,
+    .tolerance_v = 1.0,
+    .tolerance_lambda = INFINITY,
   };
   size_t bytes = caller_size < sizeof defaults ? caller_size : sizeof defaults;
   defaults.struct_size = bytes;
@@ -52,6 +55,18 @@ static baum_status check_step(const baum_simulation_options *o)
       return baum_i_fail(BAUM_ERR_ARGUMENT,
                          "simulation options: %s is %g, but %s has a fixed step; give step alone",
                          fields[k], values[k], name);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_factors(const baum_simulation_options *o)
+{
+  const char *const fields[3] = {"tolerance_q", "tolerance_v", "tolerance_lambda"};
+  const double values[3] = {o->tolerance_q, o->tolerance_v, o->tolerance_lambda};
+  for (int k = 0; k < 3; k++) {
+    if (!(values[k] > 0.0)) {
+      return refuse(fields[k], "", values[k], "must be > 0");
     }
   }
   return BAUM_OK;
@@ -98,7 +113,21 @@ static baum_status check_tolerance(const baum_simulation_options *o)
   if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
     return refuse("atol", "", o->atol, "must be finite and >= 0");
   }
-  return check_max_step(o);
+  baum_status status = check_factors(o);
+  return status == BAUM_OK ? check_max_step(o) : status;
+}
+
+/* Methods of either kind go by what is given. */
+static baum_status check_either(const baum_simulation_options *o)
+{
+  if (isnan(o->step) == isnan(o->rtol)) {
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "simulation options: %s takes step for steps of one length or rtol for steps "
+      "of its own choice, %s",
+      o->integrator->name, isnan(o->step) ? "and neither is given" : "not both of them");
+  }
+  return isnan(o->step) ? check_tolerance(o) : check_step(o);
 }
 
 static baum_status check_steps(const baum_simulation_options *o)
@@ -106,7 +135,10 @@ static baum_status check_steps(const baum_simulation_options *o)
   if (o->integrator->without_freedom) {
     return check_neither(o);
   }
-  return baum_integrator_has_fixed_step(o->integrator) ? check_step(o) : check_tolerance(o);
+  if (o->integrator->step && o->integrator->advance) {
+    return check_either(o);
+  }
+  return o->integrator->step ? check_step(o) : check_tolerance(o);
 }
 
 static baum_status check_choices(const baum_simulation_options *o)

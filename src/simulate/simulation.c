@@ -86,9 +86,13 @@ static baum_status choose_problem(baum_simulation *run)
     .workspace = run->workspace,
     .formulation = o->formulation,
     .direction = 1.0,
+    .step = o->step,
     .rtol = o->rtol,
     .atol = isnan(o->atol) ? 0.0 : o->atol,
     .max_step = isnan(o->max_step) ? (double)INFINITY : o->max_step,
+    .tolerance_q = o->tolerance_q,
+    .tolerance_v = o->tolerance_v,
+    .tolerance_lambda = o->tolerance_lambda,
   };
   baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
   if (status != BAUM_OK) {

@@ -227,6 +227,9 @@ const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, progress, FUNCTION),
   FIELD(baum_simulation_options, progress_interval, NUMBERS),
   FIELD(baum_simulation_options, user, FUNCTION),
+  FIELD(baum_simulation_options, tolerance_q, NUMBERS),
+  FIELD(baum_simulation_options, tolerance_v, NUMBERS),
+  FIELD(baum_simulation_options, tolerance_lambda, NUMBERS),
 };
 
 /* ---- the table ---- */

@@ -51,7 +51,11 @@ static void define_problem(integrator_run *run, const integrator_setup *setup)
   run->problem.beta = setup->gain;
   run->problem.direction = setup->direction;
   run->problem.rtol = fixed ? (double)NAN : setup->rtol;
+  run->problem.step = fixed ? setup->step : (double)NAN;
   run->problem.max_step = (double)INFINITY;
+  run->problem.tolerance_q = 1.0;
+  run->problem.tolerance_v = 1.0;
+  run->problem.tolerance_lambda = (double)INFINITY;
   run->step = setup->step;
 }
 

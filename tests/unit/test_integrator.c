@@ -122,7 +122,12 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism *mechanism = make_pendulum();
   double scale[2] = {mechanism->scale[0], mechanism->scale[1]};
   baum_workspace workspace = {.mechanism = mechanism};
-  baum_i_problem problem = {.workspace = &workspace, .rtol = 1e-3, .atol = 1e-5, .rate = 2.0};
+  baum_i_problem problem = {.workspace = &workspace,
+                            .rtol = 1e-3,
+                            .atol = 1e-5,
+                            .rate = 2.0,
+                            .tolerance_q = 1.0,
+                            .tolerance_v = 1.0};
   double slow[2] = {0.5 * scale[0], 0.0};
   double fast[2] = {0.5 * scale[0], -7.0 * scale[1]};
   double q[2];

@@ -469,6 +469,9 @@ class baum_simulation_options(Structure):
         ("progress", baum_progress_fn),
         ("progress_interval", c_double),
         ("user", c_void_p),
+        ("tolerance_q", c_double),
+        ("tolerance_v", c_double),
+        ("tolerance_lambda", c_double),
     ]
 
 
@@ -800,6 +803,7 @@ PROTOTYPES = {
     "baum_integrator_name": (c_char_p, [c_void_p]),
     "baum_integrator_order": (c_int32, [c_void_p]),
     "baum_integrator_has_fixed_step": (c_bool, [c_void_p]),
+    "baum_integrator_has_variable_step": (c_bool, [c_void_p]),
     "baum_formulation_name": (c_char_p, [c_int]),
     "baum_integrator_offers": (c_bool, [c_void_p, c_int]),
     "baum_simulation_options_init": (None, [POINTER(baum_simulation_options), c_size_t]),

@@ -56,6 +56,9 @@ CONVERT = {
     "check_derivatives": bool,
     "max_steps": lambda value: integer(value, "max_steps"),
     "progress_interval": _number("progress_interval"),
+    "tolerance_q": _number("tolerance_q"),
+    "tolerance_v": _number("tolerance_v"),
+    "tolerance_lambda": _number("tolerance_lambda"),
 }
 
 
@@ -96,7 +99,8 @@ class Simulation:
     integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
     "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
     allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
-    rtol, atol for the others, and max_step [s] where a force begins late; "kinematics", for
+    rtol, atol for the others, tolerance_q, tolerance_v, tolerance_lambda for factors on them, and
+    max_step [s] where a force begins late; "kinematics", for
     mechanisms whose drivers leave no freedom, takes neither. start_time [s], default 0. start:
     "assemble", "exact", "as_given". solver: "auto", "klu", "qr", "block". check_derivatives: compare
     given derivatives with differences first. max_steps of one call. progress(t) is called every
