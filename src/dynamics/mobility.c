@@ -2,23 +2,15 @@
 /* What a mechanism can do at its assembled start pose:
  * freedoms, redundant and conflicting rows, by name. */
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/message.h"
+#include "base/text.h"
 #include "dynamics/dynamics.h"
 
 /* Append to the report's text; what does not fit is cut. */
-static void BAUM_I_PRINTF(2, 3) say(baum_mobility *report, const char *format, ...)
-{
-  size_t used = strlen(report->text);
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(report->text + used, sizeof report->text - used, format, arguments);
-  va_end(arguments);
-}
+#define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 /* jointed (body_count + 1) */
 static void mark_jointed(const baum_mechanism *m, bool *jointed)

@@ -6,19 +6,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/message.h"
+#include "base/text.h"
 #include "dynamics/immobile.h"
 #include "dynamics/islands.h"
 
 /* Append to the report's text; what does not fit is cut. */
-static void BAUM_I_PRINTF(2, 3) say(baum_report *report, const char *format, ...)
-{
-  size_t used = strlen(report->text);
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(report->text + used, sizeof report->text - used, format, arguments);
-  va_end(arguments);
-}
+#define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
 static const char *plural(int count)
 {

@@ -1,20 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a run is, in words. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
+#include "base/text.h"
 #include "simulate/run.h"
 
-static void BAUM_I_PRINTF(2, 3) say(baum_simulation *run, const char *format, ...)
-{
-  size_t used = strlen(run->explain);
-  va_list arguments;
-  va_start(arguments, format);
-  (void)vsnprintf(run->explain + used, sizeof run->explain - used, format, arguments);
-  va_end(arguments);
-}
+#define say(run, ...) baum_i_append((run)->explain, sizeof(run)->explain, __VA_ARGS__)
 
 static const char *formulation_text(baum_formulation formulation)
 {
