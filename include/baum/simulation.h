@@ -37,6 +37,15 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** The classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2(). */
 BAUM_API const baum_integrator *baum_rk4(void);
+/** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (auto),
+ *  UNSTABILIZED; its past cannot be projected. Begins with Runge-Kutta steps, also after
+ *  baum_simulation_set_state(), _set_input() and _set_driver(), a turn in time and a target off the
+ *  grid. */
+BAUM_API const baum_integrator *baum_ab2(void);
+/** Adams-Bashforth of three steps, order 3. Otherwise as baum_ab2(). */
+BAUM_API const baum_integrator *baum_ab3(void);
+/** Adams-Bashforth of four steps, order 4. Otherwise as baum_ab2(). */
+BAUM_API const baum_integrator *baum_ab4(void);
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);

@@ -107,6 +107,9 @@ static baum_status take_fixed_step(integrator_run *run)
   if (run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
     status = baum_i_project(run->workspace, state->t, state->q, state->v);
   }
+  if (status == BAUM_OK && run->integrator->accept) {
+    run->integrator->accept(run->self, &run->problem, state);
+  }
   return status;
 }
 

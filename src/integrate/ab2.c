@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The explicit Adams method of two steps, order 2 (J. C. Adams, in: F. Bashforth, 1883).
+ *
+ *   w_0 = theta + theta^2/2,  w_1 = -theta^2/2;  b = 3/2, -1/2
+ *
+ * A violation obeys z^2 = z + mu (3 z - 1)/2: stable on alpha = beta up to alpha h = 1.
+ */
+#include "integrate/adams_bashforth.h"
+
+static const double WEIGHTS[] = {
+  1.0, 1.0 / 2.0,  //
+  0.0, -1.0 / 2.0, //
+};
+
+static const baum_i_adams_table TABLE = {.steps = 2, .weights = WEIGHTS};
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  return baum_i_adams_create(&TABLE, problem, start, out);
+}
+
+static const baum_integrator INTEGRATOR = {
+  .name = "ab2",
+  .order = 2,
+  .formulations = baum_i_adams_formulations,
+  .gains = BAUM_GAINS_AUTO,
+  .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
+             .degree = 2,
+             .coefficients = {3.0 / 2.0, -1.0 / 2.0}},
+  .create = create,
+  .destroy = baum_i_adams_destroy,
+  .step = baum_i_adams_step,
+  .accept = baum_i_adams_accept,
+  .restart = baum_i_adams_restart,
+};
+
+const baum_integrator *baum_ab2(void)
+{
+  return &INTEGRATOR;
+}

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The explicit Adams method of three steps, order 3 (J. C. Adams, in: F. Bashforth, 1883).
+ *
+ *   w_0 = theta + 3 theta^2/4 + theta^3/6
+ *   w_1 = -theta^2 - theta^3/3
+ *   w_2 = theta^2/4 + theta^3/6;  b = 23/12, -16/12, 5/12
+ *
+ * A violation obeys z^3 = z^2 + mu (23 z^2 - 16 z + 5)/12: stable on alpha = beta up to 6/11.
+ */
+#include "integrate/adams_bashforth.h"
+
+static const double WEIGHTS[] = {
+  1.0, 3.0 / 4.0, 1.0 / 6.0,  //
+  0.0, -1.0,      -1.0 / 3.0, //
+  0.0, 1.0 / 4.0, 1.0 / 6.0,  //
+};
+
+static const baum_i_adams_table TABLE = {.steps = 3, .weights = WEIGHTS};
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  return baum_i_adams_create(&TABLE, problem, start, out);
+}
+
+static const baum_integrator INTEGRATOR = {
+  .name = "ab3",
+  .order = 3,
+  .formulations = baum_i_adams_formulations,
+  .gains = BAUM_GAINS_AUTO,
+  .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
+             .degree = 3,
+             .coefficients = {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0}},
+  .create = create,
+  .destroy = baum_i_adams_destroy,
+  .step = baum_i_adams_step,
+  .accept = baum_i_adams_accept,
+  .restart = baum_i_adams_restart,
+};
+
+const baum_integrator *baum_ab3(void)
+{
+  return &INTEGRATOR;
+}

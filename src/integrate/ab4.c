@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The explicit Adams method of four steps, order 4 (J. C. Adams, in: F. Bashforth, 1883).
+ *
+ *   w_0 = theta + 11 theta^2/12 + theta^3/3 + theta^4/24
+ *   w_1 = -3 theta^2/2 - 5 theta^3/6 - theta^4/8
+ *   w_2 = 3 theta^2/4 + 2 theta^3/3 + theta^4/8
+ *   w_3 = -theta^2/6 - theta^3/6 - theta^4/24;  b = 55/24, -59/24, 37/24, -9/24
+ *
+ * A violation obeys z^4 = z^3 + mu (55 z^3 - 59 z^2 + 37 z - 9)/24: stable on alpha = beta up to 3/10.
+ */
+#include "integrate/adams_bashforth.h"
+
+static const double WEIGHTS[] = {
+  1.0, 11.0 / 12.0, 1.0 / 3.0,  1.0 / 24.0,  //
+  0.0, -3.0 / 2.0,  -5.0 / 6.0, -1.0 / 8.0,  //
+  0.0, 3.0 / 4.0,   2.0 / 3.0,  1.0 / 8.0,   //
+  0.0, -1.0 / 6.0,  -1.0 / 6.0, -1.0 / 24.0, //
+};
+
+static const baum_i_adams_table TABLE = {.steps = 4, .weights = WEIGHTS};
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  return baum_i_adams_create(&TABLE, problem, start, out);
+}
+
+static const baum_integrator INTEGRATOR = {
+  .name = "ab4",
+  .order = 4,
+  .formulations = baum_i_adams_formulations,
+  .gains = BAUM_GAINS_AUTO,
+  .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
+             .degree = 4,
+             .coefficients = {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0}},
+  .create = create,
+  .destroy = baum_i_adams_destroy,
+  .step = baum_i_adams_step,
+  .accept = baum_i_adams_accept,
+  .restart = baum_i_adams_restart,
+};
+
+const baum_integrator *baum_ab4(void)
+{
+  return &INTEGRATOR;
+}

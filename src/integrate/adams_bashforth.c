@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Explicit Adams methods of k steps, order k (F. Bashforth, J. C. Adams, 1883). v and a are
+ * interpolated at the last k points of the grid and the polynomials are integrated:
+ *
+ *   q(t + theta h) = q + h sum_{j<k} w_j(theta) v(t - j h)        (nq)   N the identity
+ *   v(t + theta h) = v + h sum_{j<k} w_j(theta) a(t - j h)        (nv)
+ *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, .. from 0 to theta
+ *
+ * theta = 1 is a step of the grid. Any other is answered from the same past with the same local
+ * error, O(h^(k+1)); when such a step is kept, the grid is left and the past is of no use any more.
+ *
+ * Without enough of a past, at the start and after it has been given up, the classical Runge-Kutta
+ * method takes the steps: its local error is O(h^5), so that the order k stays for all k <= 4.
+ *
+ * A step may be a trial that is thrown away: it leaves v and a of its start in the slot ahead of the
+ * past, which is part of the past only once the step is accepted.
+ */
+#include "integrate/adams_bashforth.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+
+/* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
+ * of one step's error, and it is far above the rounding of times. */
+static const double SAME_STEP = 1e-6;
+
+/* Memory of a run. */
+typedef struct adams_run {
+  const baum_i_adams_table *table;
+  void *starter; /* of the Runge-Kutta method */
+  int nv;
+  int ahead;     /* slot of the present step's start; those before it, round the ring, are past */
+  int past;      /* points known, at most steps - 1 */
+  bool on_grid;  /* the last trial was a step of the grid */
+  double *slots; /* (steps x 2 nv) v and a of a point */
+} adams_run;
+
+const baum_formulation baum_i_adams_formulations[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+/* ---- the past ---- */
+
+/* v and a (2 nv) of the point j steps back. */
+static double *slot(const adams_run *run, int j)
+{
+  int steps = run->table->steps;
+  return run->slots + (size_t)((run->ahead - j + steps) % steps) * 2 * (size_t)run->nv;
+}
+
+static bool is_step_of_grid(const baum_i_problem *problem, double t, double h)
+{
+  double off = fabs(h - problem->direction * problem->step);
+  return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
+}
+
+/* ---- one step ---- */
+
+/* w_j(theta) theta^-1, by Horner's rule: the step is theta times that of the grid. */
+static void find_weights(const baum_i_adams_table *table, double theta, double *weights)
+{
+  int steps = table->steps;
+  for (int j = 0; j < steps; j++) {
+    const double *c = table->weights + (size_t)j * (size_t)steps;
+    double sum = 0.0;
+    for (int m = steps - 1; m >= 0; m--) {
+      sum = sum * theta + c[m];
+    }
+    weights[j] = sum;
+  }
+}
+
+/* out += h sum_j weights_j of the slots' v, or of their a. */
+static void add_rates(const adams_run *run, const double *weights, double h, int offset,
+                      double *out)
+{
+  const double *rates[BAUM_I_ADAMS_STEPS_MAX];
+  for (int j = 0; j < run->table->steps; j++) {
+    rates[j] = slot(run, j) + offset;
+  }
+  for (int i = 0; i < run->nv; i++) {
+    double sum = 0.0;
+    for (int j = 0; j < run->table->steps; j++) {
+      sum += weights[j] * rates[j][i];
+    }
+    out[i] += h * sum;
+  }
+}
+
+baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_state *state,
+                              double h, const double *a)
+{
+  adams_run *run = self;
+  size_t size = (size_t)run->nv * sizeof *a;
+  run->on_grid = is_step_of_grid(problem, state->t, h);
+  memcpy(slot(run, 0), state->v, size);
+  memcpy(slot(run, 0) + run->nv, a, size);
+  if (run->past < run->table->steps - 1) {
+    return baum_rk4()->step(run->starter, problem, state, h, a);
+  }
+  double weights[BAUM_I_ADAMS_STEPS_MAX];
+  double theta = run->on_grid ? 1.0 : h / (problem->direction * problem->step);
+  find_weights(run->table, theta, weights);
+  add_rates(run, weights, h, 0, state->q);
+  add_rates(run, weights, h, run->nv, state->v);
+  return BAUM_OK;
+}
+
+void baum_i_adams_accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  adams_run *run = self;
+  int steps = run->table->steps;
+  if (!run->on_grid) {
+    (void)baum_i_adams_restart(self, problem, state);
+    return;
+  }
+  run->ahead = (run->ahead + 1) % steps;
+  run->past += run->past < steps - 1 ? 1 : 0;
+}
+
+baum_status baum_i_adams_restart(void *self, const baum_i_problem *problem,
+                                 const baum_i_state *state)
+{
+  (void)problem;
+  (void)state;
+  adams_run *run = self;
+  run->past = 0;
+  return BAUM_OK;
+}
+
+/* ---- memory ---- */
+
+baum_status baum_i_adams_create(const baum_i_adams_table *table, const baum_i_problem *problem,
+                                const baum_i_state *start, void **out)
+{
+  *out = NULL;
+  adams_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  run->table = table;
+  run->nv = problem->workspace->mechanism->nv;
+  baum_status status = baum_rk4()->create(problem, start, &run->starter);
+  if (status == BAUM_OK) {
+    run->slots = baum_i_alloc((size_t)table->steps * 2 * (size_t)run->nv, sizeof *run->slots);
+    status = run->slots ? BAUM_OK : baum_i_fail_memory();
+  }
+  if (status != BAUM_OK) {
+    baum_i_adams_destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+void baum_i_adams_destroy(void *self)
+{
+  adams_run *run = self;
+  if (run) {
+    baum_rk4()->destroy(run->starter);
+    baum_i_free(run->slots);
+    baum_i_free(run);
+  }
+}
