@@ -14,8 +14,7 @@
  *   search for a consistent start can succeed with wrong accelerations.
  * - The first step is given. IDA's own is too large for index 3.
  * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
- * - KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition, is always poor
- *   here, as c = O(1/h) and 1 stand side by side, and would choose pivots anew, and allocate, in every step.
+ * - KLU keeps its pivots (sundials_klu.h).
  */
 #include "integrate/integrator.h"
 
@@ -29,13 +28,12 @@
 
 #include <ida/ida.h>
 #include <sunlinsol/sunlinsol_dense.h>
-#include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_dense.h>
-#include <sunmatrix/sunmatrix_sparse.h>
 
 #include "base/alloc.h"
 #include "integrate/ida_newton.h"
 #include "integrate/sundials_common.h"
+#include "integrate/sundials_klu.h"
 
 /* Memory of a run. */
 typedef struct ida_run {
@@ -43,19 +41,14 @@ typedef struct ida_run {
   void *ida;
   N_Vector y; /* end of the last step */
   N_Vector dy;
-  N_Vector inside; /* interpolated */
-  N_Vector tested; /* 1 where the error test looks, else 0 */
-  SUNMatrix matrix;
-  SUNLinearSolver solver;      /* what IDA calls: dense, or a front before klu */
-  SUNLinearSolver klu;         /* NULL: dense */
-  N_Vector defect;             /* b - A x */
-  N_Vector size;               /* |b| + |A| |x| */
-  N_Vector entry;              /* largest of each row of A */
-  bool fresh;                  /* pivots were chosen at the present matrix */
-  double linearized;           /* [1/s] c of the present matrix */
-  int64_t full_factorizations; /* times pivots were chosen */
+  N_Vector inside;        /* interpolated */
+  N_Vector tested;        /* 1 where the error test looks, else 0 */
+  bool differences;       /* a dense matrix by differences */
+  SUNMatrix dense;        /* of differences */
+  SUNLinearSolver solver; /* what IDA calls: dense, or a front before klu */
+  baum_i_sundials_klu klu;
+  double linearized; /* [1/s] c of the present matrix */
   baum_i_ida_newton newton;
-  baum_i_residual_matrix *jacobian; /* NULL: differences */
   baum_dae dae;
   baum_i_statistics before; /* up to the last restart */
 } ida_run;
@@ -84,37 +77,20 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector dy, N_Vector residual, v
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* IDA wipes the pattern before each evaluation. */
-static void copy_pattern(const baum_i_residual_matrix *jacobian, SUNMatrix matrix)
-{
-  const int32_t *columns = baum_i_residual_matrix_columns(jacobian);
-  const int32_t *rows = baum_i_residual_matrix_rows(jacobian);
-  sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
-  sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
-  sunindextype n = SUNSparseMatrix_Columns(matrix);
-  for (sunindextype i = 0; i <= n; i++) {
-    starts[i] = columns[i];
-  }
-  for (sunindextype i = 0; i < columns[n]; i++) {
-    indices[i] = rows[i];
-  }
-}
-
 /* NOLINTNEXTLINE(readability-function-size): IDA's parameters. */
 static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Vector residual,
                      SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2, N_Vector work3)
 {
   /* #lizard forgives: IDA's parameters */
   (void)residual;
+  (void)matrix;
   (void)work1;
   (void)work2;
   (void)work3;
   ida_run *run = user;
   run->linearized = c;
-  copy_pattern(run->jacobian, matrix);
-  baum_status status = baum_i_residual_matrix_fill(
-    run->jacobian, run->sundials.problem->workspace, &run->dae, c, t, N_VGetArrayPointer(y),
-    N_VGetArrayPointer(dy), SUNSparseMatrix_Data(matrix));
+  baum_status status = baum_i_sundials_klu_fill(&run->klu, &run->dae, c, t, N_VGetArrayPointer(y),
+                                                N_VGetArrayPointer(dy));
   if (status == BAUM_OK) {
     baum_i_ida_newton_measure(&run->newton);
   }
@@ -136,116 +112,26 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
 
 /* ---- linear solver ---- */
 
-static int choose_pivots(ida_run *run, SUNMatrix matrix)
-{
-  run->fresh = true;
-  run->full_factorizations++;
-  (void)SUNLinSol_KLUReInit(run->klu, matrix, 0, SUNKLU_REINIT_PARTIAL);
-  if (SUNLinSolSetup_KLU(run->klu, matrix) == 0) {
-    return 0;
-  }
-  bool memory = SUNLinSol_KLUGetCommon(run->klu)->status == KLU_OUT_OF_MEMORY;
-  return memory ? baum_i_sundials_answer(&run->sundials, baum_i_fail_memory()) : 1;
-}
-
 static int factor(SUNLinearSolver solver, SUNMatrix matrix)
 {
+  (void)matrix;
   ida_run *run = solver->content;
-  sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(run->klu);
-  run->fresh = false;
-  if (!numeric) {
-    return choose_pivots(run, matrix);
-  }
-  /* KLU's name for the index type depends on its release. */
-  void *starts = SUNSparseMatrix_IndexPointers(matrix);
-  void *indices = SUNSparseMatrix_IndexValues(matrix);
-  int kept = (int)sun_klu_refactor(starts, indices, SUNSparseMatrix_Data(matrix),
-                                   SUNLinSol_KLUGetSymbolic(run->klu), numeric,
-                                   SUNLinSol_KLUGetCommon(run->klu));
-  return kept ? 0 : choose_pivots(run, matrix);
-}
-
-/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for Newton's iteration.
- * NaN is not accurate. */
-static bool is_accurate(const ida_run *run, SUNMatrix matrix, N_Vector solution, N_Vector right)
-{
-  const sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
-  const sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
-  const double *values = SUNSparseMatrix_Data(matrix);
-  const double *x = N_VGetArrayPointer(solution);
-  double *defect = N_VGetArrayPointer(run->defect);
-  double *size = N_VGetArrayPointer(run->size);
-  double *entry = N_VGetArrayPointer(run->entry);
-  sunindextype n = SUNSparseMatrix_Columns(matrix);
-  N_VScale(1.0, right, run->defect);
-  N_VAbs(right, run->size);
-  N_VConst(DBL_MIN, run->entry);
-  for (sunindextype j = 0; j < n; j++) {
-    for (sunindextype p = starts[j]; p < starts[j + 1]; p++) {
-      sunindextype i = indices[p];
-      defect[i] -= values[p] * x[j];
-      size[i] += fabs(values[p] * x[j]);
-      entry[i] = fmax(entry[i], fabs(values[p]));
-    }
-  }
-  double largest = 0.0;
-  for (sunindextype i = 0; i < n; i++) {
-    largest = fmax(largest, size[i] / entry[i]);
-  }
-  bool accurate = true;
-  for (sunindextype i = 0; i < n; i++) {
-    accurate = accurate && fabs(defect[i]) <= 1e-6 * largest * entry[i];
-  }
-  return accurate;
-}
-
-static int solve_accurately(ida_run *run, SUNMatrix matrix, N_Vector x, N_Vector b)
-{
-  int failed = SUNLinSolSolve_KLU(run->klu, matrix, x, b, 0.0);
-  if (failed == 0 && (run->fresh || is_accurate(run, matrix, x, b))) {
-    return 0;
-  }
-  failed = choose_pivots(run, matrix);
-  return failed != 0 ? failed : SUNLinSolSolve_KLU(run->klu, matrix, x, b, 0.0);
+  return baum_i_sundials_klu_factor(&run->klu);
 }
 
 static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
                  sunrealtype tolerance)
 {
+  (void)matrix;
   (void)tolerance;
   ida_run *run = solver->content;
   double c = run->linearized;
   (void)IDAGetCurrentCj(run->ida, &c);
   double ratio = c / run->linearized;
   baum_i_ida_newton_scale_right(&run->newton, ratio, b);
-  int failed = solve_accurately(run, matrix, x, b);
+  int failed = baum_i_sundials_klu_solve(&run->klu, x, b);
   baum_i_ida_newton_scale_solution(&run->newton, ratio, x);
   return failed;
-}
-
-static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
-{
-  (void)solver;
-  return SUNLINEARSOLVER_DIRECT;
-}
-
-static int release(SUNLinearSolver solver)
-{
-  SUNLinSolFreeEmpty(solver);
-  return 0;
-}
-
-static SUNLinearSolver make_front(ida_run *run)
-{
-  SUNLinearSolver front = SUNLinSolNewEmpty(run->sundials.context);
-  if (front) {
-    front->content = run;
-    front->ops->gettype = tell_type;
-    front->ops->setup = factor;
-    front->ops->solve = solve;
-    front->ops->free = release;
-  }
-  return front;
 }
 
 /* ---- in and out ---- */
@@ -306,7 +192,7 @@ static void count(const void *self, baum_i_statistics *out)
   (void)IDAGetNumNonlinSolvIters(run->ida, &iterations);
   out->rejected = run->before.rejected + rejected[0] + rejected[1];
   out->factorizations = run->before.factorizations + setups;
-  out->full_factorizations = run->full_factorizations;
+  out->full_factorizations = run->klu.full_factorizations;
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
@@ -409,24 +295,16 @@ static void destroy(void *self)
   IDAFree(&run->ida);
   baum_i_ida_newton_close(&run->newton);
   (void)SUNLinSolFree(run->solver);
-  (void)SUNLinSolFree(run->klu);
-  SUNMatDestroy(run->matrix);
-  baum_i_residual_matrix_destroy(run->jacobian);
+  SUNMatDestroy(run->dense);
+  baum_i_sundials_klu_close(&run->klu);
   baum_i_sundials_close(&run->sundials);
   baum_i_free(run);
 }
 
 static void take_vectors(ida_run *run)
 {
-  N_Vector *const all[] = {&run->y,
-                           &run->dy,
-                           &run->inside,
-                           &run->tested,
-                           &run->defect,
-                           &run->size,
-                           &run->entry,
-                           &run->newton.displacement,
-                           &run->newton.inertia};
+  N_Vector *const all[] = {
+    &run->y, &run->dy, &run->inside, &run->tested, &run->newton.displacement, &run->newton.inertia};
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
     *all[k] = baum_i_sundials_vector(&run->sundials);
   }
@@ -449,27 +327,21 @@ static int choose_tested(ida_run *run)
 static int attach_dense(ida_run *run)
 {
   sunindextype n = N_VGetLength(run->y);
-  run->matrix = SUNDenseMatrix(n, n, run->sundials.context);
-  if (run->matrix) {
-    run->solver = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
+  run->dense = SUNDenseMatrix(n, n, run->sundials.context);
+  if (run->dense) {
+    run->solver = SUNLinSol_Dense(run->y, run->dense, run->sundials.context);
   }
   bool attached =
-    run->solver && IDASetLinearSolver(run->ida, run->solver, run->matrix) == IDALS_SUCCESS;
+    run->solver && IDASetLinearSolver(run->ida, run->solver, run->dense) == IDALS_SUCCESS;
   return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
 }
 
 static int attach_klu(ida_run *run)
 {
-  sunindextype n = N_VGetLength(run->y);
-  sunindextype nonzeros = baum_i_residual_matrix_nonzeros(run->jacobian);
-  run->matrix = SUNSparseMatrix(n, n, nonzeros, CSC_MAT, run->sundials.context);
-  if (run->matrix) {
-    run->klu = SUNLinSol_KLU(run->y, run->matrix, run->sundials.context);
-  }
-  run->solver = run->klu ? make_front(run) : NULL;
+  run->solver = baum_i_sundials_front(&run->sundials, run, factor, solve);
   /* These have flags of their own; only memory can be wrong. Scaling is ours. */
   bool attached = run->solver &&
-                  IDASetLinearSolver(run->ida, run->solver, run->matrix) == IDALS_SUCCESS &&
+                  IDASetLinearSolver(run->ida, run->solver, run->klu.matrix) == IDALS_SUCCESS &&
                   IDASetLinearSolutionScaling(run->ida, SUNFALSE) == IDALS_SUCCESS &&
                   IDASetJacFn(run->ida, linearize) == IDALS_SUCCESS;
   return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
@@ -495,7 +367,7 @@ static int start_ida(ida_run *run, double t)
     flag = choose_tested(run);
   }
   if (flag == IDA_SUCCESS) {
-    flag = run->jacobian ? attach_klu(run) : attach_dense(run);
+    flag = run->differences ? attach_dense(run) : attach_klu(run);
   }
   if (flag == IDA_SUCCESS) {
     flag = baum_i_ida_newton_attach(&run->newton, run->ida, run->y);
@@ -512,6 +384,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
 {
   const baum_mechanism *mechanism = problem->workspace->mechanism;
   int n = mechanism->nq + mechanism->nv + mechanism->nc;
+  run->differences = differences;
   baum_status status = baum_i_sundials_open(&run->sundials, "ida", n);
   begin(run, problem, start->t);
   if (status == BAUM_OK) {
@@ -519,7 +392,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
     status = load(run, problem, start);
   }
   if (status == BAUM_OK && !differences) {
-    status = baum_i_residual_matrix_create(problem->workspace, run->dae.index, &run->jacobian);
+    status = baum_i_sundials_klu_open(&run->klu, &run->sundials, run->dae.index);
   }
   if (status != BAUM_OK) {
     return status;

@@ -15,7 +15,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (header ~ /^(SuiteSparseQR_C|cholmod)\.h$/) return file == "src/linear/qr.c"
     if (header ~ /^SuiteSparse_config\.h$/) return file ~ /^src\/linear\/(klu|qr)\.c$/
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
-      return file ~ /^src\/integrate\/(cvode|ida|ida_newton|sundials_common)\.[ch]$/
+      return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|klu))\.[ch]$/
     if (header ~ /^gsl\//) return file == "src/mechanism/joints/spline_driver.c"
     return 0
   }

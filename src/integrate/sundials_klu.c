@@ -1,0 +1,207 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's matrix by KLU with kept pivots; see sundials_klu.h. */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/sundials_klu.h"
+
+#include <float.h>
+#include <math.h>
+
+#include <sunlinsol/sunlinsol_klu.h>
+#include <sunmatrix/sunmatrix_sparse.h>
+
+#include "base/alloc.h"
+
+/* ---- life ---- */
+
+enum { ARRAYS = 5 };
+
+static baum_status make_arrays(baum_i_sundials_klu *klu, int n)
+{
+  size_t stride = (size_t)n;
+  klu->numbers = baum_i_alloc(ARRAYS * stride, sizeof *klu->numbers);
+  if (!klu->numbers) {
+    return baum_i_fail_memory();
+  }
+  klu->defect = klu->numbers;
+  klu->size = klu->numbers + stride;
+  klu->entry = klu->numbers + 2 * stride;
+  klu->right = N_VMake_Serial(n, klu->numbers + 3 * stride, klu->sundials->context);
+  klu->solution = N_VMake_Serial(n, klu->numbers + 4 * stride, klu->sundials->context);
+  return klu->right && klu->solution ? BAUM_OK : baum_i_fail_memory();
+}
+
+static baum_status make_solver(baum_i_sundials_klu *klu, int n)
+{
+  SUNContext context = klu->sundials->context;
+  sunindextype nonzeros = baum_i_residual_matrix_nonzeros(klu->form);
+  klu->matrix = SUNSparseMatrix(n, n, nonzeros, CSC_MAT, context);
+  if (klu->matrix) {
+    klu->solver = SUNLinSol_KLU(klu->right, klu->matrix, context);
+  }
+  return klu->solver ? BAUM_OK : baum_i_fail_memory();
+}
+
+baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
+                                     baum_residual index)
+{
+  const baum_workspace *workspace = sundials->problem->workspace;
+  int n = 2 * workspace->mechanism->nv + workspace->mechanism->nc;
+  klu->sundials = sundials;
+  baum_status status = baum_i_residual_matrix_create(workspace, index, &klu->form);
+  if (status == BAUM_OK) {
+    status = make_arrays(klu, n);
+  }
+  return status == BAUM_OK ? make_solver(klu, n) : status;
+}
+
+void baum_i_sundials_klu_close(baum_i_sundials_klu *klu)
+{
+  (void)SUNLinSolFree(klu->solver);
+  SUNMatDestroy(klu->matrix);
+  N_VDestroy(klu->right);
+  N_VDestroy(klu->solution);
+  baum_i_free(klu->numbers);
+  baum_i_residual_matrix_destroy(klu->form);
+}
+
+/* ---- the matrix ---- */
+
+/* SUNDIALS may wipe the pattern before each evaluation. */
+static void copy_pattern(const baum_i_residual_matrix *form, SUNMatrix matrix)
+{
+  const int32_t *columns = baum_i_residual_matrix_columns(form);
+  const int32_t *rows = baum_i_residual_matrix_rows(form);
+  sunindextype *starts = SUNSparseMatrix_IndexPointers(matrix);
+  sunindextype *indices = SUNSparseMatrix_IndexValues(matrix);
+  sunindextype n = SUNSparseMatrix_Columns(matrix);
+  for (sunindextype i = 0; i <= n; i++) {
+    starts[i] = columns[i];
+  }
+  for (sunindextype i = 0; i < columns[n]; i++) {
+    indices[i] = rows[i];
+  }
+}
+
+baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *dae, double c,
+                                     double t, const double *y, const double *dy)
+{
+  copy_pattern(klu->form, klu->matrix);
+  return baum_i_residual_matrix_fill(klu->form, klu->sundials->problem->workspace, dae, c, t, y, dy,
+                                     SUNSparseMatrix_Data(klu->matrix));
+}
+
+/* ---- factor ---- */
+
+static int choose_pivots(baum_i_sundials_klu *klu)
+{
+  klu->fresh = true;
+  klu->full_factorizations++;
+  (void)SUNLinSol_KLUReInit(klu->solver, klu->matrix, 0, SUNKLU_REINIT_PARTIAL);
+  if (SUNLinSolSetup_KLU(klu->solver, klu->matrix) == 0) {
+    return 0;
+  }
+  bool memory = SUNLinSol_KLUGetCommon(klu->solver)->status == KLU_OUT_OF_MEMORY;
+  return memory ? baum_i_sundials_answer(klu->sundials, baum_i_fail_memory()) : 1;
+}
+
+int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
+{
+  sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(klu->solver);
+  klu->fresh = false;
+  if (!numeric) {
+    return choose_pivots(klu);
+  }
+  /* KLU's name for the index type depends on its release. */
+  void *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
+  void *indices = SUNSparseMatrix_IndexValues(klu->matrix);
+  int kept = (int)sun_klu_refactor(starts, indices, SUNSparseMatrix_Data(klu->matrix),
+                                   SUNLinSol_KLUGetSymbolic(klu->solver), numeric,
+                                   SUNLinSol_KLUGetCommon(klu->solver));
+  return kept ? 0 : choose_pivots(klu);
+}
+
+/* ---- solve ---- */
+
+/* Residual and sizes of a solution x, which is not b. */
+static void form_residual(const baum_i_sundials_klu *klu, const double *x, const double *b)
+{
+  const sunindextype *starts = SUNSparseMatrix_IndexPointers(klu->matrix);
+  const sunindextype *indices = SUNSparseMatrix_IndexValues(klu->matrix);
+  const double *values = SUNSparseMatrix_Data(klu->matrix);
+  sunindextype n = SUNSparseMatrix_Columns(klu->matrix);
+  for (sunindextype i = 0; i < n; i++) {
+    klu->defect[i] = b[i];
+    klu->size[i] = fabs(b[i]);
+    klu->entry[i] = DBL_MIN;
+  }
+  for (sunindextype j = 0; j < n; j++) {
+    for (sunindextype p = starts[j]; p < starts[j + 1]; p++) {
+      sunindextype i = indices[p];
+      klu->defect[i] -= values[p] * x[j];
+      klu->size[i] += fabs(values[p] * x[j]);
+      klu->entry[i] = fmax(klu->entry[i], fabs(values[p]));
+    }
+  }
+}
+
+/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for Newton's iteration.
+ * NaN is not accurate. */
+static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
+{
+  sunindextype n = SUNSparseMatrix_Columns(klu->matrix);
+  form_residual(klu, N_VGetArrayPointer(x), N_VGetArrayPointer(b));
+  double largest = 0.0;
+  for (sunindextype i = 0; i < n; i++) {
+    largest = fmax(largest, klu->size[i] / klu->entry[i]);
+  }
+  bool accurate = true;
+  for (sunindextype i = 0; i < n; i++) {
+    accurate = accurate && fabs(klu->defect[i]) <= 1e-6 * largest * klu->entry[i];
+  }
+  return accurate;
+}
+
+int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
+{
+  int failed = SUNLinSolSolve_KLU(klu->solver, klu->matrix, x, b, 0.0);
+  if (failed == 0 && (klu->fresh || is_accurate(klu, x, b))) {
+    return 0;
+  }
+  failed = choose_pivots(klu);
+  return failed != 0 ? failed : SUNLinSolSolve_KLU(klu->solver, klu->matrix, x, b, 0.0);
+}
+
+/* ---- the front ---- */
+
+static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
+{
+  (void)solver;
+  return SUNLINEARSOLVER_DIRECT;
+}
+
+static int release(SUNLinearSolver solver)
+{
+  SUNLinSolFreeEmpty(solver);
+  return 0;
+}
+
+SUNLinearSolver baum_i_sundials_front(const baum_i_sundials *sundials, void *content,
+                                      int (*factor)(SUNLinearSolver, SUNMatrix),
+                                      int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,
+                                                   sunrealtype))
+{
+  SUNLinearSolver front = SUNLinSolNewEmpty(sundials->context);
+  if (front) {
+    front->content = content;
+    front->ops->gettype = tell_type;
+    front->ops->setup = factor;
+    front->ops->solve = solve;
+    front->ops->free = release;
+  }
+  return front;
+}
+
+#endif
