@@ -117,10 +117,16 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates: q' - v, M v' + J^T lambda - g, and */
+/** Which equations baum_workspace_residual() evaluates: q' - v, M v' + J^T lambda - g, and
+ *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - v + W^-1 J^T mu instead of the first,
+ *  and with mu as many unknowns more; mu is zero but for the errors of a method. W is constant and
+ *  diagonal: the diagonal of M in the drawn pose at t = 0, for coordinates of scale s with less than
+ *  a millionth of the largest M_kk s_k^2 that millionth over s^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
-  BAUM_RESIDUAL_INDEX3 = 3  /**< Phi. */
+  BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
+  BAUM_RESIDUAL_INDEX3 = 3, /**< Phi. */
+  BAUM_RESIDUAL_GGL = 4     /**< Phi' = J v - nu, then Phi. */
 } baum_residual;
 
 /** Which equations, and their gains. */
@@ -138,10 +144,11 @@ typedef struct baum_sparse {
   int32_t nonzeros; /**< Number of entries; always written. */
 } baum_sparse;
 
-/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda).
+/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda), for GGL
+ *  (q, v, lambda, mu). Rows that are redundant read lambda_i, and mu_i, instead.
  *  @param[in]  dae       which equations
- *  @param[in]  y,dy      (nq + nv + nc) each
- *  @param[out] residual  (nq + nv + nc)
+ *  @param[in]  y,dy      (nq + nv + nc) each, (nq + nv + 2 nc) for GGL
+ *  @param[out] residual  as many
  */
 BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae,
                                              double t, const double *y, const double *dy,

@@ -6,7 +6,14 @@
  *   v      (M v')_q + (J^T lambda)_q - g_q               c M - g_v               J^T
  *   lambda index 1: (J w)_q - gamma_q - 2 alpha nu_q     (c + 2 alpha) J         0
  *                   + beta^2 J,  w = v' + 2 alpha v      - gamma_v
+ *          index 2: (J v)_q - nu_q                       J                       0
  *          index 3: J                                    0                       0
+ *
+ * GGL has the rows of index 2, and
+ *
+ *          q                                             v                       lambda  mu
+ *   q      c I + W^-1 (J^T mu)_q                         -I                      0       W^-1 J^T
+ *   mu     J                                             0                       0       0
  *
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
  * ones only add values to the slots found then. A dropped row reads 1 on its diagonal.
@@ -110,27 +117,90 @@ static void walk_multipliers(const factors *f, const baum_i_joint *joint, sink *
   }
 }
 
-static void walk_row(const factors *f, const baum_i_joint *joint, int r, sink *s)
+/* W^-1 J^T mu in the rows of q. */
+static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s)
+{
+  const baum_workspace *w = f->w;
+  const baum_i_span *span = &joint->span;
+  int first = 2 * w->mechanism->nv + w->mechanism->nc + joint->row;
+  for (int i = 0; i < span->nl; i++) {
+    int row = span->columns[i];
+    double inverse = 1.0 / w->metric[row];
+    for (int j = 0; j < span->nl; j++) {
+      emit(s, row, span->columns[j], inverse * w->jtm_q[joint->square + i * span->nl + j]);
+    }
+    for (int r = 0; r < joint->rows; r++) {
+      emit(s, row, first + r, inverse * w->jacobian[joint->jacobian + r * span->nl + i]);
+    }
+  }
+}
+
+/* One entry of each J that a row has: derivatives of Phi'' with gains, of Phi', of Phi. */
+
+static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
   const baum_workspace *w = f->w;
   const baum_dae *dae = f->dae;
-  int nv = w->mechanism->nv;
-  int row = 2 * nv + joint->row + r;
+  emit(s, row, column,
+       keep * (w->jw_q[at] - w->gamma_q[at] - 2.0 * dae->alpha * w->nu_q[at] +
+               dae->beta * dae->beta * w->jacobian[at]));
+  emit(s, row, w->mechanism->nv + column,
+       keep * ((f->c + 2.0 * dae->alpha) * w->jacobian[at] - w->gamma_v[at]));
+}
+
+static void emit_velocity(const factors *f, int row, int column, int at, double keep, sink *s)
+{
+  const baum_workspace *w = f->w;
+  emit(s, row, column, keep * (w->jw_q[at] - w->nu_q[at]));
+  emit(s, row, w->mechanism->nv + column, keep * w->jacobian[at]);
+}
+
+static void emit_position(const factors *f, int row, int column, int at, double keep, sink *s)
+{
+  emit(s, row, column, keep * f->w->jacobian[at]);
+}
+
+typedef void emit_fn(const factors *f, int row, int column, int at, double keep, sink *s);
+
+/* Row r of a joint, in the rows that begin at `first`. */
+static void walk_row(const factors *f, const baum_i_joint *joint, int r, int first, emit_fn *entry,
+                     sink *s)
+{
+  const baum_workspace *w = f->w;
+  int row = first + joint->row + r;
   bool dropped = w->redundancy.count > 0 && w->redundancy.dropped[joint->row + r];
   double keep = dropped ? 0.0 : 1.0;
   emit(s, row, row, 1.0 - keep);
   for (int j = 0; j < joint->span.nl; j++) {
     int at = joint->jacobian + r * joint->span.nl + j;
-    int column = joint->span.columns[j];
-    if (dae->index == BAUM_RESIDUAL_INDEX3) {
-      emit(s, row, column, keep * w->jacobian[at]);
-      continue;
+    entry(f, row, joint->span.columns[j], at, keep, s);
+  }
+}
+
+static emit_fn *entry_of(baum_residual index)
+{
+  switch (index) {
+  case BAUM_RESIDUAL_INDEX2:
+  case BAUM_RESIDUAL_GGL: return emit_velocity;
+  case BAUM_RESIDUAL_INDEX3: return emit_position;
+  case BAUM_RESIDUAL_INDEX1:
+  default: return emit_acceleration;
+  }
+}
+
+static void walk_joint(const factors *f, const baum_i_joint *joint, sink *s)
+{
+  int first = 2 * f->w->mechanism->nv;
+  emit_fn *entry = entry_of(f->dae->index);
+  walk_multipliers(f, joint, s);
+  for (int r = 0; r < joint->rows; r++) {
+    walk_row(f, joint, r, first, entry, s);
+  }
+  if (f->dae->index == BAUM_RESIDUAL_GGL) {
+    walk_correction(f, joint, s);
+    for (int r = 0; r < joint->rows; r++) {
+      walk_row(f, joint, r, first + f->w->mechanism->nc, emit_position, s);
     }
-    emit(s, row, column,
-         keep * (w->jw_q[at] - w->gamma_q[at] - 2.0 * dae->alpha * w->nu_q[at] +
-                 dae->beta * dae->beta * w->jacobian[at]));
-    emit(s, row, nv + column,
-         keep * ((f->c + 2.0 * dae->alpha) * w->jacobian[at] - w->gamma_v[at]));
   }
 }
 
@@ -140,11 +210,7 @@ static void walk(const factors *f, sink *s)
   walk_bodies(f, s);
   walk_forces(f, s);
   for (int k = 0; k < f->w->mechanism->joint_count; k++) {
-    const baum_i_joint *joint = f->w->mechanism->joints[k];
-    walk_multipliers(f, joint, s);
-    for (int r = 0; r < joint->rows; r++) {
-      walk_row(f, joint, r, s);
-    }
+    walk_joint(f, f->w->mechanism->joints[k], s);
   }
 }
 
@@ -153,9 +219,12 @@ static void walk(const factors *f, sink *s)
 /* Entries that one walk emits. */
 static size_t count_entries(const baum_mechanism *m, baum_residual index)
 {
-  size_t jacobians = index == BAUM_RESIDUAL_INDEX1 ? 3 : 2; /* J^T, and what each row has of J */
+  size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1;      /* of multipliers */
+  size_t columns = index == BAUM_RESIDUAL_INDEX3 ? 1 : 2; /* q, and v, in the row of lambda */
+  size_t jacobians = kinds + columns + (kinds - 1);       /* J^T, and what rows have of J */
   return 2 * ((size_t)m->nv + (size_t)m->mass_size + (size_t)m->force_square_size) +
-         (size_t)m->joint_square_size + jacobians * (size_t)m->jacobian_size + (size_t)m->nc;
+         jacobians * (size_t)m->jacobian_size +
+         kinds * ((size_t)m->joint_square_size + (size_t)m->nc);
 }
 
 static baum_status compress(baum_i_residual_matrix *matrix, const baum_i_places *places)
@@ -193,7 +262,7 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
   const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
   matrix->index = index;
-  matrix->size = 2 * workspace->mechanism->nv + workspace->mechanism->nc;
+  matrix->size = baum_i_residual_size(workspace->mechanism, index);
   baum_status status = learn(matrix, &f);
   if (status != BAUM_OK) {
     baum_i_residual_matrix_destroy(matrix);
@@ -230,26 +299,49 @@ const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix)
 
 /* ---- the values ---- */
 
+/* What J of the constraint rows is multiplied with. */
+static void choose_direction(const baum_dae *dae, int nv, const double *v, const double *dv,
+                             double *direction)
+{
+  bool index1 = dae->index == BAUM_RESIDUAL_INDEX1;
+  for (int i = 0; i < nv; i++) {
+    direction[i] = index1 ? dv[i] + 2.0 * dae->alpha * v[i] : v[i];
+  }
+}
+
+/* The blocks with mu first, which those with lambda overwrite. */
+static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, const double *v,
+                                    const double *dv)
+{
+  const baum_mechanism *m = w->mechanism;
+  const double *lambda = v + m->nv;
+  double *direction = w->work_v;
+  baum_i_joint_blocks blocks = {w->jw_q, w->jtm_q, w->gamma_q, w->gamma_v, w->nu_q};
+  baum_status status = BAUM_OK;
+  choose_direction(dae, m->nv, v, dv, direction);
+  if (dae->index == BAUM_RESIDUAL_GGL) {
+    status = baum_i_mechanism_linearize_joints(&w->point, direction, lambda + m->nc, &blocks);
+  }
+  blocks.jtl_q = w->jtl_q;
+  return status == BAUM_OK
+           ? baum_i_mechanism_linearize_joints(&w->point, direction, lambda, &blocks)
+           : status;
+}
+
 static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, const double *y,
                              const double *dy)
 {
   int nq = w->mechanism->nq;
-  int nv = w->mechanism->nv;
   const double *v = y + nq;
   const double *dv = dy + nq;
   const baum_i_body_blocks bodies = {w->mass_q, w->body_force_q, w->body_force_v};
-  const baum_i_joint_blocks joints = {w->jw_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
   const baum_i_force_blocks forces = {w->force_q, w->force_v};
-  double *direction = w->work_v;
-  for (int i = 0; i < nv; i++) {
-    direction[i] = dv[i] + 2.0 * dae->alpha * v[i];
-  }
   baum_status status = baum_i_velocity_stage(w, t, y, v);
   if (status == BAUM_OK) {
     status = baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies);
   }
   if (status == BAUM_OK) {
-    status = baum_i_mechanism_linearize_joints(&w->point, direction, v + nv, &joints);
+    status = linearize_joints(w, dae, v, dv);
   }
   if (status == BAUM_OK) {
     status = baum_i_mechanism_linearize_forces(&w->point, &forces);

@@ -3,9 +3,16 @@
  *
  *   q' - v
  *   M v' + J^T lambda - g
- *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 3:  Phi
+ *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu        index 3:  Phi
  *
- * A dropped row i reads lambda_i = 0.
+ * and of C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90, of index 2 with y = (q, v, lambda, mu):
+ *
+ *   q' - v + W^-1 J^T mu
+ *   M v' + J^T lambda - g
+ *   Phi'
+ *   Phi
+ *
+ * A dropped row i reads lambda_i = 0, and mu_i = 0.
  */
 #include <string.h>
 
@@ -19,6 +26,44 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
     out[i] = 2.0 * dae->alpha * w->phi_rate[i] + dae->beta * dae->beta * w->phi[i] - w->gamma[i];
   }
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
+}
+
+/* Of lambda. */
+static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
+                            double *out)
+{
+  size_t bytes = (size_t)w->mechanism->nc * sizeof *out;
+  switch (dae->index) {
+  case BAUM_RESIDUAL_INDEX2:
+  case BAUM_RESIDUAL_GGL: memcpy(out, w->phi_rate, bytes); break;
+  case BAUM_RESIDUAL_INDEX3: memcpy(out, w->phi, bytes); break;
+  case BAUM_RESIDUAL_INDEX1:
+  default: acceleration_rows(w, dae, dv, out); break;
+  }
+}
+
+/* residual += W^-1 J^T mu. */
+static void add_correction(baum_workspace *w, const double *mu, double *residual)
+{
+  double *momentum = w->work_v;
+  memset(momentum, 0, (size_t)w->mechanism->nv * sizeof *momentum);
+  baum_i_jacobian_transposed_times(&w->structure, w->jacobian, mu, momentum);
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    residual[i] += momentum[i] / w->metric[i];
+  }
+}
+
+static void hold_dropped(const baum_workspace *w, const double *multipliers, double *rows)
+{
+  for (int i = 0; i < w->mechanism->nc && w->redundancy.count > 0; i++) {
+    rows[i] = w->redundancy.dropped[i] ? multipliers[i] : rows[i];
+  }
+}
+
+int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index)
+{
+  int multipliers = index == BAUM_RESIDUAL_GGL ? 2 * mechanism->nc : mechanism->nc;
+  return mechanism->nq + mechanism->nv + multipliers;
 }
 
 baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, const double *y,
@@ -43,13 +88,12 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   }
   baum_i_mass_times(&w->structure, w->mass, dv, newton);
   baum_i_jacobian_transposed_times(&w->structure, w->jacobian, lambda, newton);
-  if (dae->index == BAUM_RESIDUAL_INDEX1) {
-    acceleration_rows(w, dae, dv, rows);
-  } else {
-    memcpy(rows, w->phi, (size_t)nc * sizeof *rows);
-  }
-  for (int i = 0; i < nc && w->redundancy.count > 0; i++) {
-    rows[i] = w->redundancy.dropped[i] ? lambda[i] : rows[i];
+  constraint_rows(w, dae, dv, rows);
+  hold_dropped(w, lambda, rows);
+  if (dae->index == BAUM_RESIDUAL_GGL) {
+    add_correction(w, lambda + nc, residual);
+    memcpy(rows + nc, w->phi, (size_t)nc * sizeof *rows);
+    hold_dropped(w, lambda + nc, rows + nc);
   }
   return BAUM_OK;
 }

@@ -63,6 +63,7 @@ struct baum_workspace {
   baum_i_redundancy redundancy;
   bool mass_ready;     /* a constant M has been evaluated */
   bool jacobian_ready; /* the last evaluation has set all blocks of J */
+  bool metric_ready;   /* W has been chosen */
 
   double *mass;     /* block values */
   double *jacobian; /* block values */
@@ -78,6 +79,7 @@ struct baum_workspace {
   double *work_c;   /* (2 nc) */
   double *shift;    /* (nc) regularization of assembly */
   double *inputs;   /* (input_count) present values */
+  double *metric;   /* (nv) diagonal of W, once metric_ready */
 
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
@@ -87,6 +89,7 @@ struct baum_workspace {
   double *gamma_v;
   double *nu_q;
   double *jtl_q;   /* (joint_square_size) */
+  double *jtm_q;   /* (joint_square_size) likewise with mu */
   double *force_q; /* (force_square_size) */
   double *force_v;
 
@@ -142,7 +145,18 @@ baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, 
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint);
 void baum_i_reaction(const baum_workspace *workspace, int joint, const double *lambda, double *out);
 
-/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), and dF/dy + c dF/dy' ---- */
+/* ---- metric.c: W of GGL, constant from its first choice on ---- */
+
+/* From M in the workspace. */
+void baum_i_choose_metric(baum_workspace *workspace);
+/* From M in the drawn pose, where W has not been chosen. */
+baum_status baum_i_need_metric(baum_workspace *workspace);
+
+/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu) with
+ * W chosen before, and dF/dy + c dF/dy' ---- */
+
+/* Length of y. */
+int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);

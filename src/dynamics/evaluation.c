@@ -288,10 +288,11 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
   if (!w || !dae) {
     return fail_null(call, w ? "dae" : "the workspace");
   }
-  if (dae->index != BAUM_RESIDUAL_INDEX1 && dae->index != BAUM_RESIDUAL_INDEX3) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1 or 3", call, (int)dae->index);
+  if (dae->index < BAUM_RESIDUAL_INDEX1 || dae->index > BAUM_RESIDUAL_GGL) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: index is %d, must be 1, 2, 3 or 4 (GGL)", call,
+                       (int)dae->index);
   }
-  int size = 2 * w->mechanism->nv + w->mechanism->nc;
+  int size = baum_i_residual_size(w->mechanism, dae->index);
   baum_status status = check_gains(call, dae->alpha, dae->beta);
   if (status == BAUM_OK) {
     status = baum_i_check_finite(call, "t", "s", t);
@@ -302,6 +303,11 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
   return status == BAUM_OK ? check_finite(call, "dy", dy, size) : status;
 }
 
+static baum_status need_metric(baum_workspace *w, const baum_dae *dae)
+{
+  return dae->index == BAUM_RESIDUAL_GGL ? baum_i_need_metric(w) : BAUM_OK;
+}
+
 baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                                     const double *y, const double *dy, double *residual)
 {
@@ -309,6 +315,9 @@ baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *d
   baum_status status = check_dae(call, workspace, dae, t, y, dy);
   if (status == BAUM_OK && !residual) {
     status = fail_null(call, "the output");
+  }
+  if (status == BAUM_OK) {
+    status = need_metric(workspace, dae);
   }
   return status == BAUM_OK ? baum_i_residual(workspace, dae, t, y, dy, residual) : status;
 }
@@ -338,6 +347,9 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
   if (status == BAUM_OK) {
     status = baum_i_check_finite(call, "c", "1/s", c);
   }
+  if (status == BAUM_OK) {
+    status = need_metric(workspace, dae);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -347,7 +359,7 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
     status = baum_i_residual_matrix_fill(matrix, workspace, dae, c, t, y, dy, out->values);
   }
   if (status == BAUM_OK) {
-    copy_pattern(matrix, 2 * workspace->mechanism->nv + workspace->mechanism->nc, out);
+    copy_pattern(matrix, baum_i_residual_size(workspace->mechanism, dae->index), out);
   }
   baum_i_residual_matrix_destroy(matrix);
   return status;

@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 26 };
+enum { ARRAY_COUNT = 28 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -42,9 +42,11 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->gamma_v, m->jacobian_size},
     {&w->nu_q, m->jacobian_size},
     {&w->jtl_q, m->joint_square_size},
+    {&w->jtm_q, m->joint_square_size},
     {&w->force_q, m->force_square_size},
     {&w->force_v, m->force_square_size},
     {&w->inputs, m->input_count},
+    {&w->metric, m->nv},
   };
   memcpy(list, all, sizeof all);
 }

@@ -304,7 +304,7 @@ static void workspaces_refuse_the_rest_by_name(void **state)
   double q[EVERY_NV];
   double v[EVERY_NV];
   double y[2 * EVERY_NV + EVERY_NC] = {0.0};
-  baum_dae dae = {.index = (baum_residual)2};
+  baum_dae dae = {.index = (baum_residual)5};
   ASSERT_SAYS(baum_workspace_create(NULL, &w), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   assert_null(w);
   ASSERT_SAYS(baum_workspace_create(parts.mechanism, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
@@ -313,7 +313,7 @@ static void workspaces_refuse_the_rest_by_name(void **state)
   assert_int_equal(baum_workspace_drawn(w, NULL, NULL), BAUM_OK);
   assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
   ASSERT_SAYS(baum_workspace_residual(w, &dae, 0.0, y, y, y), BAUM_ERR_ARGUMENT,
-              "index is 2, must be 1 or 3");
+              "index is 5, must be 1, 2, 3 or 4 (GGL)");
   ASSERT_SAYS(baum_workspace_residual(w, NULL, 0.0, y, y, y), BAUM_ERR_ARGUMENT, "dae is NULL");
   dae = (baum_dae){.index = BAUM_RESIDUAL_INDEX1, .alpha = (double)NAN};
   ASSERT_SAYS(baum_workspace_residual(w, &dae, 0.0, y, y, y), BAUM_ERR_ARGUMENT, "alpha");

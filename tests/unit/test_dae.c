@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Residual forms and their Jacobian: against differences, and zero at the solution of (7). */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,9 +12,15 @@
 
 #include "assert_near.h"
 #include "dynamics/dynamics.h"
+#include "every_element.h"
+#include "joint_scenes.h"
 #include "models.h"
 
-enum { SIZE_MAX_DAE = 80, STATES = 5 };
+enum { SIZE_MAX_DAE = 100, STATES = 5 };
+
+static const baum_residual FORMS[] = {BAUM_RESIDUAL_INDEX1, BAUM_RESIDUAL_INDEX2,
+                                      BAUM_RESIDUAL_INDEX3, BAUM_RESIDUAL_GGL};
+enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
 /* Deterministic numbers in [-1, 1]. */
 static double scatter(int k)
@@ -25,17 +32,39 @@ static double scatter(int k)
 typedef struct point {
   double y[SIZE_MAX_DAE];
   double dy[SIZE_MAX_DAE];
+  double scale[SIZE_MAX_DAE]; /* of y */
   int size;
 } point;
 
-/* A state near the drawing with velocities, accelerations and multipliers of size 1. */
-static point random_point(const baum_mechanism *m, int seed)
+/* Scales of y, so that units make no difference: those of the coordinates, at 1/s, and for multipliers the largest
+ * inertia at that rate over the displacement of the row; those of mu are by a second larger. */
+static void take_scales(baum_workspace *w, point *p)
 {
-  point p = {.size = 2 * m->nv + m->nc};
+  const baum_mechanism *m = w->mechanism;
+  double displacement[SIZE_MAX_DAE];
+  double energy = 0.0;
+  assert_int_equal(baum_i_need_metric(w), BAUM_OK);
+  assert_int_equal(baum_i_position_stage(w, 0.0, m->drawn_q), BAUM_OK);
+  baum_i_row_displacements(w, displacement);
+  for (int i = 0; i < m->nv; i++) {
+    p->scale[i] = p->scale[m->nv + i] = m->scale[i];
+    energy = fmax(energy, w->metric[i] * m->scale[i] * m->scale[i]);
+  }
+  for (int i = 2 * m->nv; i < p->size; i++) {
+    p->scale[i] = energy / displacement[(i - 2 * m->nv) % m->nc];
+  }
+}
+
+/* A state near the drawing with velocities, accelerations and multipliers of the size of their scales. */
+static point random_point(baum_workspace *w, baum_residual index, int seed)
+{
+  const baum_mechanism *m = w->mechanism;
+  point p = {.size = baum_i_residual_size(m, index)};
   assert_true(p.size <= SIZE_MAX_DAE);
+  take_scales(w, &p);
   for (int i = 0; i < p.size; i++) {
-    p.y[i] = scatter(seed + i);
-    p.dy[i] = scatter(seed + 1000 + i);
+    p.y[i] = p.scale[i] * scatter(seed + i);
+    p.dy[i] = p.scale[i] * scatter(seed + 1000 + i);
   }
   for (int i = 0; i < m->nq; i++) {
     p.y[i] = m->drawn_q[i] + 0.1 * m->scale[i] * scatter(seed + i);
@@ -49,7 +78,7 @@ static void difference_column(baum_workspace *w, const baum_dae *dae, double c, 
 {
   double high[SIZE_MAX_DAE];
   double low[SIZE_MAX_DAE];
-  double step = 1e-5;
+  double step = 1e-5 * p.scale[j];
   double y = p.y[j];
   double dy = p.dy[j];
   p.y[j] = y + step;
@@ -63,56 +92,96 @@ static void difference_column(baum_workspace *w, const baum_dae *dae, double c, 
   }
 }
 
-static void check_column(const baum_i_residual_matrix *matrix, const double *values, int j,
-                         const double *want, int size)
+typedef struct square {
+  double at[SIZE_MAX_DAE][SIZE_MAX_DAE]; /* row by row */
+} square;
+
+static void difference_all(baum_workspace *w, const baum_dae *dae, double c, const point *p,
+                           square *out)
 {
-  const int32_t *columns = baum_i_residual_matrix_columns(matrix);
-  const int32_t *rows = baum_i_residual_matrix_rows(matrix);
-  double got[SIZE_MAX_DAE] = {0};
-  for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
-    assert_true(k == columns[j] || rows[k] > rows[k - 1]);
-    got[rows[k]] = values[k];
-  }
-  double largest = 1.0;
-  for (int i = 0; i < size; i++) {
-    largest = fmax(largest, fabs(want[i]));
-  }
-  for (int i = 0; i < size; i++) {
-    /* Truncation of a central difference with step 1e-5 and its rounding: 1e-10 of the largest entry and of the
-     * residual, which is larger than the entries; the Jacobian of user functions is itself a difference. */
-    ASSERT_NEAR(got[i], want[i], 2e-6, 2e-6 * largest);
+  for (int j = 0; j < p->size; j++) {
+    double column[SIZE_MAX_DAE];
+    difference_column(w, dae, c, *p, j, column);
+    for (int i = 0; i < p->size; i++) {
+      out->at[i][j] = column[i];
+    }
   }
 }
 
-static void check_jacobian(baum_workspace *w, baum_residual index)
+static void spread(const baum_i_residual_matrix *matrix, const double *values, int size,
+                   square *out)
 {
+  const int32_t *columns = baum_i_residual_matrix_columns(matrix);
+  const int32_t *rows = baum_i_residual_matrix_rows(matrix);
+  memset(out, 0, sizeof *out);
+  for (int j = 0; j < size; j++) {
+    for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
+      assert_true(k == columns[j] || rows[k] > rows[k - 1]);
+      out->at[rows[k]][j] = values[k];
+    }
+  }
+}
+
+/* Largest difference of entries, each times the scale of its column, over the largest of its row. */
+static double largest_difference(const square *got, const square *want, const point *p)
+{
+  double worst = 0.0;
+  for (int i = 0; i < p->size; i++) {
+    double largest = DBL_MIN;
+    double apart = 0.0;
+    for (int j = 0; j < p->size; j++) {
+      double difference = fabs(got->at[i][j] - want->at[i][j]) * p->scale[j];
+      largest = fmax(largest, fabs(want->at[i][j]) * p->scale[j]);
+      apart = isnan(difference) || difference > apart ? difference : apart;
+    }
+    worst = isnan(apart) || apart / largest > worst ? apart / largest : worst;
+  }
+  return worst;
+}
+
+static double check_jacobian(baum_workspace *w, baum_residual index)
+{
+  static square got;
+  static square want;
   const baum_dae dae = {index, 3.0, 5.0};
   const double c = 7.0;
+  double worst = 0.0;
   baum_i_residual_matrix *matrix = NULL;
   assert_int_equal(baum_i_residual_matrix_create(w, index, &matrix), BAUM_OK);
   double *values = malloc((size_t)baum_i_residual_matrix_nonzeros(matrix) * sizeof *values);
   for (int k = 0; k < STATES; k++) {
-    point p = random_point(w->mechanism, 97 * k);
+    point p = random_point(w, index, 97 * k);
     assert_int_equal(baum_i_residual_matrix_fill(matrix, w, &dae, c, 0.3, p.y, p.dy, values),
                      BAUM_OK);
-    for (int j = 0; j < p.size; j++) {
-      double want[SIZE_MAX_DAE];
-      difference_column(w, &dae, c, p, j, want);
-      check_column(matrix, values, j, want, p.size);
-    }
+    spread(matrix, values, p.size, &got);
+    difference_all(w, &dae, c, &p, &want);
+    worst = fmax(worst, largest_difference(&got, &want, &p));
   }
   free(values);
   baum_i_residual_matrix_destroy(matrix);
+  return worst;
 }
 
-static void check_model(baum_status status, model *m)
+/* The truncation of a central difference with step 1e-5 of the scale, 1e-10, and its rounding; the Jacobian of user
+ * functions is itself a difference. A wrong term is a share of 1e-3 or more. */
+static void check_all_forms(const char *name, const baum_mechanism *mechanism)
+{
+  for (int f = 0; f < FORM_COUNT; f++) {
+    baum_workspace *w = NULL;
+    assert_int_equal(baum_workspace_create(mechanism, &w), BAUM_OK);
+    double worst = check_jacobian(w, FORMS[f]);
+    print_message("%-24s form %d: %.1e\n", name, (int)FORMS[f], worst);
+    if (!(worst <= 2e-7)) {
+      fail_msg("%s, form %d: %g", name, (int)FORMS[f], worst);
+    }
+    baum_workspace_destroy(w);
+  }
+}
+
+static void check_model(const char *name, baum_status status, model *m)
 {
   assert_int_equal(status, BAUM_OK);
-  baum_workspace *w = NULL;
-  assert_int_equal(baum_workspace_create(m->mechanism, &w), BAUM_OK);
-  check_jacobian(w, BAUM_RESIDUAL_INDEX1);
-  check_jacobian(w, BAUM_RESIDUAL_INDEX3);
-  baum_workspace_destroy(w);
+  check_all_forms(name, m->mechanism);
   model_destroy(m);
 }
 
@@ -120,29 +189,68 @@ static void the_jacobian_is_that_of_differences_for_bodies_with_a_motor(void **s
 {
   (void)state;
   model m;
-  check_model(model_slider_crank_build((model_slider_crank){.driven = true}, &m), &m);
+  check_model("slider-crank", model_slider_crank_build((model_slider_crank){.driven = true}, &m),
+              &m);
+  check_model(
+    "slider-crank, mm",
+    model_slider_crank_build((model_slider_crank){.driven = true, .units = &MODEL_MILLI}, &m), &m);
+}
+
+static void the_jacobian_is_that_of_differences_where_rows_are_redundant(void **state)
+{
+  (void)state;
+  model m;
+  check_model("two guides",
+              model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m), &m);
+}
+
+/* A body without mass, whose share in W is the least one. */
+static void the_jacobian_is_that_of_differences_for_a_body_without_mass(void **state)
+{
+  (void)state;
+  model m;
+  check_model("parallelogram", model_parallelogram_build(MODEL_THIRD_BY_A_ROD, 1.0, &m), &m);
+}
+
+static void the_jacobian_is_that_of_differences_for_every_element(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  check_all_forms("every element", parts.mechanism);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void the_jacobian_is_that_of_differences_for_every_joint(void **state)
+{
+  (void)state;
+  for (int k = 0; k < JOINT_SCENES; k++) {
+    baum_mechanism *mechanism = joint_scene_make(&joint_scenes[k]);
+    check_all_forms(joint_scenes[k].name, mechanism);
+    baum_mechanism_destroy(mechanism);
+  }
 }
 
 static void the_jacobian_is_that_of_differences_for_bodies_with_a_spring(void **state)
 {
   (void)state;
   model m;
-  check_model(model_andrews_bodies(&m), &m);
+  check_model("Andrews", model_andrews_bodies(&m), &m);
+  check_model("Andrews, mm", model_andrews_bodies_in(&MODEL_MILLI, &m), &m);
 }
 
 static void the_jacobian_is_that_of_differences_for_user_functions(void **state)
 {
   (void)state;
   model m;
-  check_model(model_andrews_angles(true, &m), &m);
-  check_model(model_andrews_angles(false, &m), &m);
+  check_model("Andrews, angles", model_andrews_angles(true, &m), &m);
+  check_model("Andrews, Phi only", model_andrews_angles(false, &m), &m);
 }
 
 static void the_jacobian_is_that_of_differences_for_rows_that_depend_on_time(void **state)
 {
   (void)state;
   model m;
-  check_model(model_car_axis(true, &m), &m);
+  check_model("car axis", model_car_axis(true, &m), &m);
 }
 
 static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equations(void **state)
@@ -153,7 +261,7 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m.mechanism, &w), BAUM_OK);
   const baum_dae dae = {BAUM_RESIDUAL_INDEX1, 30.0, 50.0};
-  point p = random_point(m.mechanism, 5);
+  point p = random_point(w, BAUM_RESIDUAL_INDEX1, 5);
   int nv = m.mechanism->nv;
   int nc = m.mechanism->nc;
   assert_int_equal(
@@ -169,6 +277,48 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   for (int i = 0; i < 2 * nv + nc; i++) {
     /* rounding of sums whose terms are of that size */
     ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
+  }
+  baum_workspace_destroy(w);
+  model_destroy(&m);
+}
+
+/* At the solution of (5) on the constraints, with mu = 0, everything vanishes; mu moves the positions alone, by
+ * W^-1 J^T mu. */
+static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(
+    model_slider_crank_build((model_slider_crank){.driven = true, .moving = true}, &m), BAUM_OK);
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(m.mechanism, &w), BAUM_OK);
+  const baum_dae dae = {.index = BAUM_RESIDUAL_GGL};
+  int nv = m.mechanism->nv;
+  int nc = m.mechanism->nc;
+  point p = {.size = 2 * nv + 2 * nc};
+  double residual[SIZE_MAX_DAE];
+  double jacobian[SIZE_MAX_DAE * SIZE_MAX_DAE];
+  double mass[SIZE_MAX_DAE * SIZE_MAX_DAE];
+  assert_int_equal(baum_workspace_drawn(w, p.y, p.y + nv), BAUM_OK);
+  assert_int_equal(
+    baum_workspace_acceleration(w, 0.0, p.y, p.y + nv, 0.0, 0.0, p.dy + nv, p.y + 2 * nv), BAUM_OK);
+  memcpy(p.dy, p.y + nv, (size_t)nv * sizeof(double));
+  assert_int_equal(baum_workspace_residual(w, &dae, 0.0, p.y, p.dy, residual), BAUM_OK);
+  double size = 1.0;
+  for (int i = 0; i < 2 * nv + nc; i++) {
+    size = fmax(size, fmax(fabs(p.y[i]), fabs(p.dy[i])));
+  }
+  for (int i = 0; i < p.size; i++) {
+    /* rounding of sums whose terms are of that size */
+    ASSERT_NEAR(residual[i], 0.0, 0.0, 1e-13 * size);
+  }
+  p.y[2 * nv + nc] = 0.5;
+  assert_int_equal(baum_workspace_residual(w, &dae, 0.0, p.y, p.dy, residual), BAUM_OK);
+  assert_int_equal(baum_workspace_jacobian(w, 0.0, p.y, jacobian), BAUM_OK);
+  assert_int_equal(baum_workspace_mass(w, 0.0, p.y, mass), BAUM_OK);
+  for (int i = 0; i < nv; i++) {
+    /* M of planar bodies is diagonal and none of theirs is a millionth of the others' */
+    ASSERT_NEAR(residual[i], 0.5 * jacobian[i] / mass[i * nv + i], 1e-13, 1e-13 * size);
   }
   baum_workspace_destroy(w);
   model_destroy(&m);
@@ -204,9 +354,14 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(the_jacobian_is_that_of_differences_for_bodies_with_a_motor),
     cmocka_unit_test(the_jacobian_is_that_of_differences_for_bodies_with_a_spring),
+    cmocka_unit_test(the_jacobian_is_that_of_differences_where_rows_are_redundant),
+    cmocka_unit_test(the_jacobian_is_that_of_differences_for_a_body_without_mass),
+    cmocka_unit_test(the_jacobian_is_that_of_differences_for_every_element),
+    cmocka_unit_test(the_jacobian_is_that_of_differences_for_every_joint),
     cmocka_unit_test(the_jacobian_is_that_of_differences_for_user_functions),
     cmocka_unit_test(the_jacobian_is_that_of_differences_for_rows_that_depend_on_time),
     cmocka_unit_test(the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equations),
+    cmocka_unit_test(the_ggl_residual_vanishes_on_the_constraints_with_mu_zero),
     cmocka_unit_test(the_public_jacobian_tells_its_size_first),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

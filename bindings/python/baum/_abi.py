@@ -189,7 +189,9 @@ class baum_report(Structure):
 
 class baum_residual(enum.IntEnum):
     BAUM_RESIDUAL_INDEX1 = 1
+    BAUM_RESIDUAL_INDEX2 = 2
     BAUM_RESIDUAL_INDEX3 = 3
+    BAUM_RESIDUAL_GGL = 4
 
 
 class baum_dae(Structure):

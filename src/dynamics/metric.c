@@ -1,0 +1,48 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Metric W of the correction of positions in GGL,
+ *
+ *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
+ *
+ * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that coordinates without mass
+ * have a share too; 1 where nothing has mass. It is as mass is, so that neither units nor a mixture of lengths and
+ * angles make a difference: all M_kk s_k^2 are of one unit.
+ *
+ * Any W that is positive definite gives the same motion, for mu is zero in it; W says how an error of a method is
+ * divided among the coordinates. Constant, it has no derivatives.
+ */
+#include <math.h>
+
+#include "dynamics/dynamics.h"
+
+static const double LEAST_SHARE = 1e-6;
+
+void baum_i_choose_metric(baum_workspace *w)
+{
+  const double *scale = w->mechanism->scale;
+  double largest = 0.0;
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      int j = block->first + i;
+      w->metric[j] = w->mass[block->value + i * block->size + i];
+      largest = fmax(largest, w->metric[j] * scale[j] * scale[j]);
+    }
+  }
+  double least = largest > 0.0 ? LEAST_SHARE * largest : 1.0;
+  for (int j = 0; j < w->mechanism->nv; j++) {
+    w->metric[j] = fmax(w->metric[j], least / (scale[j] * scale[j]));
+  }
+  w->metric_ready = true;
+}
+
+baum_status baum_i_need_metric(baum_workspace *w)
+{
+  if (w->metric_ready) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_position_stage(w, 0.0, w->mechanism->drawn_q);
+  if (status == BAUM_OK) {
+    baum_i_choose_metric(w);
+  }
+  return status;
+}
