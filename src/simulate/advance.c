@@ -151,6 +151,7 @@ static baum_status short_step(baum_simulation *run, double t)
   if (status == BAUM_OK) {
     keep_trial(run);
     run->counters.short_steps++;
+    run->counters.restarts += run->integrator->accept ? 1 : 0; /* its past was of the grid */
     run->grid = (baum_i_grid){.origin = t};
   }
   return status;

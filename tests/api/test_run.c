@@ -535,8 +535,10 @@ static void turning_round_restarts_multistep_methods_only(void **state)
     assert_true(baum_simulation_advance_to(s.run, 0.03) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, 0.01) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
-    bool fixed = baum_integrator_has_fixed_step(integrator_at(k));
-    assert_int_equal(counters_of(s.run).restarts, fixed ? 0 : 1);
+    const char *name = baum_integrator_name(integrator_at(k));
+    bool multistep =
+      !baum_integrator_has_fixed_step(integrator_at(k)) || strncmp(name, "ab", 2) == 0;
+    assert_int_equal(counters_of(s.run).restarts, multistep ? 1 : 0);
     close_scene(&s);
   }
 }
