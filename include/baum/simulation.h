@@ -37,6 +37,14 @@ BAUM_API const baum_integrator *baum_rk2(void);
 BAUM_API const baum_integrator *baum_rk3(void);
 /** The classical fourth-order Runge-Kutta method, fixed step. Formulations as baum_rk2(). */
 BAUM_API const baum_integrator *baum_rk4(void);
+/** Dormand and Prince's pair of orders 5 and 4, explicit: rtol, or step for steps of one length.
+ *  Six evaluations a step. PROJECTION, BAUMGARTE (auto), UNSTABILIZED. For loose tolerances. */
+BAUM_API const baum_integrator *baum_dp5(void);
+/** DOP853, explicit, order 8 with estimates of orders 5 and 3 (Hairer, Norsett, Wanner 1993): rtol,
+ *  or step for steps of one length. Twelve evaluations a step, three more where one is looked into
+ *  between its ends. Formulations as baum_dp5(). The first choice where forces are not stiff and
+ *  rtol is 1e-5 or less. */
+BAUM_API const baum_integrator *baum_rk8(void);
 /** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (auto),
  *  UNSTABILIZED; its past cannot be projected. Begins with Runge-Kutta steps, also after
  *  baum_simulation_set_state(), _set_input() and _set_driver(), a turn in time and a target off the

@@ -1,11 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Explicit Runge-Kutta methods for q' = N v, v' = a(t, q, v) (C. Runge, 1895; W. Kutta, 1901; table: J. Butcher,
- * 1964). With s stages, N the identity so far:
+ * 1964). With y = (q, v), s stages, N the identity so far:
  *
- *   Q_i = q + h sum_{j<i} a_ij V_j                  (nq)   i = 1 .. s
- *   V_i = v + h sum_{j<i} a_ij A_j                  (nv)
- *   A_i = a(t + c_i h, Q_i, V_i)                    (nv)   A_1 is given by the caller
- *   q(t + h) = q + h sum b_i V_i,  v(t + h) = v + h sum b_i A_i
+ *   Y_i = (Q_i, V_i) = y + h sum_{j<i} a_ij K_j               (2 nv)  i = 1 .. s
+ *   K_i = (V_i, A_i),  A_i = a(t + c_i h, Q_i, V_i)           (2 nv)  A_1 is given by the caller
+ *   y(t + h) = y + h sum b_i K_i
  *
  * The state is written last, so that a failing stage leaves it as it was.
  */
@@ -14,16 +13,8 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/hot.h"
 #include "base/message.h"
-
-/* Memory of a run. */
-typedef struct rk_run {
-  const baum_i_rk_table *table;
-  int nv;
-  double *velocities;    /* (stages x nv) V_i */
-  double *accelerations; /* (stages x nv) A_i */
-  double *positions;     /* (nv) Q_i of the present stage */
-} rk_run;
 
 const baum_formulation baum_i_rk_formulations[] = {
   BAUM_FORMULATION_PROJECTION,
@@ -32,36 +23,43 @@ const baum_formulation baum_i_rk_formulations[] = {
   BAUM_FORMULATION_DEFAULT,
 };
 
-/* out = base + h sum_j weights_j rates_j over the first `count` rates; out may be base. */
-static void combine(const rk_run *run, int count, const double *weights, const double *rates,
-                    double h, const double *base, double *out)
+double *baum_i_rk_rate(const baum_i_rk *rk, int stage)
 {
-  int nv = run->nv;
-  for (int i = 0; i < nv; i++) {
-    double sum = 0.0;
-    for (int j = 0; j < count; j++) {
-      sum += weights[j] * rates[(size_t)j * nv + i];
-    }
-    out[i] = base[i] + h * sum;
-  }
+  return rk->rates + (size_t)stage * (size_t)rk->size;
 }
 
-static void keep(const rk_run *run, int stage, const double *a)
+static void keep(const baum_i_rk *rk, int stage, const double *v, const double *a)
 {
-  memcpy(run->accelerations + (size_t)stage * run->nv, a, (size_t)run->nv * sizeof *a);
+  size_t bytes = (size_t)rk->nv * sizeof *a;
+  double *rate = baum_i_rk_rate(rk, stage);
+  memcpy(rate, v, bytes);
+  memcpy(rate + rk->nv, a, bytes);
 }
 
-static baum_status evaluate_stage(const rk_run *run, int stage, const baum_i_problem *problem,
-                                  const baum_i_state *state, double h)
+baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *problem, double t,
+                               const double *y, int stage)
 {
-  const double *row = run->table->a + stage * (stage - 1) / 2;
-  double *velocity = run->velocities + (size_t)stage * run->nv;
-  combine(run, stage, row, run->velocities, h, state->q, run->positions);
-  combine(run, stage, row, run->accelerations, h, state->v, velocity);
-  double t = state->t + run->table->c[stage] * h;
-  baum_status status = baum_i_problem_motion(problem, t, run->positions, velocity);
+  baum_status status = baum_i_problem_motion(problem, t, y, y + rk->nv);
   if (status == BAUM_OK) {
-    keep(run, stage, problem->workspace->a);
+    keep(rk, stage, y + rk->nv, problem->workspace->a);
+  }
+  return status;
+}
+
+void baum_i_rk_combine(const baum_i_rk *rk, int count, const double *weights, double h, double *out)
+{
+  rk->kernel->combine(rk->size, count, weights, h, rk->rates, rk->start, out);
+}
+
+baum_status baum_i_rk_stages(const baum_i_rk *rk, const baum_i_problem *problem, double t, double h)
+{
+  const baum_i_rk_table *table = rk->table;
+  const double *row = table->a;
+  baum_status status = BAUM_OK;
+  for (int i = 1; i < table->stages && status == BAUM_OK; i++) {
+    baum_i_rk_combine(rk, i, row, h, rk->point);
+    status = baum_i_rk_evaluate(rk, problem, t + table->c[i] * h, rk->point, i);
+    row += i;
   }
   return status;
 }
@@ -69,18 +67,37 @@ static baum_status evaluate_stage(const rk_run *run, int stage, const baum_i_pro
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                            const double *a)
 {
-  const rk_run *run = self;
-  int stages = run->table->stages;
-  memcpy(run->velocities, state->v, (size_t)run->nv * sizeof *state->v);
-  keep(run, 0, a);
-  for (int stage = 1; stage < stages; stage++) {
-    baum_status status = evaluate_stage(run, stage, problem, state, h);
-    if (status != BAUM_OK) {
-      return status;
-    }
+  const baum_i_rk *rk = self;
+  size_t bytes = (size_t)rk->nv * sizeof *a;
+  memcpy(rk->start, state->q, bytes);
+  memcpy(rk->start + rk->nv, state->v, bytes);
+  keep(rk, 0, state->v, a);
+  baum_status status = baum_i_rk_stages(rk, problem, state->t, h);
+  if (status == BAUM_OK) {
+    baum_i_rk_combine(rk, rk->table->stages, rk->table->b, h, rk->point);
+    memcpy(state->q, rk->point, bytes);
+    memcpy(state->v, rk->point + rk->nv, bytes);
   }
-  combine(run, stages, run->table->b, run->velocities, h, state->q, state->q);
-  combine(run, stages, run->table->b, run->accelerations, h, state->v, state->v);
+  return status;
+}
+
+baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
+                           const baum_i_problem *problem, int rate_count, int more_count,
+                           double **more)
+{
+  const size_t lanes = BAUM_I_RK_LANES;
+  int nv = problem->workspace->mechanism->nv;
+  size_t size = (2 * (size_t)nv + lanes - 1) / lanes * lanes;
+  size_t arrays = (size_t)rate_count + 2 + (size_t)more_count;
+  *rk = (baum_i_rk){.table = table, .nv = nv, .size = (int)size};
+  rk->kernel = BAUM_I_HOT_TABLE(baum_i_rk_kernel);
+  rk->rates = baum_i_alloc(arrays * size, sizeof *rk->rates);
+  if (!rk->rates) {
+    return baum_i_fail_memory();
+  }
+  rk->start = rk->rates + (size_t)rate_count * size;
+  rk->point = rk->start + size;
+  *more = rk->point + size;
   return BAUM_OK;
 }
 
@@ -88,29 +105,25 @@ baum_status baum_i_rk_create(const baum_i_rk_table *table, const baum_i_problem 
                              void **out)
 {
   *out = NULL;
-  rk_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
+  double *more = NULL;
+  baum_i_rk *rk = baum_i_alloc(1, sizeof *rk);
+  if (!rk) {
     return baum_i_fail_memory();
   }
-  run->table = table;
-  run->nv = problem->workspace->mechanism->nv;
-  size_t block = (size_t)table->stages * (size_t)run->nv;
-  run->velocities = baum_i_alloc(2 * block + (size_t)run->nv, sizeof *run->velocities);
-  if (!run->velocities) {
-    baum_i_rk_destroy(run);
-    return baum_i_fail_memory();
+  baum_status status = baum_i_rk_open(rk, table, problem, table->stages, 0, &more);
+  if (status != BAUM_OK) {
+    baum_i_rk_destroy(rk);
+    return status;
   }
-  run->accelerations = run->velocities + block;
-  run->positions = run->accelerations + block;
-  *out = run;
+  *out = rk;
   return BAUM_OK;
 }
 
 void baum_i_rk_destroy(void *self)
 {
-  rk_run *run = self;
-  if (run) {
-    baum_i_free(run->velocities);
-    baum_i_free(run);
+  baum_i_rk *rk = self;
+  if (rk) {
+    baum_i_free(rk->rates);
+    baum_i_free(rk);
   }
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta methods: one driver, a table for each method. */
+/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Pairs, which choose their step,
+ * are in rk_adaptive.h. */
 #ifndef BAUM_I_INTEGRATE_RK_H
 #define BAUM_I_INTEGRATE_RK_H
 
 #include "integrate/integrator.h"
+#include "integrate/rk_kernel.h"
 
 /* Butcher's table of an explicit method; c[0] = 0. */
 typedef struct baum_i_rk_table {
@@ -12,6 +14,18 @@ typedef struct baum_i_rk_table {
   const double *a; /* strictly lower triangle, its rows one after the other */
   const double *b; /* (stages) */
 } baum_i_rk_table;
+
+/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size` entries: nv
+ * positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
+typedef struct baum_i_rk {
+  const baum_i_rk_table *table;
+  const baum_i_rk_kernel *kernel;
+  int nv;
+  int size;
+  double *rates; /* (rate_count x size) K_i = (V_i, A_i) */
+  double *start; /* (size) (q, v) at the start of the step */
+  double *point; /* (size) (Q_i, V_i) of the present stage */
+} baum_i_rk;
 
 /* Formulations of every Runge-Kutta method. */
 extern const baum_formulation baum_i_rk_formulations[];
@@ -22,5 +36,27 @@ baum_status baum_i_rk_create(const baum_i_rk_table *table, const baum_i_problem 
 void baum_i_rk_destroy(void *self);
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                            const double *a);
+
+/* ---- for methods that have more to remember ---- */
+
+/* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over (q, v). All of it
+ * is one piece of memory, rk->rates. */
+baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
+                           const baum_i_problem *problem, int rate_count, int more_count,
+                           double **more);
+
+double *baum_i_rk_rate(const baum_i_rk *rk, int stage);
+
+/* K_stage at (t, y), y of (q, v). */
+baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *problem, double t,
+                               const double *y, int stage);
+
+/* out = start + h sum_j weights_j K_j over the first `count` rates. */
+void baum_i_rk_combine(const baum_i_rk *rk, int count, const double *weights, double h,
+                       double *out);
+
+/* All stages but the first, whose rate is there, of a step by h from `start` at t. */
+baum_status baum_i_rk_stages(const baum_i_rk *rk, const baum_i_problem *problem, double t,
+                             double h);
 
 #endif

@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Explicit Runge-Kutta pairs with steps of their own choice (E. Hairer, S. P. Norsett, G. Wanner: Solving Ordinary
+ * Differential Equations I, 2nd ed. 1993, sections II.4 to II.6 and the appendix). In the notation of rk.c, with
+ * K_(s+1) the rate at the end of the step:
+ *
+ *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v)
+ *                 with a second one of order 3:  |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls with h^8 where |E|
+ *                 alone falls with h^6
+ *   interpolant   y + x (F_1 + (1 - x) (F_2 + x (F_3 + (1 - x) (F_4 + ...)))),  x = (t - t_n) / h,
+ *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4 ... = h sum d_i K_i
+ *
+ * whatever F_4 ... are, it takes the values and rates of both ends. Norm and tolerances are those of CVODE here, so
+ * that one rtol means the same everywhere. Extra rates of the interpolant are evaluated when a time inside the step is
+ * asked for; nothing of that comes back into the motion.
+ *
+ * Projection: the end of a step is projected before its rate is taken, so that interpolant and next step begin at the
+ * projected state. Where the estimate needs that rate, it is therefore made after the projection, which is of its order
+ * or smaller, and one evaluation is saved in each step.
+ *
+ * The end of a step is t + h as rounded, and h is what lies between: time and motion never part.
+ */
+#include "integrate/rk_adaptive.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "integrate/step_control.h"
+
+/* An evaluation that failed in a try, for which a smaller step was taken. */
+typedef struct failure {
+  baum_status status; /* BAUM_OK: none */
+  double t;           /* start of that try */
+  char sentence[BAUM_I_MESSAGE_SIZE];
+} failure;
+
+/* Memory of a run. */
+typedef struct adaptive_run {
+  baum_i_rk rk; /* first, for baum_i_rk_step() */
+  const baum_i_rk_pair *pair;
+  baum_i_step_control control;
+  double t;        /* start of the last step */
+  double t_end;    /* its end */
+  double h;        /* its signed length */
+  double *end;     /* (size) (q, v) at its end */
+  double *weights; /* (size) 1 / tolerance */
+  double *dense;   /* ((3 + pair->dense) x size) F of the last step */
+  bool has_step;   /* t .. weights are of a step */
+  bool has_dense;  /* F is of that step */
+  bool unfinished; /* a start or step that failed must be begun anew */
+  int64_t rejected;
+  failure last;
+} adaptive_run;
+
+/* Of the terms of an error estimate of order 3, squared. */
+static const double SHARE_OF_ERROR3 = 0.01;
+
+/* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
+static const double SHORTEST = 10.0 * DBL_EPSILON;
+
+/* ---- failures ---- */
+
+static baum_status fail_with_evaluation(const adaptive_run *run, double t)
+{
+  return baum_i_fail(run->last.status, "%.800s (in a step of %s from t = %.9g s)",
+                     run->last.sentence, run->pair->name, t);
+}
+
+static void remember(adaptive_run *run, baum_status status)
+{
+  run->last.status = status;
+  run->last.t = run->t;
+  (void)snprintf(run->last.sentence, sizeof run->last.sentence, "%s", baum_message());
+}
+
+/* May a shorter step help? */
+static bool may_shorten(const baum_i_problem *problem, baum_status status)
+{
+  if (status == BAUM_ERR_CALLBACK) {
+    return problem->workspace->point.retry;
+  }
+  return status == BAUM_ERR_NOT_FINITE || status == BAUM_ERR_SINGULAR ||
+         status == BAUM_ERR_CONVERGENCE;
+}
+
+/* Steps that shrink towards a place where evaluations fail end with one in which none does: what failed nearly no time
+ * ago is still the reason. */
+static baum_status fail_short(const adaptive_run *run, const baum_i_problem *problem, double h)
+{
+  bool near = fabs(run->t - run->last.t) * problem->rate <= 1e-6;
+  if (run->last.status != BAUM_OK && near) {
+    return fail_with_evaluation(run, run->t);
+  }
+  return baum_i_fail(
+    BAUM_ERR_STEP,
+    "t = %.9g s: %s: a step of %.3g s is too short beside the time; the error stays "
+    "above the tolerance however small the step: a force may jump here, the pose "
+    "may be near a singular one, or rtol = %g is too small",
+    run->t, run->pair->name, h, problem->rtol);
+}
+
+/* ---- norms ---- */
+
+static void weigh(adaptive_run *run, const baum_i_problem *problem)
+{
+  int nv = run->rk.nv;
+  baum_i_problem_tolerances(problem, run->rk.start + nv, run->weights, run->weights + nv);
+  for (int i = 0; i < 2 * nv; i++) {
+    run->weights[i] = 1.0 / run->weights[i];
+  }
+}
+
+/* Tolerances below the rounding of the state can never be met. */
+static baum_status check_tolerances(const adaptive_run *run, const baum_i_problem *problem)
+{
+  static const double ONE = 1.0;
+  const baum_i_rk *rk = &run->rk;
+  double squares = rk->kernel->square(rk->size, 1, &ONE, rk->start, run->weights);
+  if (!(DBL_EPSILON * sqrt(squares / (2.0 * rk->nv)) > 1.0)) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_STEP,
+                     "t = %.9g s: %s: rtol = %g and atol ask for more digits than double precision "
+                     "has; raise rtol",
+                     run->t, run->pair->name, problem->rtol);
+}
+
+static double square(const adaptive_run *run, const double *weights)
+{
+  const baum_i_rk *rk = &run->rk;
+  return rk->kernel->square(rk->size, run->pair->error_count, weights, rk->rates, run->weights);
+}
+
+/* Estimated error of the step by h, in units of the tolerance. */
+static double estimate(const adaptive_run *run, double h)
+{
+  const baum_i_rk_pair *pair = run->pair;
+  double count = 2.0 * run->rk.nv;
+  double squares = square(run, pair->error);
+  if (!pair->error3) {
+    return fabs(h) * sqrt(squares / count);
+  }
+  double both = squares + SHARE_OF_ERROR3 * square(run, pair->error3);
+  return both == 0.0 ? 0.0 : fabs(h) * squares / sqrt(both * count);
+}
+
+/* ---- begin ---- */
+
+/* With an error constant of one, local errors of the size of the tolerance; less is put right by the first step. */
+static double first_step(const adaptive_run *run, const baum_i_problem *problem)
+{
+  const baum_i_rk *rk = &run->rk;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  const double *a = baum_i_rk_rate(rk, 0) + rk->nv;
+  double rate = fmax(problem->rate, baum_i_state_rate(m, rk->start + rk->nv, a));
+  double tolerance = problem->rtol * fmin(problem->tolerance_q, problem->tolerance_v);
+  return pow(fmin(tolerance, 1.0), 1.0 / run->pair->error_order) / rate;
+}
+
+baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem,
+                                       const baum_i_state *state)
+{
+  adaptive_run *run = self;
+  size_t bytes = (size_t)run->rk.nv * sizeof *state->q;
+  run->unfinished = true;
+  run->has_step = false;
+  run->last.status = BAUM_OK;
+  run->t = state->t;
+  memcpy(run->rk.start, state->q, bytes);
+  memcpy(run->rk.start + run->rk.nv, state->v, bytes);
+  baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
+  if (status != BAUM_OK) {
+    remember(run, status);
+    return fail_with_evaluation(run, run->t);
+  }
+  baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
+  run->unfinished = false;
+  return BAUM_OK;
+}
+
+/* The end of the last step is the start of the next. */
+static void go_on(adaptive_run *run)
+{
+  const baum_i_rk *rk = &run->rk;
+  size_t bytes = (size_t)rk->size * sizeof *rk->start;
+  run->t = run->t_end;
+  memcpy(rk->start, run->end, bytes);
+  memcpy(rk->rates, baum_i_rk_rate(rk, rk->table->stages), bytes);
+  run->has_step = false;
+}
+
+static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
+                         const baum_i_state *state)
+{
+  baum_status status = BAUM_OK;
+  if (run->unfinished) {
+    status = baum_i_rk_adaptive_restart(run, problem, state);
+  } else if (run->has_step) {
+    go_on(run);
+  }
+  if (status == BAUM_OK) {
+    weigh(run, problem);
+    status = check_tolerances(run, problem);
+  }
+  return status;
+}
+
+/* ---- one step ---- */
+
+/* Projection and rate of the end. */
+static baum_status finish_end(const adaptive_run *run, const baum_i_problem *problem)
+{
+  const baum_i_rk *rk = &run->rk;
+  baum_status status = BAUM_OK;
+  if (problem->formulation == BAUM_FORMULATION_PROJECTION) {
+    status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + rk->nv);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
+  }
+  return status;
+}
+
+/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most 1. */
+static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, double *error)
+{
+  const baum_i_rk *rk = &run->rk;
+  const baum_i_rk_table *table = rk->table;
+  bool needs_end = run->pair->error_count > table->stages;
+  baum_status status = baum_i_rk_stages(rk, problem, run->t, run->h);
+  *error = 0.0;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!needs_end) {
+    *error = estimate(run, run->h);
+  }
+  if (*error <= 1.0) {
+    baum_i_rk_combine(rk, table->stages, table->b, run->h, run->end);
+    status = finish_end(run, problem);
+  }
+  if (status == BAUM_OK && needs_end) {
+    *error = estimate(run, run->h);
+  }
+  return status;
+}
+
+/* The one place where a step is accepted. */
+static void accept(adaptive_run *run, double error, baum_i_state *state)
+{
+  size_t bytes = (size_t)run->rk.nv * sizeof *state->q;
+  baum_i_step_control_accept(&run->control, fabs(run->h), error);
+  run->has_step = true;
+  run->has_dense = false;
+  state->t = run->t_end;
+  memcpy(state->q, run->end, bytes);
+  memcpy(state->v, run->end + run->rk.nv, bytes);
+}
+
+/* The next length to try, from where the step begins. */
+static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem)
+{
+  double length = fmin(run->control.step, problem->max_step);
+  double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
+  run->t_end = run->t + problem->direction * length;
+  run->h = run->t_end - run->t;
+  return length < shortest ? fail_short(run, problem, length) : BAUM_OK;
+}
+
+/* Tries until one is accepted. */
+static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
+{
+  for (;;) {
+    double error = 0.0;
+    baum_status status = choose_end(run, problem);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    status = try_step(run, problem, &error);
+    if (status == BAUM_OK && error <= 1.0) {
+      accept(run, error, state);
+      return BAUM_OK;
+    }
+    if (status != BAUM_OK) {
+      remember(run, status);
+      if (!may_shorten(problem, status)) {
+        return fail_with_evaluation(run, run->t);
+      }
+      baum_i_step_control_halve(&run->control, fabs(run->h));
+    } else {
+      baum_i_step_control_refuse(&run->control, fabs(run->h), error);
+    }
+    run->rejected++;
+  }
+}
+
+baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,
+                                       baum_i_state *state)
+{
+  adaptive_run *run = self;
+  baum_status status = begin(run, problem, state);
+  if (status == BAUM_OK) {
+    status = step(run, problem, state);
+  }
+  run->unfinished = status != BAUM_OK;
+  return status;
+}
+
+/* ---- inside the last step ---- */
+
+static baum_status evaluate_extra(const adaptive_run *run, const baum_i_problem *problem)
+{
+  const baum_i_rk *rk = &run->rk;
+  const baum_i_rk_pair *pair = run->pair;
+  const double *row = pair->extra_a;
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < pair->extra && status == BAUM_OK; i++) {
+    int stage = rk->table->stages + 1 + i;
+    baum_i_rk_combine(rk, stage, row, run->h, rk->point);
+    status = baum_i_rk_evaluate(rk, problem, run->t + pair->extra_c[i] * run->h, rk->point, stage);
+    row += stage;
+  }
+  return status;
+}
+
+/* F of the step. */
+static void fill_dense(const adaptive_run *run)
+{
+  const baum_i_rk *rk = &run->rk;
+  const baum_i_rk_pair *pair = run->pair;
+  int n = rk->size;
+  int rates = rk->table->stages + 1 + pair->extra;
+  const double *first = rk->rates;
+  const double *last = baum_i_rk_rate(rk, rk->table->stages);
+  for (int i = 0; i < n; i++) {
+    double change = run->end[i] - rk->start[i];
+    run->dense[i] = change;
+    run->dense[n + i] = run->h * first[i] - change;
+    run->dense[2 * n + i] = 2.0 * change - run->h * (first[i] + last[i]);
+  }
+  double *more = run->dense + 3 * (size_t)n;
+  memset(more, 0, (size_t)pair->dense * (size_t)n * sizeof *more);
+  for (int k = 0; k < pair->dense; k++, more += n) {
+    rk->kernel->combine(n, rates, pair->dense_row + k * rates, run->h, rk->rates, more, more);
+  }
+}
+
+static baum_status prepare_dense(adaptive_run *run, const baum_i_problem *problem)
+{
+  if (run->has_dense) {
+    return BAUM_OK;
+  }
+  baum_status status = evaluate_extra(run, problem);
+  if (status == BAUM_OK) {
+    fill_dense(run);
+    run->has_dense = true;
+  }
+  return status;
+}
+
+/* Nested form of the head of this file, at coordinate i of (q, v). */
+static double value_at(const adaptive_run *run, double x, int i)
+{
+  int n = run->rk.size;
+  double value = 0.0;
+  for (int k = 2 + run->pair->dense; k >= 0; k--) {
+    value = (value + run->dense[k * n + i]) * (k % 2 == 0 ? x : 1.0 - x);
+  }
+  return run->rk.start[i] + value;
+}
+
+baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *problem, double t,
+                                           double *q, double *v)
+{
+  adaptive_run *run = self;
+  int nv = run->rk.nv;
+  if (!run->has_step || !((t - run->t) * (t - run->t_end) <= 0.0)) {
+    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
+                       run->pair->name);
+  }
+  baum_status status = prepare_dense(run, problem);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double x = (t - run->t) / run->h;
+  for (int i = 0; i < nv; i++) {
+    q[i] = value_at(run, x, i);
+    v[i] = value_at(run, x, nv + i);
+  }
+  return BAUM_OK;
+}
+
+/* ---- life ---- */
+
+void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
+{
+  const adaptive_run *run = self;
+  *out = (baum_i_statistics){.rejected = run->rejected};
+}
+
+baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,
+                                      void **out)
+{
+  *out = NULL;
+  adaptive_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  double *more = NULL;
+  int rates = pair->table.stages + 1 + pair->extra;
+  baum_status status =
+    baum_i_rk_open(&run->rk, &pair->table, problem, rates, 5 + pair->dense, &more);
+  if (status != BAUM_OK) {
+    baum_i_rk_adaptive_destroy(run);
+    return status;
+  }
+  run->pair = pair;
+  run->end = more;
+  run->weights = run->end + run->rk.size;
+  run->dense = run->weights + run->rk.size;
+  run->unfinished = true;
+  *out = run;
+  return BAUM_OK;
+}
+
+void baum_i_rk_adaptive_destroy(void *self)
+{
+  adaptive_run *run = self;
+  if (run) {
+    baum_i_free(run->rk.rates);
+    baum_i_free(run);
+  }
+}

@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Linear combinations of rates, BAUM_I_RK_LANES coordinates at a time: their sums stay in registers. Weights that are
+ * zero, as many are in tables of high order, are passed over. */
+#include "base/hot.h"
+#include "integrate/rk_kernel.h"
+
+enum { LANES = BAUM_I_RK_LANES };
+
+BAUM_I_INLINE void add_up(int n, int count, const double *weights, const double *rates,
+                          double sum[LANES])
+{
+  for (int k = 0; k < LANES; k++) {
+    sum[k] = 0.0;
+  }
+  for (int j = 0; j < count; j++, rates += n) {
+    double weight = weights[j];
+    if (weight == 0.0) {
+      continue;
+    }
+    for (int k = 0; k < LANES; k++) {
+      sum[k] += weight * rates[k];
+    }
+  }
+}
+
+static void combine(int n, int count, const double *weights, double h, const double *rates,
+                    const double *base, double *out)
+{
+  for (int i = 0; i < n; i += LANES) {
+    double sum[LANES];
+    add_up(n, count, weights, rates + i, sum);
+    for (int k = 0; k < LANES; k++) {
+      out[i + k] = base[i + k] + h * sum[k];
+    }
+  }
+}
+
+static double square(int n, int count, const double *weights, const double *rates,
+                     const double *scale)
+{
+  double squares[LANES] = {0.0};
+  for (int i = 0; i < n; i += LANES) {
+    double sum[LANES];
+    add_up(n, count, weights, rates + i, sum);
+    for (int k = 0; k < LANES; k++) {
+      double part = scale[i + k] * sum[k];
+      squares[k] += part * part;
+    }
+  }
+  return (squares[0] + squares[1]) + (squares[2] + squares[3]);
+}
+
+const baum_i_rk_kernel BAUM_I_HOT(baum_i_rk_kernel) = {.combine = combine, .square = square};

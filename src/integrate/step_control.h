@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Length of the next step from the error of the last ones. Lengths are > 0; directions are the caller's. */
+#ifndef BAUM_I_INTEGRATE_STEP_CONTROL_H
+#define BAUM_I_INTEGRATE_STEP_CONTROL_H
+
+#include <stdbool.h>
+
+typedef struct baum_i_step_control {
+  double order;  /* the estimated error of a step grows with h^order */
+  double step;   /* [s] to try next */
+  double last;   /* error of the last accepted step */
+  bool refused;  /* a try from here has been refused */
+  bool measured; /* a step has been accepted */
+} baum_i_step_control;
+
+/* Begin with a first step. */
+void baum_i_step_control_begin(baum_i_step_control *control, int order, double step);
+
+/* A step of length `taken` with an error <= 1, in units of the tolerance, is accepted. */
+void baum_i_step_control_accept(baum_i_step_control *control, double taken, double error);
+
+/* It is refused for an error > 1, or one that is no number. */
+void baum_i_step_control_refuse(baum_i_step_control *control, double taken, double error);
+
+/* It is refused for another reason, of which no size is known. */
+void baum_i_step_control_halve(baum_i_step_control *control, double taken);
+
+#endif
