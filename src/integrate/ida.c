@@ -5,10 +5,13 @@
  *   F(t, y, y') = 0,  y = (q, v, lambda)             (nq + nv + nc)
  *   q' - N v,  M v' + J^T lambda - g,                and
  *   index 1   J v' - gamma + 2 alpha Phi' + beta^2 Phi
+ *   index 2   Phi'
  *   index 3   Phi
+ *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
  * What it takes to make this work, all measured:
- * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too. Newton's
+ * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too; at index 1
+ *   lambda is put in by tolerance_lambda, elsewhere its estimate does not fall with the step as it should. Newton's
  *   iteration is judged by sizes of its own (ida_newton.c): left out there too, multipliers run away.
  * - The start is consistent: q and v are given, v' and lambda come from one solution of (5) or (7). IDA's own
  *   search for a consistent start can succeed with wrong accelerations.
@@ -106,6 +109,7 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
   double *w = N_VGetArrayPointer(weights);
   N_VConst(1.0, weights); /* those of multipliers are used nowhere, but must be > 0 */
   baum_i_sundials_weights(problem, v, w);
+  /* and of lambda where it is tested */
   baum_i_ida_newton_begin_step(&run->newton, v + mechanism->nv, w);
   return 0;
 }
@@ -136,14 +140,27 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
 
 /* ---- in and out ---- */
 
+static baum_residual residual_of(baum_formulation formulation)
+{
+  switch (formulation) {
+  case BAUM_FORMULATION_GGL: return BAUM_RESIDUAL_GGL;
+  case BAUM_FORMULATION_INDEX2: return BAUM_RESIDUAL_INDEX2;
+  case BAUM_FORMULATION_INDEX3: return BAUM_RESIDUAL_INDEX3;
+  case BAUM_FORMULATION_BAUMGARTE:
+  case BAUM_FORMULATION_UNSTABILIZED:
+  case BAUM_FORMULATION_PROJECTION:
+  case BAUM_FORMULATION_DEFAULT:
+  default: return BAUM_RESIDUAL_INDEX1;
+  }
+}
+
 static void begin(ida_run *run, const baum_i_problem *problem, double t)
 {
   baum_i_sundials_begin(&run->sundials, problem, t);
-  bool index3 = problem->formulation == BAUM_FORMULATION_INDEX3;
   bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
-  run->dae.index = index3 ? BAUM_RESIDUAL_INDEX3 : BAUM_RESIDUAL_INDEX1;
+  run->dae.index = residual_of(problem->formulation);
   run->newton.sundials = &run->sundials;
-  run->newton.index3 = index3;
+  run->newton.index = run->dae.index;
   run->dae.alpha = gains ? problem->direction * problem->alpha : 0.0;
   run->dae.beta = gains ? problem->beta : 0.0;
 }
@@ -196,7 +213,7 @@ static void count(const void *self, baum_i_statistics *out)
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
-/* y and y' that fulfil F = 0. */
+/* y and y' that fulfil F = 0; mu and all derivatives of multipliers are 0. */
 static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   baum_workspace *workspace = problem->workspace;
@@ -209,23 +226,28 @@ static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_
   if (status != BAUM_OK) {
     return status;
   }
+  N_VConst(0.0, run->y);
+  N_VConst(0.0, run->dy);
   memcpy(y, state->q, nq * sizeof *y);
   memcpy(y + nq, state->v, nv * sizeof *y);
   memcpy(y + nq + nv, workspace->lambda, nc * sizeof *y);
   memcpy(dy, state->v, nq * sizeof *dy);
   memcpy(dy + nq, workspace->a, nv * sizeof *dy);
-  memset(dy + nq + nv, 0, nc * sizeof *dy);
   status = baum_i_need_jacobian(workspace);
   if (status == BAUM_OK) {
     status = baum_i_evaluate_mass(workspace);
   }
-  if (status == BAUM_OK) {
-    baum_i_ida_newton_measure(&run->newton);
+  if (status != BAUM_OK) {
+    return status;
   }
-  return status;
+  if (!workspace->metric_ready) {
+    baum_i_choose_metric(workspace);
+  }
+  baum_i_ida_newton_measure(&run->newton);
+  return BAUM_OK;
 }
 
-/* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. Index 1 tests velocities
+/* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. All but index 3 test velocities
  * too, whose derivatives are larger: a fifth of that h passes. At index 3 a smaller step would drown the
  * velocities, differences of q over h, in rounding. After a load(). */
 static int give_first_step(ida_run *run)
@@ -314,9 +336,11 @@ static int choose_tested(ida_run *run)
 {
   const baum_mechanism *mechanism = run->sundials.problem->workspace->mechanism;
   bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
+  bool multipliers = isfinite(run->sundials.problem->tolerance_lambda);
   int tested = index3 ? mechanism->nq : mechanism->nq + mechanism->nv;
+  tested += multipliers ? mechanism->nc : 0;
   double *id = N_VGetArrayPointer(run->tested);
-  int n = mechanism->nq + mechanism->nv + mechanism->nc;
+  int n = baum_i_residual_size(mechanism, run->dae.index);
   for (int i = 0; i < n; i++) {
     id[i] = i < tested ? 1.0 : 0.0;
   }
@@ -382,8 +406,7 @@ static int start_ida(ida_run *run, double t)
 static baum_status set_up(ida_run *run, const baum_i_problem *problem, const baum_i_state *start,
                           bool differences)
 {
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  int n = mechanism->nq + mechanism->nv + mechanism->nc;
+  int n = baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
   run->differences = differences;
   baum_status status = baum_i_sundials_open(&run->sundials, "ida", n);
   begin(run, problem, start->t);
@@ -440,16 +463,15 @@ const double *baum_i_ida_multipliers(const void *run)
 /* ---- the integrator ---- */
 
 static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_INDEX3,
-  BAUM_FORMULATION_DEFAULT,
+  BAUM_FORMULATION_GGL,    BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_INDEX2, BAUM_FORMULATION_INDEX3,    BAUM_FORMULATION_DEFAULT,
 };
 
 static const baum_integrator IDA = {
   .name = "ida",
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
+  .tests_multipliers = true,
   .create = create,
   .destroy = destroy,
   .advance = advance,

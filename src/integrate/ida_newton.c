@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of IDA on y = (q, v, lambda), with y' = c y + ... and c = O(1/h).
+/* Newton's iteration of IDA on y = (q, v, lambda), for GGL (q, v, lambda, mu), with y' = c y + ... and c = O(1/h).
  *
  * Convergence. A correction d is as large as the root of the sum of squares of
  *
@@ -8,6 +8,15 @@
  *            energies, and
  *            E = 1/100 (largest |lambda_i| n_i) + |c| (largest M_jj s_j tolerance_v_j);
  *            the second part is what the tolerance of v leaves open of M v' = c M v + ...
+ *   mu       likewise, where both are actions and
+ *            E = 1/100 (largest |mu_i| n_i) + |c| (largest W_jj s_j tolerance_q_j),
+ *            which W q' = c W q + ... = W v - J^T mu leaves open
+ *
+ * Where lambda is in the error test, E is at most the tolerance there,
+ *
+ *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
+ *
+ * with the energy that inertia has at 1/T, so that multipliers may vanish; row i may err by that over n_i.
  *
  * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
  * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
@@ -23,9 +32,9 @@
  * Older matrices. With r = c / c0, a matrix made for c0 solves the present system but for terms
  * that are smaller by h:
  *
- *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, 1 or r^2 at index 3),  C = diag(r^-2, r^-1, 1)
+ *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
- * so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a compromise for stiff equations; of
+ * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a compromise for stiff equations; of
  * the multipliers it leaves (1 - r) / (1 + r) in each iteration.
  */
 #include "integrate/integrator.h"
@@ -69,27 +78,68 @@ void baum_i_ida_newton_measure(baum_i_ida_newton *newton)
   }
 }
 
-void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *lambda,
-                                  const double *weights)
+/* Largest |x_i| n_i of multipliers; NaN if there is one. */
+static double largest_of(const baum_i_ida_newton *newton, const double *x)
 {
+  const double *displacement = N_VGetArrayPointer(newton->displacement);
+  double largest = 0.0;
+  for (int i = 0; i < workspace_of(newton)->mechanism->nc && !isnan(largest); i++) {
+    double size = fabs(x[i]) * displacement[i];
+    largest = size <= largest ? largest : size;
+  }
+  return largest;
+}
+
+/* Tolerance of lambda in the error test, and its weights. */
+static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
+{
+  const baum_i_problem *problem = newton->sundials->problem;
   const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
   const double *displacement = N_VGetArrayPointer(newton->displacement);
   const double *inertia = N_VGetArrayPointer(newton->inertia);
-  newton->energy = newton->momentum_q = newton->momentum_v = 0.0;
-  for (int i = 0; i < mechanism->nc; i++) {
-    newton->energy = fmax(newton->energy, fabs(lambda[i]) * displacement[i]);
+  newton->tested = problem->tolerance_lambda;
+  if (isinf(newton->tested)) {
+    return;
   }
+  double size = newton->energy;
   for (int j = 0; j < mechanism->nv; j++) {
-    newton->momentum_q = fmax(newton->momentum_q, inertia[j] / weights[j]);
-    newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[mechanism->nq + j]);
+    size = fmax(size, inertia[j] * mechanism->scale[j] * problem->rate * problem->rate);
   }
+  newton->tested *= problem->rtol * size;
+  for (int i = 0; i < mechanism->nc; i++) {
+    weights[i] = displacement[i] / newton->tested;
+  }
+}
+
+void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
+                                  double *weights)
+{
+  const baum_workspace *w = workspace_of(newton);
+  const double *inertia = N_VGetArrayPointer(newton->inertia);
+  int nv = w->mechanism->nv;
+  bool ggl = newton->index == BAUM_RESIDUAL_GGL;
+  newton->momentum_q = newton->momentum_v = newton->action_q = 0.0;
+  newton->energy = largest_of(newton, multipliers);
+  newton->action = ggl ? largest_of(newton, multipliers + w->mechanism->nc) : 0.0;
+  for (int j = 0; j < nv; j++) {
+    newton->momentum_q = fmax(newton->momentum_q, inertia[j] / weights[j]);
+    newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[nv + j]);
+    double metric = ggl ? w->metric[j] * w->mechanism->scale[j] : 0.0;
+    newton->action_q = fmax(newton->action_q, metric / weights[j]);
+  }
+  weigh_multipliers(newton, weights + (size_t)2 * (size_t)nv);
+}
+
+static bool is_index3(const baum_i_ida_newton *newton)
+{
+  return newton->index == BAUM_RESIDUAL_INDEX3;
 }
 
 static double size_of_motion(const baum_i_ida_newton *newton, double c, const double *d,
                              const double *weights)
 {
   int n = workspace_of(newton)->mechanism->nv;
-  double least = newton->index3 ? INDEX3_VELOCITY_TOLERANCE * c : 0.0;
+  double least = is_index3(newton) ? INDEX3_VELOCITY_TOLERANCE * c : 0.0;
   double sum = 0.0;
   for (int i = 0; i < n; i++) {
     double position = d[i] * weights[i];
@@ -99,18 +149,17 @@ static double size_of_motion(const baum_i_ida_newton *newton, double c, const do
   return sqrt(sum / (2.0 * n));
 }
 
-static double size_of_multipliers(const baum_i_ida_newton *newton, double c, const double *d)
+static double size_of_lambda(const baum_i_ida_newton *newton, double c, const double *d)
 {
-  const double *displacement = N_VGetArrayPointer(newton->displacement);
-  double least = newton->index3 ? INDEX3_VELOCITY_TOLERANCE * c * newton->momentum_q : 0.0;
-  double tolerance =
-    MULTIPLIER_TOLERANCE * newton->energy + c * fmax(newton->momentum_v, least) + DBL_MIN;
-  double largest = 0.0;
-  for (int i = 0; i < workspace_of(newton)->mechanism->nc && !isnan(largest); i++) {
-    double size = fabs(d[i]) * displacement[i];
-    largest = size <= largest ? largest : size;
-  }
-  return largest / tolerance;
+  double least = is_index3(newton) ? INDEX3_VELOCITY_TOLERANCE * c * newton->momentum_q : 0.0;
+  double tolerance = MULTIPLIER_TOLERANCE * newton->energy + c * fmax(newton->momentum_v, least);
+  return largest_of(newton, d) / (fmin(tolerance, newton->tested) + DBL_MIN);
+}
+
+static double size_of_mu(const baum_i_ida_newton *newton, double c, const double *d)
+{
+  double tolerance = MULTIPLIER_TOLERANCE * newton->action + c * newton->action_q;
+  return newton->index == BAUM_RESIDUAL_GGL ? largest_of(newton, d) / (tolerance + DBL_MIN) : 0.0;
 }
 
 /* ---- the test ---- */
@@ -128,8 +177,10 @@ static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, su
   (void)IDAGetCurrentCj(newton->ida, &c);
   (void)SUNNonlinSolGetCurIter(solver, &before);
   double motion = size_of_motion(newton, fabs(c), d, N_VGetArrayPointer(weights));
-  double multipliers = size_of_multipliers(newton, fabs(c), d + mechanism->nq + mechanism->nv);
-  double size = hypot(motion, multipliers);
+  const double *multipliers = d + mechanism->nq + mechanism->nv;
+  double lambda = size_of_lambda(newton, fabs(c), multipliers);
+  double mu = size_of_mu(newton, fabs(c), multipliers + mechanism->nc);
+  double size = hypot(motion, hypot(lambda, mu));
   if (before == 0) {
     newton->first = size;
     return size <= tolerance ? 0 : SUN_NLS_CONTINUE;
@@ -171,9 +222,17 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
 {
   const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
   double *b = N_VGetArrayPointer(right);
+  double *rows = b + mechanism->nq + mechanism->nv;
   scale(b, mechanism->nv, ratio);
-  if (newton->index3) {
-    scale(b + mechanism->nq + mechanism->nv, mechanism->nc, ratio * ratio);
+  switch (newton->index) {
+  case BAUM_RESIDUAL_INDEX2: scale(rows, mechanism->nc, ratio); break;
+  case BAUM_RESIDUAL_INDEX3: scale(rows, mechanism->nc, ratio * ratio); break;
+  case BAUM_RESIDUAL_GGL:
+    scale(rows, mechanism->nc, ratio);
+    scale(rows + mechanism->nc, mechanism->nc, ratio * ratio);
+    break;
+  case BAUM_RESIDUAL_INDEX1:
+  default: break;
   }
 }
 
@@ -181,9 +240,13 @@ void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ra
                                       N_Vector solution)
 {
   int n = workspace_of(newton)->mechanism->nv;
+  int nc = workspace_of(newton)->mechanism->nc;
   double *x = N_VGetArrayPointer(solution);
   scale(x, n, 1.0 / (ratio * ratio));
   scale(x + n, n, 1.0 / ratio);
+  if (newton->index == BAUM_RESIDUAL_GGL) {
+    scale(x + 2 * n + nc, nc, 1.0 / ratio);
+  }
 }
 
 #endif

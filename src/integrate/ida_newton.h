@@ -11,17 +11,20 @@
 typedef struct baum_i_ida_newton {
   const baum_i_sundials *sundials;
   void *ida;
-  bool index3;
+  baum_residual index;
   SUNNonlinearSolver solver;
   N_Vector displacement; /* (nc) [Phi] of each row */
   N_Vector inertia;      /* (nv) M_jj s_j */
   double energy;         /* [J] largest |lambda_i| n_i at the start of the step */
   double momentum_q;     /* [J s^2] largest M_jj s_j tolerance_q_j */
   double momentum_v;     /* [J s] largest M_jj s_j tolerance_v_j */
+  double tested;         /* [J] tolerance of |lambda_i| n_i in the error test, else infinite */
+  double action;         /* [J s] largest |mu_i| n_i at the start of the step */
+  double action_q;       /* [J s^2] largest W_jj s_j tolerance_q_j */
   double first;          /* size of the first correction of the step */
 } baum_i_ida_newton;
 
-/* Make IDA judge as said here. Beforehand set sundials, index3, displacement and inertia; `newton`
+/* Make IDA judge as said here. Beforehand set sundials, index, displacement and inertia; `newton`
  * lives as long as IDA and is closed after it. Returns a flag of IDA. */
 int baum_i_ida_newton_attach(baum_i_ida_newton *newton, void *ida, N_Vector y);
 void baum_i_ida_newton_close(baum_i_ida_newton *newton);
@@ -30,9 +33,10 @@ void baum_i_ida_newton_close(baum_i_ida_newton *newton);
  * each matrix. */
 void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
-/* Sizes of the multipliers lambda (nc) at the start of a step; weights (nq + nv), 1 / tolerance. */
-void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *lambda,
-                                  const double *weights);
+/* Sizes of the multipliers (lambda, for GGL mu behind them) at the start of a step; weights (nq + nv), 1 / tolerance,
+ * are read, and where lambda is tested those of lambda (nc) written behind them. */
+void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
+                                  double *weights);
 
 /* With the matrix made for c0, and ratio = c / c0: its right side before, its solution after. */
 void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio, N_Vector right);

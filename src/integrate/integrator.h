@@ -55,6 +55,7 @@ struct baum_integrator {
     predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
   bool
     without_freedom; /* for mechanisms without freedom alone; takes no formulation, step or rtol */
+  bool tests_multipliers; /* at index 1 tolerance_lambda may be finite */
 
   /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
   baum_status (*create)(const baum_i_problem *problem, const baum_i_state *start, void **out);

@@ -25,10 +25,8 @@ static const baum_formulation CVODE_FORMULATIONS[] = {
 };
 
 static const baum_formulation IDA_FORMULATIONS[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_INDEX3,
-  BAUM_FORMULATION_DEFAULT,
+  BAUM_FORMULATION_GGL,    BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_INDEX2, BAUM_FORMULATION_INDEX3,    BAUM_FORMULATION_DEFAULT,
 };
 
 static baum_status create_adams(const baum_i_problem *problem, const baum_i_state *start,
@@ -73,6 +71,7 @@ static const baum_integrator IDA = {
   .name = "ida",
   .formulations = IDA_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
+  .tests_multipliers = true,
   .create = create_ida,
   .destroy = destroy,
 };

@@ -48,7 +48,7 @@ baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *
                                      baum_residual index)
 {
   const baum_workspace *workspace = sundials->problem->workspace;
-  int n = 2 * workspace->mechanism->nv + workspace->mechanism->nc;
+  int n = baum_i_residual_size(workspace->mechanism, index);
   klu->sundials = sundials;
   baum_status status = baum_i_residual_matrix_create(workspace, index, &klu->form);
   if (status == BAUM_OK) {

@@ -16,7 +16,7 @@
 typedef struct baum_i_sundials_klu {
   baum_i_sundials *sundials;
   baum_i_residual_matrix *form; /* where the numbers come from */
-  SUNMatrix matrix;             /* (n x n) n = 2 nv + nc */
+  SUNMatrix matrix;             /* (n x n) as the form has it */
   SUNLinearSolver solver;
   double *numbers;             /* behind all below */
   double *defect;              /* (n) b - A x */

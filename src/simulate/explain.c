@@ -13,10 +13,12 @@ static const char *formulation_text(baum_formulation formulation)
   case BAUM_FORMULATION_UNSTABILIZED: return "J a = gamma, nothing done against drift";
   case BAUM_FORMULATION_BAUMGARTE: return "J a = gamma - 2 alpha Phi' - beta^2 Phi";
   case BAUM_FORMULATION_PROJECTION: return "J a = gamma, then q and v projected after each step";
+  case BAUM_FORMULATION_INDEX2:
+    return "J v = nu kept by the implicit method itself; Phi drifts slowly";
+  case BAUM_FORMULATION_GGL:
+    return "Phi = 0 and J v = nu kept by the implicit method itself (Gear, Gupta, Leimkuhler)";
   case BAUM_FORMULATION_INDEX3: return "Phi = 0 kept by the implicit method itself";
   case BAUM_FORMULATION_DEFAULT:
-  case BAUM_FORMULATION_INDEX2:
-  case BAUM_FORMULATION_GGL:
   default: return "";
   }
 }

@@ -195,13 +195,39 @@ static baum_status check_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
+/* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method takes for their error
+ * does not fall with the step as it should. */
+static baum_status check_multipliers(const baum_simulation_options *o)
+{
+  if (isinf(o->tolerance_lambda)) {
+    return BAUM_OK;
+  }
+  const char *name = o->integrator->name;
+  if (!o->integrator->tests_multipliers) {
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "simulation options: tolerance_lambda is %g, but %s has no multipliers among "
+      "its unknowns; leave it infinite",
+      o->tolerance_lambda, name);
+  }
+  if (o->formulation == BAUM_FORMULATION_BAUMGARTE ||
+      o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "simulation options: tolerance_lambda is %g, but with the formulation %s the "
+                     "error of multipliers cannot be tested, for its estimate grows as steps "
+                     "shrink; leave it infinite, or choose baumgarte or unstabilized",
+                     o->tolerance_lambda, baum_formulation_name(o->formulation));
+}
+
 baum_status baum_i_options_check(baum_simulation_options *options)
 {
   if (!options->integrator) {
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "simulation options: integrator is NULL; there is no default, choose one of "
-      "baum_euler, baum_semi_implicit_euler, baum_rk2, baum_rk3, baum_rk4, "
+      "baum_euler, baum_semi_implicit_euler, baum_rk2, baum_rk3, baum_rk4, baum_dp5, baum_rk8, "
       "baum_ab2, baum_ab3, baum_ab4, baum_cvode_adams, baum_cvode_bdf, baum_ida, baum_kinematics");
   }
   baum_status status = check_steps(options);
@@ -210,6 +236,9 @@ baum_status baum_i_options_check(baum_simulation_options *options)
   }
   if (status == BAUM_OK) {
     status = check_pair(options);
+  }
+  if (status == BAUM_OK) {
+    status = check_multipliers(options);
   }
   return status == BAUM_OK ? check_gains(options) : status;
 }

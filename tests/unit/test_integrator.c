@@ -18,7 +18,7 @@
 typedef struct facts {
   const char *name;
   int order; /* 0: variable */
-  baum_formulation offered[4];
+  baum_formulation offered[6];
   baum_gain_rule gains;
 } facts;
 
@@ -50,7 +50,8 @@ static const facts FACTS[] = {
   {"cvode_bdf", 0, {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED}, BAUM_GAINS_AUTO},
   {"ida",
    0,
-   {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED, BAUM_FORMULATION_INDEX3},
+   {BAUM_FORMULATION_GGL, BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+    BAUM_FORMULATION_INDEX2, BAUM_FORMULATION_INDEX3},
    BAUM_GAINS_AUTO},
   {"kinematics", 0, {BAUM_FORMULATION_DEFAULT}, BAUM_GAINS_DEFAULT},
 };
@@ -83,7 +84,7 @@ static void no_integrator_has_no_facts(void **state)
 
 static bool is_listed(const facts *fact, baum_formulation formulation)
 {
-  for (int i = 0; i < 4 && fact->offered[i]; i++) {
+  for (int i = 0; i < 6 && fact->offered[i]; i++) {
     if (fact->offered[i] == formulation) {
       return true;
     }
