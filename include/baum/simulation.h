@@ -60,8 +60,9 @@ BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** SUNDIALS CVODE, BDF with Newton iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. Its Jacobian is
  *  dense and taken by differences: for up to about 100 coordinates. */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
-/** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. BAUMGARTE (auto), UNSTABILIZED,
- *  and INDEX3, which is there for comparison: its error is far above its tolerance. */
+/** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
+ *  UNSTABILIZED, INDEX2, and INDEX3, which is there for comparison: its error is far above its
+ *  tolerance. */
 BAUM_API const baum_integrator *baum_ida(void);
 /** Kinematics: for mechanisms without freedom, whose drivers take it all, so that every coordinate
  *  follows from Phi(q, t) = 0; others are refused. Nothing is integrated: poses are solved to
@@ -92,8 +93,8 @@ typedef enum baum_formulation {
   BAUM_FORMULATION_UNSTABILIZED = 1, /**< (5): J a = gamma; the violation drifts. */
   BAUM_FORMULATION_BAUMGARTE = 2,    /**< (7): J a = gamma - 2 alpha Phi' - beta^2 Phi. */
   BAUM_FORMULATION_PROJECTION = 3,   /**< (5), then q and v projected after each step. */
-  BAUM_FORMULATION_INDEX2 = 4,       /**< J v = nu. Not yet available. */
-  BAUM_FORMULATION_GGL = 5,          /**< Gear, Gupta, Leimkuhler 1985. Not yet available. */
+  BAUM_FORMULATION_INDEX2 = 4,       /**< J v = nu; Phi drifts slowly. */
+  BAUM_FORMULATION_GGL = 5,          /**< J v = nu and Phi = 0 (Gear, Gupta, Leimkuhler 1985). */
   BAUM_FORMULATION_INDEX3 = 6        /**< Phi = 0. */
 } baum_formulation;
 
@@ -152,8 +153,12 @@ typedef struct baum_simulation_options {
   void *user;                 /**< Passed to progress, not owned. Default: NULL. */
   double tolerance_q;         /**< [-] > 0, factor on rtol and atol for positions. Default: 1. */
   double tolerance_v;         /**< [-] > 0, likewise for velocities. Default: 1. */
-  double tolerance_lambda;    /**< [-] > 0, likewise for multipliers, which IDA alone has among its
-                                unknowns. Default: infinity, they are not tested. */
+  double tolerance_lambda;    /**< [-] > 0, factor on rtol for multipliers; finite only for IDA with
+                                BAUMGARTE or UNSTABILIZED. Row i with displacement n_i (the norm
+                                of its J times the scales) has tolerance_lambda rtol E / n_i, where
+                                E is the largest present |lambda_k| n_k, or, where that is
+                                larger, M_jj s_j^2 times the square of the rate which explain
+                                tells. Default: infinity, they are not tested. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.

@@ -797,6 +797,8 @@ PROTOTYPES = {
     "baum_rk2": (c_void_p, []),
     "baum_rk3": (c_void_p, []),
     "baum_rk4": (c_void_p, []),
+    "baum_dp5": (c_void_p, []),
+    "baum_rk8": (c_void_p, []),
     "baum_ab2": (c_void_p, []),
     "baum_ab3": (c_void_p, []),
     "baum_ab4": (c_void_p, []),
