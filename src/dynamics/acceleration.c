@@ -53,6 +53,7 @@ static baum_status solve(baum_workspace *w)
                                     .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
+  w->solved_by = NULL;
   w->evaluations++;
   w->near_singular += baum_i_kkt_get_quality(w->kkt) != BAUM_I_KKT_GOOD ? 1 : 0;
   return translate(w, status);
@@ -87,6 +88,7 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
     const baum_i_right_side right = {
       .bending = 1.0, .damping = 2.0 * alpha, .stiffness = beta * beta, .force = true};
     baum_status status = baum_i_block_path_solve(w, t, q, v, &right);
+    w->solved_by = w->path;
     if (status != BAUM_ERR_SINGULAR) {
       w->evaluations += status == BAUM_OK ? 1 : 0;
       return status;

@@ -60,6 +60,7 @@ struct baum_workspace {
   baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
   bool blocks_only;             /* nothing is handed over */
   baum_i_immobile *immobile;    /* NULL: nothing is left out of baum_i_motion() */
+  baum_i_block_path *solved_by; /* of the last solution; NULL: kkt */
   baum_i_redundancy redundancy;
   bool mass_ready;     /* a constant M has been evaluated */
   bool jacobian_ready; /* the last evaluation has set all blocks of J */
@@ -180,6 +181,11 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
 /* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
  * M. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
+
+/* normal_part.c: the part P x of x (nv) that the constraints take away, into out (nv); P is that of the last
+ * acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ * BAUM_ERR_NOT_FINITE, without a sentence. */
+baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
 
 /* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,

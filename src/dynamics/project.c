@@ -29,6 +29,7 @@ static baum_status least_change(baum_workspace *w)
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
+  w->solved_by = NULL;
   if (status == BAUM_ERR_SINGULAR) {
     return baum_i_fail(status, "t = %.9g s: projection: the constraints are singular here",
                        w->point.t);
@@ -58,6 +59,7 @@ static baum_status change_of_positions(baum_workspace *w, double t, const double
 {
   static const baum_i_right_side right = {.stiffness = 1.0};
   baum_status status = w->path ? baum_i_block_path_solve(w, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
+  w->solved_by = w->path;
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }
@@ -77,6 +79,7 @@ static baum_status change_of_velocities(baum_workspace *w, double t, const doubl
 {
   static const baum_i_right_side right = {.damping = 1.0};
   baum_status status = w->path ? baum_i_block_path_solve(w, t, q, v, &right) : BAUM_ERR_SINGULAR;
+  w->solved_by = w->path;
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }

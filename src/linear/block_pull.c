@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Another solution with factors at hand; see block_pull.h. */
+#include "linear/block_pull.h"
+
+#include <string.h>
+
+/* y = L^T x */
+static void pull_dense(baum_i_block *block, const baum_i_dense_body *dense, const double *x)
+{
+  const baum_i_mass_block *body = &block->structure->mass_blocks[dense->mass_block];
+  const double *l = block->factor + dense->factor;
+  double *y = block->pull + dense->place;
+  int n = body->size;
+  for (int i = 0; i < n; i++) {
+    y[i] = 0.0;
+    for (int k = i; k < n; k++) {
+      y[i] += l[k * n + i] * x[body->first + k];
+    }
+  }
+}
+
+void baum_i_block_pull(baum_i_block *block, const double *x)
+{
+  memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
+  for (int i = 0; i < block->structure->mass_block_count; i++) {
+    const baum_i_mass_block *body = &block->structure->mass_blocks[i];
+    if (!block->still[i]) {
+      memcpy(block->pull + body->first, x + body->first, (size_t)body->size * sizeof *x);
+    }
+  }
+  for (int i = 0; i < block->dense_count; i++) {
+    pull_dense(block, &block->dense[i], x);
+  }
+  for (int i = 0; i < block->motion_size; i++) {
+    block->motion[i] = -block->pull[i];
+  }
+  for (int k = 0; k < block->node_count; k++) {
+    memset(block->nodes[k].lambda, 0, sizeof block->nodes[k].lambda);
+  }
+  memset(block->rest, 0, 2 * (size_t)block->node_count * sizeof *block->rest);
+}
