@@ -12,6 +12,10 @@
  *                       z^2 + (B + 2 A - 2) z + (1 - 2 A) = 0,
  *                       with w = z - 1:  w^2 + 2 (A + B/2) w + B = 0,
  *                       which is explicit Euler at (A + B/2, B): the same triangle, sheared.
+ * Adams-Bashforth:      z^k = z^(k-1) + mu sum_j b_j z^(k-1-j) for each mu: k roots, of which one
+ *                       begins as exp(mu) and the others near 0. Schur and Cohn's test says whether
+ *                       all are inside of a circle; bisection gives the largest |z|, and Newton's
+ *                       method in w = z - 1 its last digits.
  *
  * Numbers: everything is computed in w = z - 1, because |z| - 1 = (2 Re w + |w|^2) / (|z| + 1)
  * keeps its digits where gains are small and |z| is close to 1. Where A^2 - B is zero up to the
@@ -24,12 +28,24 @@
 #include <math.h>
 #include <stdbool.h>
 
+#include "stabilization/schur_cohn.h"
+
 /* | |z| - 1 | up to this is the circle itself: rounding of gains and step, some hundred times
  * over. */
 static const double MARGIN = 1e-12;
 
 /* Of A^2 - B, relative to A^2: some roundings of alpha h and beta h, squared. */
 static const double ROUNDING = 16.0 * DBL_EPSILON;
+
+static const double PI = 3.14159265358979323846;
+
+/* A double root is where a rounding of 1e-16 moves it: some 1e-8. */
+static const double ROOT_TOLERANCE = 1e-6;
+
+/* Of a test on the circle, relative: below this Schur and Cohn's test is not asked. */
+static const double UNDECIDED = 1e-10;
+
+enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
 
 static const baum_i_method explicit_euler = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 1.0}};
 
@@ -56,8 +72,13 @@ static void characteristic_roots(double A, double B, number mu[2])
   mu[1] = (number){d == 0.0 ? larger : B / larger, 0.0};
 }
 
+static number times(number a, number b)
+{
+  return (number){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
+}
+
 /* w = R(mu) - 1, by Horner's rule. */
-static number increment(const baum_i_method *method, number mu)
+static number polynomial_increment(const baum_i_method *method, number mu)
 {
   number w = {0.0, 0.0};
   for (int k = method->degree; k > 0; k--) {
@@ -67,6 +88,103 @@ static number increment(const baum_i_method *method, number mu)
   w.re += method->coefficients[0] - 1.0;
   return w;
 }
+
+/* ---- Adams-Bashforth ------------------------------------------------------ */
+
+/* z^k - z^(k-1) - mu sum_j b_j z^(k-1-j) */
+static baum_i_polynomial characteristic(const baum_i_method *method, number mu)
+{
+  baum_i_polynomial p = {.degree = method->degree};
+  const int k = method->degree;
+  p.c[k][0] = 1.0;
+  p.c[k - 1][0] = -1.0;
+  for (int j = 0; j < k; j++) {
+    p.c[k - 1 - j][0] -= mu.re * method->coefficients[j];
+    p.c[k - 1 - j][1] -= mu.im * method->coefficients[j];
+  }
+  return p;
+}
+
+/* z^(k-1) w - mu sum_j b_j z^(k-1-j) at z = 1 + w, and its derivative. */
+static number evaluate(const baum_i_method *method, number mu, number w, number *slope)
+{
+  const number z = {1.0 + w.re, w.im};
+  number power = {1.0, 0.0}; /* z^(k-1) */
+  number power_slope = {0.0, 0.0};
+  number sum = {method->coefficients[0], 0.0};
+  number sum_slope = {0.0, 0.0};
+  for (int j = 1; j < method->degree; j++) {
+    number next = times(power_slope, z);
+    power_slope = (number){next.re + power.re, next.im + power.im};
+    power = times(power, z);
+    next = times(sum_slope, z);
+    sum_slope = (number){next.re + sum.re, next.im + sum.im};
+    sum = times(sum, z);
+    sum.re += method->coefficients[j];
+  }
+  number a = times(power_slope, w);
+  number b = times(mu, sum_slope);
+  *slope = (number){a.re + power.re - b.re, a.im + power.im - b.im};
+  a = times(power, w);
+  b = times(mu, sum);
+  return (number){a.re - b.re, a.im - b.im};
+}
+
+static void newton_step(const baum_i_method *method, number mu, number *w)
+{
+  number slope;
+  number value = evaluate(method, mu, *w, &slope);
+  double square = slope.re * slope.re + slope.im * slope.im;
+  if (square > 0.0) {
+    w->re -= (value.re * slope.re + value.im * slope.im) / square;
+    w->im -= (value.im * slope.re - value.re * slope.im) / square;
+  }
+}
+
+/* Where on the circle |1 + w| = radius the equation is best fulfilled. */
+static number find_direction(const baum_i_method *method, number mu, double radius)
+{
+  number best = {0.0, 0.0};
+  double least = HUGE_VAL;
+  for (int k = 0; k < DIRECTIONS; k++) {
+    double angle = 2.0 * PI * k / DIRECTIONS;
+    number w = {radius * cos(angle) - 1.0, radius * sin(angle)};
+    number slope;
+    number value = evaluate(method, mu, w, &slope);
+    double size = hypot(value.re, value.im);
+    if (size < least) {
+      least = size;
+      best = w;
+    }
+  }
+  return best;
+}
+
+/* w of the largest |z|. */
+static number largest_root(const baum_i_method *method, number mu)
+{
+  baum_i_polynomial p = characteristic(method, mu);
+  double radius = baum_i_schur_cohn_radius(&p);
+  if (!(radius < HUGE_VAL)) {
+    return (number){HUGE_VAL, 0.0};
+  }
+  number on_circle = find_direction(method, mu, radius);
+  number w = on_circle;
+  for (int k = 0; k < NEWTON_STEPS; k++) {
+    newton_step(method, mu, &w);
+  }
+  /* A smaller root is not what was looked for. */
+  bool found = fabs(hypot(1.0 + w.re, w.im) - radius) <= ROOT_TOLERANCE * radius;
+  return found ? w : on_circle;
+}
+
+static number increment(const baum_i_method *method, number mu)
+{
+  bool several = method->kind == BAUM_I_METHOD_ADAMS_BASHFORTH;
+  return several ? largest_root(method, mu) : polynomial_increment(method, mu);
+}
+
+/* ---- Both modes ----------------------------------------------------------- */
 
 /* |1 + w| - 1; infinite when it is beyond double. */
 static double excess(number w)
@@ -78,15 +196,21 @@ static double excess(number w)
   return isnan(size) ? HUGE_VAL : size - 1.0;
 }
 
+static void find_modes(const baum_i_method *method, double A, double B, number mu[2])
+{
+  bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;
+  characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
+}
+
 /* Both w, the one of larger |1 + w| first. */
 static void increments(const baum_i_method *method, double A, double B, number w[2])
 {
   bool sheared = method->kind == BAUM_I_METHOD_SEMI_IMPLICIT;
   const baum_i_method *polynomial = sheared ? &explicit_euler : method;
   number mu[2];
-  characteristic_roots(sheared ? A + 0.5 * B : A, B, mu);
+  find_modes(method, A, B, mu);
   w[0] = increment(polynomial, mu[0]);
-  w[1] = increment(polynomial, mu[1]);
+  w[1] = mu[0].im != 0.0 ? (number){w[0].re, -w[0].im} : increment(polynomial, mu[1]);
   if (excess(w[1]) > excess(w[0])) {
     number swap = w[0];
     w[0] = w[1];
@@ -118,6 +242,25 @@ double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, 
   number w[2];
   increments(method, alpha_h, beta2_h2, w);
   return excess(w[0]);
+}
+
+bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, double beta2_h2,
+                                 double growth)
+{
+  if (method->kind != BAUM_I_METHOD_ADAMS_BASHFORTH || !(growth > -1.0)) {
+    return baum_i_amplification_growth(method, alpha_h, beta2_h2) <= growth;
+  }
+  number mu[2];
+  find_modes(method, alpha_h, beta2_h2, mu);
+  double least = 1.0;
+  for (int k = 0; k < (mu[0].im != 0.0 ? 1 : 2); k++) {
+    baum_i_polynomial p = characteristic(method, mu[k]);
+    least = fmin(least, baum_i_schur_cohn_margin(&p, 1.0 + growth));
+  }
+  if (fabs(least) < UNDECIDED) {
+    return baum_i_amplification_growth(method, alpha_h, beta2_h2) <= growth;
+  }
+  return least > 0.0;
 }
 
 void baum_i_amplification(const baum_i_method *method, double alpha_h, double beta2_h2,

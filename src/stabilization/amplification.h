@@ -5,6 +5,8 @@
 #ifndef BAUM_I_STABILIZATION_AMPLIFICATION_H
 #define BAUM_I_STABILIZATION_AMPLIFICATION_H
 
+#include <stdbool.h>
+
 #include <baum/stabilization.h>
 
 /* The kinds of method that the mathematics here knows. */
@@ -34,11 +36,19 @@ void baum_i_amplification(const baum_i_method *method, double alpha_h, double be
  * fixed-step methods only, as all below. */
 double baum_i_amplification_growth(const baum_i_method *method, double alpha_h, double beta2_h2);
 
+/* Is spectral radius - 1 <= growth? Much cheaper than the radius for Adams-Bashforth methods. */
+bool baum_i_amplification_within(const baum_i_method *method, double alpha_h, double beta2_h2,
+                                 double growth);
+
 /* alpha h of the first instability at alpha = damping_ratio beta: 0 when nothing is stable,
  * infinite when everything is. damping_ratio > 0, finite. */
 double baum_i_stability_limit(const baum_i_method *method, double damping_ratio);
 
-/* The dead-beat point: both z are 0. */
+/* The point of least spectral radius with alpha h > 0: the dead-beat point where there is one. Where
+ * there are several it is the one of least gains. */
+void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
+
+/* The dead-beat point: all z are 0. Adams-Bashforth methods have none; they get the best one. */
 void baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* Nearest point with spectral radius <= 0.9, the point itself when it is good.

@@ -1,19 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stable, dead-beat and good points of the plane (A, B) = (|alpha h|, (beta h)^2).
+/* Stable and good points of the plane (A, B) = (|alpha h|, (beta h)^2).
  *
  * Along a ray alpha = zeta beta, A = zeta b, B = b^2. The roots mu grow in proportion to b, so the
  * first instability is looked for on a geometric scale and then bisected. The smallest limits are
  * those of weakly damped rays with methods that are unstable on the imaginary axis: b = 2 zeta for
  * explicit Euler, and nothing explicit is stable beyond |mu| of about twice the degree.
- *
- * Dead-beat: both z = 0. With mu and its conjugate zeros of R,
- * mu^2 + 2 A mu + B = 0 for A = -Re mu, B = |mu|^2.
- *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
- *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
- *   RK3, RK4         Newton's method       (0.702, 3.76) and (1.729, 3.78)
- *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
- * With a pair of different zeros one step takes the whole violation away, with a double zero two
- * steps do; therefore RK3's pair and not its real zero (1.596, 2.547).
  *
  * Nearest good point: the good region (radius <= 0.9) is looked at from three fifths of the way to
  * the limit of critical damping, from where all of it is in sight for each of our methods (not so
@@ -35,13 +26,13 @@ static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
 static const double VIEWPOINT = 0.6;    /* of the limit of critical damping */
 static const double EDGE_STEP = 0.05;   /* in looking for the edge of the good region */
 static const double EDGE_END = 100.0;
-enum { BISECTIONS = 60, NEWTON_STEPS = 50, DIRECTIONS = 720, SEGMENTS = 16, REFINEMENTS = 12 };
+enum { BISECTIONS = 60, DIRECTIONS = 720, SEGMENTS = 16, REFINEMENTS = 12 };
 
 /* ---- Limit ---------------------------------------------------------------- */
 
 static bool ray_is_unstable(const baum_i_method *method, double damping_ratio, double b)
 {
-  return baum_i_amplification_growth(method, damping_ratio * b, b * b) > 0.0;
+  return !baum_i_amplification_within(method, damping_ratio * b, b * b, 0.0);
 }
 
 static double bisect_ray(const baum_i_method *method, double damping_ratio, double stable,
@@ -75,41 +66,6 @@ double baum_i_stability_limit(const baum_i_method *method, double damping_ratio)
     b = next;
   }
   return HUGE_VAL;
-}
-
-/* ---- Dead-beat ------------------------------------------------------------ */
-
-/* mu := mu - R(mu) / R'(mu), complex. */
-static void newton_step(const baum_i_method *method, double mu[2])
-{
-  double r[2] = {0.0, 0.0};
-  double d[2] = {0.0, 0.0};
-  for (int k = method->degree; k >= 0; k--) {
-    double next[2] = {d[0] * mu[0] - d[1] * mu[1] + r[0], d[0] * mu[1] + d[1] * mu[0] + r[1]};
-    d[0] = next[0];
-    d[1] = next[1];
-    double real = r[0] * mu[0] - r[1] * mu[1] + method->coefficients[k];
-    r[1] = r[0] * mu[1] + r[1] * mu[0];
-    r[0] = real;
-  }
-  double square = d[0] * d[0] + d[1] * d[1];
-  mu[0] -= (r[0] * d[0] + r[1] * d[1]) / square;
-  mu[1] -= (r[1] * d[0] - r[0] * d[1]) / square;
-}
-
-void baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2)
-{
-  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
-    *alpha_h = 0.5;
-    *beta2_h2 = 1.0;
-    return;
-  }
-  double mu[2] = {-1.0, 1.5};
-  for (int k = 0; k < NEWTON_STEPS; k++) {
-    newton_step(method, mu);
-  }
-  *alpha_h = -mu[0];
-  *beta2_h2 = mu[0] * mu[0] + mu[1] * mu[1];
 }
 
 /* ---- Nearest good point --------------------------------------------------- */

@@ -7,7 +7,18 @@
 
 #include "stabilization/amplification.h"
 
-enum { EULER, SEMI_IMPLICIT_EULER, RK2, RK3, RK4, METHOD_COUNT };
+enum {
+  EULER,
+  SEMI_IMPLICIT_EULER,
+  RK2,
+  RK3,
+  RK4,
+  ONE_STEP_COUNT,
+  AB2 = ONE_STEP_COUNT,
+  AB3,
+  AB4,
+  METHOD_COUNT
+};
 
 static const baum_i_method methods[METHOD_COUNT] = {
   [EULER] = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 1.0}},
@@ -15,6 +26,9 @@ static const baum_i_method methods[METHOD_COUNT] = {
   [RK2] = {BAUM_I_METHOD_ONE_STEP, 2, {1.0, 1.0, 1.0 / 2.0}},
   [RK3] = {BAUM_I_METHOD_ONE_STEP, 3, {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0}},
   [RK4] = {BAUM_I_METHOD_ONE_STEP, 4, {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0}},
+  [AB2] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 2, {3.0 / 2.0, -1.0 / 2.0}},
+  [AB3] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 3, {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0}},
+  [AB4] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 4, {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0}},
 };
 
 static inline baum_amplification amplification_at(int method, double alpha_h, double beta2_h2)

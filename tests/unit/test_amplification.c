@@ -101,7 +101,7 @@ static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **stat
 static void no_stabilization_and_beta_zero_are_marginal_for_every_method(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     is_class(m, 0.0, 0.0, BAUM_MARGINAL);
     is_class(m, 0.3, 0.0, BAUM_MARGINAL);
     assert_true(amplification_at(m, 0.3, 0.0).spectral_radius == 1.0);
@@ -124,7 +124,7 @@ static void the_taylor_pair_is_marginal_with_explicit_euler_whatever_the_roundin
 static void small_gains_are_stable_down_to_the_margin(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     is_class(m, 1e-11, 1e-22, BAUM_STABLE);
     is_class(m, 1e-13, 1e-26, BAUM_MARGINAL);
     /* Semi-implicit Euler's roots are apart by sqrt(A B). */
@@ -136,14 +136,14 @@ static void small_gains_are_stable_down_to_the_margin(void **state)
 static void radii_are_those_of_the_table(void **state)
 {
   (void)state;
-  static const double want[METHOD_COUNT][2] = {
+  static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {0.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {1.6180339887498949, 2.4142135623730951}, /* golden; 1 + sqrt 2 */
     [RK2] = {0.5, 0.0},
     [RK3] = {1.0 / 3.0, 0.47140452079103168}, /* R(-1); |1 + i|/3 */
     [RK4] = {0.375, 0.37267799624996495},     /* 9/24; sqrt(5)/6 */
   };
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     ASSERT_NEAR(amplification_at(m, 1.0, 1.0).spectral_radius, want[m][0], 1e-14, 0.0);
     ASSERT_NEAR(amplification_at(m, 1.0, 2.0).spectral_radius, want[m][1], 1e-14, 1e-15);
   }
@@ -224,8 +224,8 @@ static void classical_step(const oscillator *o, double y[2])
 
 typedef void step_function(const oscillator *o, double y[2]);
 
-static step_function *const steps[METHOD_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
-                                                   heun_step, classical_step};
+static step_function *const steps[ONE_STEP_COUNT] = {euler_step, semi_implicit_step, midpoint_step,
+                                                     heun_step, classical_step};
 
 /* Mean growth per step of log |y| from step 200 to step 2000, |y| kept near 1. */
 static double observed_log_radius(int method, const oscillator *o)
@@ -262,7 +262,7 @@ static void radius_is_the_growth_of_the_method_itself(void **state)
   uint64_t seed = 7;
   for (int k = 0; k < 500; k++) {
     oscillator o = {uniform(&seed, 0.0, 3.0), uniform(&seed, 0.0, 9.0)};
-    for (int m = 0; m < METHOD_COUNT; m++) {
+    for (int m = 0; m < ONE_STEP_COUNT; m++) {
       agrees_with_the_step_matrix(m, &o);
       double radius = amplification_at(m, o.A, o.B).spectral_radius;
       /* The mean over 1800 steps of a bounded oscillation of log |y|. */
@@ -276,7 +276,7 @@ static void the_larger_root_comes_first_and_gives_the_radius(void **state)
   (void)state;
   uint64_t seed = 8;
   for (int k = 0; k < POINTS; k++) {
-    int m = k % METHOD_COUNT;
+    int m = k % ONE_STEP_COUNT;
     baum_amplification a = amplification_at(m, uniform(&seed, 0.0, 3.0), uniform(&seed, -1.0, 9.0));
     assert_true(hypot(a.z[0][0], a.z[0][1]) >= hypot(a.z[1][0], a.z[1][1]) - 1e-14);
     assert_true(a.spectral_radius == hypot(a.z[0][0], a.z[0][1]));
@@ -286,7 +286,7 @@ static void the_larger_root_comes_first_and_gives_the_radius(void **state)
 static void numbers_beyond_double_are_infinitely_unstable(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     is_class(m, 1e200, 1e300, BAUM_UNSTABLE);
     is_class(m, 1e300, 1e10, BAUM_UNSTABLE);
     is_class(m, 1.0, (double)INFINITY, BAUM_UNSTABLE);

@@ -14,8 +14,8 @@
 
 static const double H = 1e-3;
 
-static const char *const names[METHOD_COUNT] = {"euler", "semi_implicit_euler", "rk2", "rk3",
-                                                "rk4"};
+static const char *const names[ONE_STEP_COUNT] = {"euler", "semi_implicit_euler", "rk2", "rk3",
+                                                  "rk4"};
 
 static baum_i_gain_context fixed_step(int method)
 {
@@ -133,7 +133,7 @@ static void a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta(void **state
 static void deadbeat_takes_the_point_of_the_method(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     double A = 0.0;
     double B = 0.0;
     baum_i_stability_deadbeat(&methods[m], &A, &B);
@@ -179,7 +179,7 @@ static void auto_is_twice_the_rate(void **state)
 static void auto_is_capped_and_always_stable(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     for (double rate = 1e-5; rate < 1e9; rate *= 10.0) {
       baum_i_gain_context context = fixed_step(m);
       context.rate = rate;
@@ -352,7 +352,7 @@ static void unstable_gains_are_refused_with_numbers_and_a_way_out(void **state)
 static void the_pair_that_a_refusal_offers_is_accepted(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     refused(baum_gains_fixed(5000.0, 4000.0), fixed_step(m), BAUM_ERR_UNSTABLE, "nearest",
             "that is");
     double alpha = 0.0;

@@ -14,21 +14,21 @@
 static void limits_are_the_known_ones(void **state)
 {
   (void)state;
-  double critical[METHOD_COUNT] = {
+  double critical[ONE_STEP_COUNT] = {
     [EULER] = 2.0,
     [SEMI_IMPLICIT_EULER] = 2.0 * sqrt(2.0) - 2.0,
     [RK2] = 2.0,
     [RK3] = 2.5127453266183286, /* these four by bisection of |R| - 1, in Python */
     [RK4] = 2.785293563405282,
   };
-  double taylor[METHOD_COUNT] = {
+  double taylor[ONE_STEP_COUNT] = {
     [EULER] = 1.0,
     [SEMI_IMPLICIT_EULER] = sqrt(3.0) - 1.0, /* 2 A^2 = 4 - 4 A */
     [RK2] = 1.5436890126920764,              /* A^3 - 2 A^2 + 2 A - 2 = 0 */
     [RK3] = 1.6791988470387638,
     [RK4] = 1.9122666654063936,
   };
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1.0), critical[m], 1e-12, 0.0);
     ASSERT_NEAR(baum_i_stability_limit(&methods[m], sqrt(0.5)), taylor[m], 1e-12, 0.0);
   }
@@ -52,7 +52,7 @@ static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 static void limits_exist_for_any_damping_ratio_of_double(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     double overdamped = 0.5 * (m == RK3 ? 2.5127453266183286 : m == RK4 ? 2.785293563405282 : 2.0);
     ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1e12), overdamped, 1e-12, 0.0);
     ASSERT_NEAR(baum_i_stability_limit(&methods[m], 1.7e308), overdamped, 1e-12, 0.0);
@@ -63,7 +63,7 @@ static void limits_exist_for_any_damping_ratio_of_double(void **state)
 static void everything_below_a_limit_is_stable_and_just_above_is_not(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     for (double zeta = 0.02; zeta < 40.0; zeta *= 1.3) {
       double limit = baum_i_stability_limit(&methods[m], zeta);
       for (int k = 1; k <= 1000; k++) {
@@ -90,14 +90,14 @@ static void a_method_may_have_no_limit_or_no_stable_point(void **state)
 static void deadbeat_points_are_the_known_ones(void **state)
 {
   (void)state;
-  static const double want[METHOD_COUNT][2] = {
+  static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {1.0, 1.0},
     [SEMI_IMPLICIT_EULER] = {0.5, 1.0},
     [RK2] = {1.0, 2.0},
     [RK3] = {0.701964181008339, 3.7592297596248}, /* zeros of R by Durand-Kerner, in Python */
     [RK4] = {1.7294442310677054, 3.7812527897746273},
   };
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     double A = 0.0;
     double B = 0.0;
     baum_i_stability_deadbeat(&methods[m], &A, &B);
@@ -123,12 +123,12 @@ static void deadbeat_of_both_eulers_is_exact(void **state)
 static void least_radii_of_critical_damping_are_those_of_the_table(void **state)
 {
   (void)state;
-  static const double want[METHOD_COUNT][2] = {
+  static const double want[ONE_STEP_COUNT][2] = {
     [EULER] = {1.0, 0.0}, [SEMI_IMPLICIT_EULER] = {0.73, 0.68},
     [RK2] = {1.0, 0.5},   [RK3] = {1.60, 0.0},
     [RK4] = {1.60, 0.27},
   };
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     double best = 2.0;
     double where = 0.0;
     for (int k = 1; k < 3000; k++) {
@@ -183,7 +183,7 @@ static double triangle_distance(int method, point w)
 static void a_good_point_is_its_own_nearest(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     point got = nearest(m, 0.4, 0.3);
     assert_true(got.A == 0.4 && got.B == 0.3);
   }
@@ -227,7 +227,7 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
   (void)state;
   uint64_t seed = 2;
   for (int k = 0; k < 200; k++) {
-    int m = k % METHOD_COUNT;
+    int m = k % ONE_STEP_COUNT;
     double size = k < 100 ? 1.0 : 0.05;
     point w = {size * uniform(&seed, -0.5, 4.0), size * uniform(&seed, -1.0, 12.0)};
     point got = nearest(m, w.A, w.B);
@@ -240,7 +240,7 @@ static void no_grid_point_is_good_and_much_nearer(void **state)
 static void a_point_however_far_has_a_nearest_good_one(void **state)
 {
   (void)state;
-  for (int m = 0; m < METHOD_COUNT; m++) {
+  for (int m = 0; m < ONE_STEP_COUNT; m++) {
     point got = nearest(m, 1e150, 1e300);
     assert_true(amplification_at(m, got.A, got.B).spectral_radius <= 0.9 + 1e-14);
     got = nearest(m, 1.0, HUGE_VAL);

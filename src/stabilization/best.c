@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Points of fastest decay.
+ *
+ * Dead-beat: all z = 0. With mu and its conjugate zeros of R, mu^2 + 2 A mu + B = 0 for A = -Re mu,
+ * B = |mu|^2.
+ *   explicit Euler   R = 1 + mu            mu = -1, double      (1, 1), two steps
+ *   RK2              R = 1 + mu + mu^2/2   mu = -1 +- i         (1, 2), the Taylor choice (10, 11)
+ *   RK3, RK4, ...    Newton's method       (0.702, 3.76) and (1.729, 3.78)
+ *   semi-implicit Euler: explicit Euler's point sheared back, (1 - 1/2, 1)
+ * With a pair of different zeros one step takes the whole violation away, with a double zero two
+ * steps do; therefore RK3's pair and not its real zero (1.596, 2.547). Of several pairs the one of
+ * least |mu|: least gains. It needs Re mu < 0, or alpha would be negative.
+ *
+ * Adams-Bashforth methods remember, so they have no such point. Their least radius over the plane is
+ * at complex mu: of two real ones the worse decides, and it does as well twice. There it is looked
+ * for in the chart, on a lattice that closes in. The largest of several |z| has valleys with a sharp
+ * bottom, along which a search by descent would stall; a lattice does not mind.
+ */
+#include <math.h>
+#include <stdbool.h>
+
+#include "stabilization/chart.h"
+
+static const double PI = 3.14159265358979323846;
+static const double ZERO = 1e-10; /* |R| of a zero, and |Im mu| of a real one */
+static const double CLOSE_IN = 0.6;
+enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 32, LEVELS = 50 };
+
+/* ---- Dead-beat ------------------------------------------------------------ */
+
+/* mu := mu - R(mu) / R'(mu), complex. @return |R| before */
+static double newton_step(const baum_i_method *method, double mu[2])
+{
+  double r[2] = {0.0, 0.0};
+  double d[2] = {0.0, 0.0};
+  for (int k = method->degree; k >= 0; k--) {
+    double next[2] = {d[0] * mu[0] - d[1] * mu[1] + r[0], d[0] * mu[1] + d[1] * mu[0] + r[1]};
+    d[0] = next[0];
+    d[1] = next[1];
+    double real = r[0] * mu[0] - r[1] * mu[1] + method->coefficients[k];
+    r[1] = r[0] * mu[1] + r[1] * mu[0];
+    r[0] = real;
+  }
+  double square = d[0] * d[0] + d[1] * d[1];
+  if (square > 0.0) {
+    mu[0] -= (r[0] * d[0] + r[1] * d[1]) / square;
+    mu[1] -= (r[1] * d[0] - r[0] * d[1]) / square;
+  }
+  return hypot(r[0], r[1]);
+}
+
+static bool is_better_zero(const double mu[2], const double best[2])
+{
+  bool pair = fabs(mu[1]) > ZERO;
+  bool best_is_pair = fabs(best[1]) > ZERO;
+  double size = hypot(mu[0], mu[1]);
+  double best_size = hypot(best[0], best[1]);
+  return pair != best_is_pair ? pair : size < best_size * (1.0 - 1e-6);
+}
+
+/* The best zero of R with Re mu < 0; false when there is none. Every zero is reached from one of the
+ * starts: they go round 0 at distances of up to the degree, and no zero of a method is farther. */
+static bool find_zero(const baum_i_method *method, double best[2])
+{
+  bool found = false;
+  for (int k = 0; k < STARTS * method->degree; k++) {
+    double angle = PI * (0.5 + (k % STARTS + 0.5) / (2 * STARTS));
+    double size = 0.5 * (1 + k / STARTS) + 0.5;
+    double mu[2] = {size * cos(angle), size * sin(angle)};
+    double rest = 1.0;
+    for (int n = 0; n < NEWTON_STEPS; n++) {
+      rest = newton_step(method, mu);
+    }
+    if (rest < ZERO && mu[0] < 0.0 && (!found || is_better_zero(mu, best))) {
+      best[0] = mu[0];
+      best[1] = mu[1];
+      found = true;
+    }
+  }
+  return found;
+}
+
+/* ---- Least radius --------------------------------------------------------- */
+
+typedef struct search {
+  const baum_i_method *method;
+  double growth; /* the least so far */
+  double s;      /* where */
+  double m;
+  double point[2];
+} search;
+
+/* Most points are seen to be worse without their radius being computed. */
+static void try_point(search *best, double s, double m)
+{
+  double point[2];
+  baum_i_chart_point(best->method, s, m, point);
+  if (!(point[0] > 0.0) ||
+      !baum_i_amplification_within(best->method, point[0], point[1], best->growth)) {
+    return;
+  }
+  double growth = baum_i_amplification_growth(best->method, point[0], point[1]);
+  if (growth < best->growth) {
+    best->growth = growth;
+    best->s = s;
+    best->m = m;
+    best->point[0] = point[0];
+    best->point[1] = point[1];
+  }
+}
+
+static void search_window(search *best, const baum_i_chart_window *w)
+{
+  for (int i = 0; i <= LATTICE; i++) {
+    for (int j = 0; j <= LATTICE; j++) {
+      double s = w->s[0] + (w->s[1] - w->s[0]) * i / LATTICE;
+      double m = w->m[0] + (w->m[1] - w->m[0]) * j / LATTICE;
+      if (s >= -1.0 && s <= 1.0 && m > 0.0) {
+        try_point(best, s, m);
+      }
+    }
+  }
+}
+
+/* From a window that holds the best point, LEVELS times closer. */
+static void close_in(search *best, baum_i_chart_window window)
+{
+  search_window(best, &window);
+  double half_s = 0.5 * (window.s[1] - window.s[0]);
+  double half_m = 0.5 * (window.m[1] - window.m[0]);
+  for (int k = 0; k < LEVELS; k++) {
+    half_s *= CLOSE_IN;
+    half_m *= CLOSE_IN;
+    window = (baum_i_chart_window){{best->s - half_s, best->s + half_s},
+                                   {best->m - half_m, best->m + half_m}};
+    search_window(best, &window);
+  }
+}
+
+void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2)
+{
+  double mu[2] = {0.0, 0.0};
+  search best = {.method = method, .growth = 0.0};
+  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
+    best.point[0] = 0.5;
+    best.point[1] = 1.0;
+  } else if (method->kind == BAUM_I_METHOD_ONE_STEP && find_zero(method, mu)) {
+    best.point[0] = -mu[0];
+    best.point[1] = mu[0] * mu[0] + mu[1] * mu[1];
+  } else {
+    double extent = baum_i_chart_extent(method, 0.0);
+    close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, fmin(extent, 1.0 / ZERO)}});
+  }
+  *alpha_h = best.point[0];
+  *beta2_h2 = best.point[1];
+}
+
+void baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2)
+{
+  baum_i_stability_best(method, alpha_h, beta2_h2);
+}

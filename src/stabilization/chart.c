@@ -1,0 +1,85 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* How far a region reaches. A bound that holds for sure is too wide to draw in:
+ *
+ *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k, which grows once it is positive
+ *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k (for k = 1
+ *                    the root is 1 + mu b_0)
+ *
+ * so the region is looked for from there inwards.
+ */
+#include "stabilization/chart.h"
+
+#include <math.h>
+
+static const double PI = 3.14159265358979323846;
+static const double FARTHEST = 1e6; /* what reaches farther has no end */
+enum { COLUMNS = 48, ROWS = 512 };
+
+void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
+{
+  if (s < 0.0) {
+    double u = 1.0 + s;
+    point[0] = 0.5 * m * (1.0 + u);
+    point[1] = m * m * u;
+  } else {
+    point[0] = s < 1.0 ? m * cos(0.5 * PI * s) : 0.0;
+    point[1] = m * m;
+  }
+  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
+    point[0] -= 0.5 * point[1];
+  }
+}
+
+/* Is |R| > radius everywhere from m on? */
+static bool polynomial_is_beyond(const baum_i_method *method, double m, double radius)
+{
+  double power = 1.0;
+  double sum = radius;
+  for (int k = 0; k < method->degree; k++) {
+    sum += fabs(method->coefficients[k]) * power;
+    power *= m;
+  }
+  return fabs(method->coefficients[method->degree]) * power > sum;
+}
+
+static double bound(const baum_i_method *method, double radius)
+{
+  const int k = method->degree;
+  if (method->kind == BAUM_I_METHOD_ADAMS_BASHFORTH) {
+    return (pow(radius, k) + (k == 1 ? 1.0 : 0.0)) / fabs(method->coefficients[k - 1]);
+  }
+  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
+    return 1.0 + radius;
+  }
+  double m = 1.0;
+  while (m < FARTHEST && !polynomial_is_beyond(method, m, radius)) {
+    m *= 1.1;
+  }
+  return m;
+}
+
+static bool reaches(const baum_i_method *method, double m, double growth)
+{
+  for (int k = 0; k <= COLUMNS; k++) {
+    double point[2];
+    baum_i_chart_point(method, 2.0 * k / COLUMNS - 1.0, m, point);
+    if (baum_i_amplification_within(method, point[0], point[1], growth)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+double baum_i_chart_extent(const baum_i_method *method, double growth)
+{
+  double most = bound(method, 1.0 + growth);
+  if (!(most < FARTHEST)) {
+    return HUGE_VAL;
+  }
+  for (int k = ROWS; k > 0; k--) {
+    if (reaches(method, most * k / ROWS, growth)) {
+      return most * (k + 1) / ROWS;
+    }
+  }
+  return 0.0;
+}

@@ -1,0 +1,29 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A chart of the plane (A, B) = (alpha h, beta^2 h^2), A >= 0, B >= 0, in which regions have no sharp
+ * tips: the larger |mu| = m, and how the two mu lie to each other, s in [-1, 1].
+ *
+ *   s < 0   mu = -m, -m u,  u = 1 + s         A = m (1 + u) / 2,  B = m^2 u        overdamped
+ *   s >= 0  mu = -m e^(+-i phi), phi = s pi/2 A = m cos(phi),     B = m^2
+ *
+ * s = -1 is B = 0, s = 0 critical damping, s = 1 is A = 0. Semi-implicit Euler, whose plane is a
+ * shear of explicit Euler's, takes that one's chart.
+ */
+#ifndef BAUM_I_STABILIZATION_CHART_H
+#define BAUM_I_STABILIZATION_CHART_H
+
+#include "stabilization/amplification.h"
+
+/* A rectangle [s] x [m] of the chart. */
+typedef struct baum_i_chart_window {
+  double s[2];
+  double m[2];
+} baum_i_chart_window;
+
+/* point = (A, B) */
+void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2]);
+
+/* A little more than the largest m where spectral radius - 1 <= growth; 0 when there is none,
+ * infinite when there is no largest. Islands smaller than a fiftieth of the region may be missed. */
+double baum_i_chart_extent(const baum_i_method *method, double growth);
+
+#endif

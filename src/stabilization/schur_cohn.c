@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The test of Schur (1917) and Cohn (1922).
+ *
+ *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)),  of coefficients conj(c_(n-k))
+ *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
+ *
+ * On the circle |p| = |p*|. So if |c_0| < |c_n|, the term with p is the larger one there, and Tp has
+ * one root less inside than p (Rouche): all n roots of p are inside exactly when |c_0| < |c_n| and
+ * all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, hence |c_0| >= |c_n| shows one
+ * that is not inside. A circle of radius r is brought to 1 by c_k r^k.
+ *
+ * A bisection of r then gives the largest |z|.
+ */
+#include "stabilization/schur_cohn.h"
+
+#include <math.h>
+
+static const double RADIUS_TOLERANCE = 1e-10;
+enum { MOST_BISECTIONS = 400 };
+
+static double square(const double c[2])
+{
+  return c[0] * c[0] + c[1] * c[1];
+}
+
+/* Of largest coefficient 1: what matters is their ratio. */
+static void scale(baum_i_polynomial *p, double radius)
+{
+  double power = 1.0;
+  double most = 0.0;
+  for (int k = 0; k <= p->degree; k++) {
+    p->c[k][0] *= power;
+    p->c[k][1] *= power;
+    most = fmax(most, fmax(fabs(p->c[k][0]), fabs(p->c[k][1])));
+    power *= radius;
+  }
+  for (int k = 0; k <= p->degree; k++) {
+    p->c[k][0] /= most;
+    p->c[k][1] /= most;
+  }
+}
+
+/* p := Tp / |c_n|^2 */
+static void reduce(baum_i_polynomial *p)
+{
+  const int n = p->degree;
+  const double first[2] = {p->c[0][0], p->c[0][1]};
+  const double last[2] = {p->c[n][0], p->c[n][1]};
+  const double size = square(last);
+  double next[BAUM_I_SCHUR_COHN_DEGREE][2];
+  for (int k = 0; k < n; k++) {
+    const double *up = p->c[k + 1];
+    const double *mirror = p->c[n - 1 - k];
+    next[k][0] = last[0] * up[0] + last[1] * up[1] - first[0] * mirror[0] - first[1] * mirror[1];
+    next[k][1] = last[0] * up[1] - last[1] * up[0] - first[1] * mirror[0] + first[0] * mirror[1];
+  }
+  for (int k = 0; k < n; k++) {
+    p->c[k][0] = next[k][0] / size;
+    p->c[k][1] = next[k][1] / size;
+  }
+  p->degree = n - 1;
+}
+
+double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius)
+{
+  baum_i_polynomial rest = *p;
+  double least = 1.0;
+  scale(&rest, radius);
+  while (rest.degree > 0) {
+    double first = square(rest.c[0]);
+    double last = square(rest.c[rest.degree]);
+    if (!(first < last)) {
+      return last > 0.0 ? fmax(1.0 - first / last, -1.0) : -1.0;
+    }
+    least = fmin(least, 1.0 - first / last);
+    reduce(&rest);
+  }
+  return least;
+}
+
+double baum_i_schur_cohn_radius(const baum_i_polynomial *p)
+{
+  double inside = 0.0;
+  double outside = 1.0; /* no root is larger than 1 + the sum of |c_k| */
+  for (int k = 0; k < p->degree; k++) {
+    outside += hypot(p->c[k][0], p->c[k][1]);
+  }
+  if (!(pow(outside, p->degree) < HUGE_VAL)) { /* or not a number */
+    return HUGE_VAL;
+  }
+  for (int k = 0; k < MOST_BISECTIONS && outside - inside > RADIUS_TOLERANCE * outside; k++) {
+    double middle = 0.5 * (inside + outside);
+    if (baum_i_schur_cohn_margin(p, middle) > 0.0) {
+      outside = middle;
+    } else {
+      inside = middle;
+    }
+  }
+  return 0.5 * (inside + outside);
+}
