@@ -54,6 +54,11 @@ BAUM_API const baum_integrator *baum_ab2(void);
 BAUM_API const baum_integrator *baum_ab3(void);
 /** Adams-Bashforth of four steps, order 4. Otherwise as baum_ab2(). */
 BAUM_API const baum_integrator *baum_ab4(void);
+/** RATTLE, order 2, fixed step, symplectic: for long runs without dissipation, whose energy stays in a
+ *  band of width O(h^2) however long. INDEX3: Phi = 0 and Phi' = 0 hold to rounding after every step.
+ *  For constant masses and forces of time, position and inputs; masses that vary and forces that depend
+ *  on velocities, as dampers do, are refused. Functions of the user are asked at some states. */
+BAUM_API const baum_integrator *baum_rattle(void);
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
@@ -227,8 +232,8 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
  *  @param[in]  q    (nq) finite
  *  @param[in]  v    (nv) finite, or NaN where free when `start` is BAUM_START_ASSEMBLE
  *  @return          BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR,
- *                   BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
- *                   unchanged on failure
+ *                   BAUM_ERR_CONVERGENCE (IDA), BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE,
+ *                   BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
@@ -238,8 +243,9 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
  *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step. A
  *  value that is the present one changes nothing.
  *  @param value  finite
- *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- *                BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY; unchanged on failure
+ *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CONVERGENCE (IDA),
+ *                BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
+ *                unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id input,
                                                double value);
@@ -251,7 +257,8 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  is s + ds (t - t0) + dds (t - t0)^2 / 2, in place of the polynomial, user law or spline of its
  *  definition, until it is set again. Variable-step methods begin anew, which counters.restarts
  *  counts. The state stays: where s or ds differ from it, that is a violation, which the
- *  formulation treats as any other. PROJECTION jumps at the end of the next step, BAUMGARTE goes
+ *  formulation treats as any other. PROJECTION jumps at the end of the next step, GGL and INDEX3 in
+ *  it, as INDEX2 does with ds while it keeps a difference in s, BAUMGARTE goes
  *  there at the rate of its gains (a jump in s with gains of 1/h asks for velocities of about s/h),
  *  UNSTABILIZED keeps the difference, and kinematics takes the nearest pose on its branch, or
  *  refuses where none is near. So lead on from where the coordinate is, and change dds, or ds.
@@ -260,8 +267,9 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
  *  @param ds      [rad/s or m/s] finite
  *  @param dds     [rad/s^2 or m/s^2] finite
  *  @return        BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_INCONSISTENT (kinematics),
- *                 BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR,
- *                 BAUM_ERR_MEMORY; unchanged on failure
+ *                 BAUM_ERR_SINGULAR, BAUM_ERR_CONVERGENCE (IDA, too large a jump),
+ *                 BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
+ *                 unchanged on failure
  */
 BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver,
                                                 double s, double ds, double dds);

@@ -180,6 +180,10 @@ void baum_i_block_use_force(baum_i_block *block, bool use);
 /* pull[] and rest[], in twice the precision. */
 void baum_i_block_find_residual(baum_i_block *block);
 
+/* block_again.c. Before a correction with the factors at hand: motion, pull and multipliers are 0, rest is r (nc), so
+ * that the correction gives a motion with J a = r. */
+void baum_i_block_set_rest(baum_i_block *block, const double *r);
+
 /* How good the pivots of a factorization were. */
 typedef enum baum_i_pivots {
   BAUM_I_PIVOTS_GOOD,

@@ -401,6 +401,7 @@ class baum_gain_rule(enum.IntEnum):
     BAUM_GAINS_FREQUENCY = 4
     BAUM_GAINS_DEADBEAT = 5
     BAUM_GAINS_AUTO = 6
+    BAUM_GAINS_BEST_DAMPING = 7
 
 
 class baum_gains(Structure):
@@ -786,6 +787,7 @@ PROTOTYPES = {
     "baum_gains_frequency": (baum_gains, [c_double, c_double]),
     "baum_gains_deadbeat": (baum_gains, []),
     "baum_gains_auto": (baum_gains, []),
+    "baum_gains_best_damping": (baum_gains, []),
     "baum_stability_at": (c_int, [
         c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
     ]),
@@ -802,6 +804,7 @@ PROTOTYPES = {
     "baum_ab2": (c_void_p, []),
     "baum_ab3": (c_void_p, []),
     "baum_ab4": (c_void_p, []),
+    "baum_rattle": (c_void_p, []),
     "baum_cvode_adams": (c_void_p, []),
     "baum_cvode_bdf": (c_void_p, []),
     "baum_ida": (c_void_p, []),

@@ -1,0 +1,122 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's method with the matrix of one pose held (a chord in place of the tangents):
+ *
+ *   [ M   J^T ] [ dq     ]   [  0      ]
+ *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M and J of another pose than q
+ *
+ * and the half step of velocities that ends on J v = nu:
+ *
+ *   [ M   J^T ] [ a      ]   [ g         ]
+ *   [ J   0   ] [ lambda ] = [ -rate Phi' ]
+ *
+ * Blocks first, what they cannot solve with confidence by the solver of the whole.
+ */
+#include "dynamics/chord.h"
+
+#include <string.h>
+
+#include "base/message.h"
+#include "dynamics/block_path.h"
+#include "dynamics/immobile.h"
+
+static baum_i_kkt_values values_of(const baum_workspace *w)
+{
+  return (baum_i_kkt_values){.mass = w->mass,
+                             .jacobian = w->jacobian,
+                             .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+}
+
+static baum_status translate(const baum_workspace *w, baum_status status)
+{
+  switch ((int)status) {
+  case BAUM_ERR_SINGULAR:
+    return baum_i_fail(status, "t = %.9g s: the constraints are singular here", w->point.t);
+  case BAUM_ERR_NOT_FINITE:
+    return baum_i_fail(status, "t = %.9g s: the equations have a coefficient that is not finite",
+                       w->point.t);
+  default: return status;
+  }
+}
+
+/* ---- positions ---- */
+
+static baum_status factor_whole(baum_workspace *w, double t, const double *q)
+{
+  const baum_i_kkt_values values = values_of(w);
+  baum_status status = baum_i_position_stage(w, t, q);
+  return status == BAUM_OK ? translate(w, baum_i_kkt_factor(w->kkt, &values)) : status;
+}
+
+baum_status baum_i_chord_begin(baum_workspace *w, double t, const double *q, baum_i_chord *out)
+{
+  static const baum_i_right_side right = {.stiffness = 1.0};
+  baum_i_block_path *whole = baum_i_enter_motion(w);
+  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
+  out->path = w->path;
+  w->evaluations++;
+  if (status == BAUM_ERR_SINGULAR) {
+    out->path = NULL;
+    status = factor_whole(w, t, q);
+  }
+  baum_i_leave_motion(w, whole);
+  return status;
+}
+
+static baum_status change_by_blocks(baum_workspace *w, const baum_i_block_path *path)
+{
+  baum_i_block_set_rest(path->block, w->rhs);
+  (void)path->kernel->correct(path->block);
+  bool finite = path->kernel->read_motion(path->block, w->a);
+  return finite ? BAUM_OK : translate(w, BAUM_ERR_NOT_FINITE);
+}
+
+static baum_status change_by_whole(baum_workspace *w)
+{
+  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
+  return translate(w, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda));
+}
+
+baum_status baum_i_chord_change(baum_workspace *w, const baum_i_chord *chord, double t,
+                                const double *q)
+{
+  baum_i_point_set(&w->point, t, q, NULL);
+  baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -w->phi[i];
+  }
+  return chord->path ? change_by_blocks(w, chord->path) : change_by_whole(w);
+}
+
+/* ---- velocities ---- */
+
+static baum_status hold_by_whole(baum_workspace *w, double t, const double *q, const double *v,
+                                 double rate)
+{
+  const baum_i_kkt_values values = values_of(w);
+  baum_status status = baum_i_velocity_stage(w, t, q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->rhs[i] = -rate * w->phi_rate[i];
+  }
+  return translate(w,
+                   baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda));
+}
+
+baum_status baum_i_hold_velocities(baum_workspace *w, double t, const double *q, const double *v,
+                                   double rate)
+{
+  const baum_i_right_side right = {.damping = rate, .force = true};
+  baum_i_block_path *whole = baum_i_enter_motion(w);
+  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, v, &right) : BAUM_ERR_SINGULAR;
+  w->evaluations++;
+  if (status == BAUM_ERR_SINGULAR) {
+    status = hold_by_whole(w, t, q, v, rate);
+  }
+  baum_i_leave_motion(w, whole);
+  return status;
+}

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* RATTLE (H. C. Andersen, J. Comp. Phys. 52 (1983) 24-34; symplectic: B. Leimkuhler, R. Skeel, J. Comp. Phys. 112
+ * (1994) 117-125; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2006, VII.1.4), order 2, for
+ * constant M and forces g(t, q):
+ *
+ *   v'       = v + (h/2) M^-1 (g(t, q) - J(q)^T lambda)             (nv)
+ *   q(t + h) = q + h v',                  Phi(q(t + h)) = 0         (nq)   gives lambda
+ *   v(t + h) = v' + (h/2) M^-1 (g - J^T mu)  at q(t + h),  J v = nu        gives mu
+ *
+ * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of width O(h^2).
+ * With constraints and forces of time it is so in the phase space that has time and its momentum, too.
+ *
+ * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form M^-1 (g - J^T lambda),
+ * so that q + h v + (h^2/2) a is where Newton's method begins, and its matrix J(q) M^-1 J(q)^T may be held: what it
+ * gives are changes dq along M^-1 J(q)^T. The half velocity is v + (h/2) a + (sum of dq) / h, whose last part is small,
+ * so that the rounding of q does not come into v divided by h.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/chord.h"
+#include "dynamics/dependence.h"
+#include "integrate/integrator.h"
+
+enum { ITERATIONS = 50 };
+
+/* Changes below so many roundings of the coordinates are rounding. */
+static const double ROUNDING = 2.0 * DBL_EPSILON;
+/* Changes that have stopped falling, and are no more than so many of these, too. */
+static const double STALLED = 256.0;
+
+/* Memory of a run. */
+typedef struct rattle_run {
+  int nv;
+  int64_t iterations;
+  double *memory; /* all below */
+  double *q;      /* (nv) end of the step */
+  double *v;      /* (nv) half velocities */
+  double *change; /* (nv) sum of dq */
+} rattle_run;
+
+/* ---- positions ---- */
+
+/* Whether another change would be rounding: changes fall in proportion. Of the first, nothing is before. */
+static bool is_last(double size, double before, double rounding)
+{
+  if (size <= rounding || isinf(before)) {
+    return size <= rounding;
+  }
+  bool falls = size < 0.5 * before;
+  return falls ? size * (size / before) <= 0.01 * rounding : size <= STALLED * rounding;
+}
+
+static baum_status fail(double t, double size)
+{
+  return baum_i_fail(BAUM_ERR_CONVERGENCE,
+                     "t = %.9g s: rattle: the positions of the next step do not converge (last "
+                     "change %.3g of the scale): the step is too large or the pose is near a "
+                     "singular one",
+                     t, size);
+}
+
+static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum_i_state *state,
+                                  double h)
+{
+  const baum_mechanism *m = w->mechanism;
+  baum_i_chord chord;
+  baum_status status = baum_i_chord_begin(w, state->t, state->q, &chord);
+  double before = INFINITY;
+  for (int k = 0; k < ITERATIONS && status == BAUM_OK; k++) {
+    status = baum_i_chord_change(w, &chord, state->t + h, run->q);
+    if (status != BAUM_OK) {
+      break;
+    }
+    run->iterations++;
+    for (int i = 0; i < run->nv; i++) {
+      run->q[i] += w->a[i];
+      run->change[i] += w->a[i];
+    }
+    double size = baum_i_scaled_size(m, w->a);
+    if (is_last(size, before, ROUNDING * baum_i_scaled_size(m, run->q))) {
+      return BAUM_OK;
+    }
+    if (!(size < 2.0 * before)) {
+      break;
+    }
+    before = size;
+  }
+  return status == BAUM_OK ? fail(state->t, before) : status;
+}
+
+/* ---- one step ---- */
+
+static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
+                             double h, const double *a)
+{
+  rattle_run *run = self;
+  baum_workspace *w = problem->workspace;
+  int nv = run->nv;
+  for (int i = 0; i < nv; i++) {
+    run->v[i] = state->v[i] + 0.5 * h * a[i];
+    run->q[i] = state->q[i] + h * run->v[i];
+    run->change[i] = 0.0;
+  }
+  baum_status status = w->mechanism->nc > 0 ? find_positions(run, w, state, h) : BAUM_OK;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < nv; i++) {
+    run->v[i] += run->change[i] / h;
+  }
+  status = baum_i_hold_velocities(w, state->t + h, run->q, run->v, 2.0 / h);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int i = 0; i < nv; i++) {
+    state->q[i] = run->q[i];
+    state->v[i] = run->v[i] + 0.5 * h * w->a[i];
+  }
+  return BAUM_OK;
+}
+
+/* ---- life ---- */
+
+static void destroy(void *self)
+{
+  rattle_run *run = self;
+  if (run) {
+    baum_i_free(run->memory);
+    baum_i_free(run);
+  }
+}
+
+/* What the method is not for, by name. */
+static baum_status check_mechanism(const baum_i_problem *problem, const baum_i_state *start)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  baum_i_dependence found;
+  const baum_i_dependence_probe probe = {.t = start->t, .q = start->q, .rate = problem->rate};
+  baum_status status = baum_i_find_dependence(problem->workspace, &probe, &found, label);
+  if (status != BAUM_OK || found == BAUM_I_DEPENDS_NOT) {
+    return status;
+  }
+  if (found == BAUM_I_DEPENDS_MASS) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "simulation options: rattle is for masses that are constant, but that of %s "
+                       "is not",
+                       label);
+  }
+  return baum_i_fail(
+    BAUM_ERR_UNSUPPORTED,
+    "simulation options: rattle is for forces of time and position, but that of %s "
+    "depends on velocities",
+    label);
+}
+
+static baum_status make_run(const baum_i_problem *problem, void **out)
+{
+  rattle_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  size_t nv = (size_t)problem->workspace->mechanism->nv;
+  run->nv = (int)nv;
+  run->memory = baum_i_alloc(3 * nv, sizeof *run->memory);
+  if (!run->memory) {
+    destroy(run);
+    return baum_i_fail_memory();
+  }
+  run->q = run->memory;
+  run->v = run->q + nv;
+  run->change = run->v + nv;
+  *out = run;
+  return BAUM_OK;
+}
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  *out = NULL;
+  baum_status status = check_mechanism(problem, start);
+  return status == BAUM_OK ? make_run(problem, out) : status;
+}
+
+static void count(const void *self, baum_i_statistics *out)
+{
+  const rattle_run *run = self;
+  *out = (baum_i_statistics){.nonlinear_iterations = run->iterations};
+}
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_INDEX3,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_integrator RATTLE = {
+  .name = "rattle",
+  .order = 2,
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_DEFAULT,
+  .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
+  .create = create,
+  .destroy = destroy,
+  .step = take_step,
+  .statistics = count,
+};
+
+const baum_integrator *baum_rattle(void)
+{
+  return &RATTLE;
+}
