@@ -88,6 +88,12 @@ bool baum_i_problem_has_fixed_step(const baum_i_problem *problem)
   return !isnan(problem->step);
 }
 
+/* With fixed steps only who accepts them keeps something of them. */
+bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem)
+{
+  return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));
+}
+
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v)
 {

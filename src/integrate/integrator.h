@@ -78,7 +78,8 @@ struct baum_integrator {
   /* Positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Begin anew from a state, in problem->direction. Allocates nothing. NULL where nothing is remembered. */
+  /* Begin anew from a state, in problem->direction. Allocates nothing. NULL where nothing is remembered; also not
+   * called where baum_i_integrator_remembers() says no. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
@@ -98,6 +99,9 @@ bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
  * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
+
+/* Does a run remember steps, so that it has to be told when it begins anew? */
+bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
 /* Formulation offered? */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);

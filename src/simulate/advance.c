@@ -265,7 +265,7 @@ static baum_status turn(baum_simulation *run, double t)
     return BAUM_OK;
   }
   run->problem.direction = direction;
-  if (!run->integrator->restart) {
+  if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;
   }
   baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);

@@ -16,7 +16,7 @@
 /* A method that fails here begins anew at its next step, and from the same state. */
 static baum_status begin_anew(baum_simulation *run)
 {
-  if (!run->integrator->restart) {
+  if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;
   }
   baum_i_sentence kept;

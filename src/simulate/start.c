@@ -259,7 +259,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
     status = baum_i_run_measure(simulation, &energy);
   }
   /* Last of what may fail, for it cannot be undone. */
-  if (status == BAUM_OK && simulation->integrator->restart) {
+  if (status == BAUM_OK &&
+      baum_i_integrator_remembers(simulation->integrator, &simulation->problem)) {
     status = restart(simulation);
   }
   if (status != BAUM_OK) {

@@ -27,6 +27,7 @@ integrator_setup integrator_setup_make(baum_mechanism *mechanism, const baum_int
   return (integrator_setup){.mechanism = mechanism,
                             .integrator = integrator,
                             .formulation = formulation,
+                            .fixed = baum_integrator_has_fixed_step(integrator),
                             .gain = 6.0,
                             .step = 1e-3,
                             .rtol = 1e-6,
@@ -42,7 +43,6 @@ static void find_rate(integrator_run *run)
 
 static void define_problem(integrator_run *run, const integrator_setup *setup)
 {
-  bool fixed = baum_integrator_has_fixed_step(setup->integrator);
   run->problem.workspace = run->workspace;
   run->problem.formulation = setup->formulation == BAUM_FORMULATION_DEFAULT
                                ? setup->integrator->formulations[0]
@@ -50,8 +50,8 @@ static void define_problem(integrator_run *run, const integrator_setup *setup)
   run->problem.alpha = setup->gain;
   run->problem.beta = setup->gain;
   run->problem.direction = setup->direction;
-  run->problem.rtol = fixed ? (double)NAN : setup->rtol;
-  run->problem.step = fixed ? setup->step : (double)NAN;
+  run->problem.rtol = setup->fixed ? (double)NAN : setup->rtol;
+  run->problem.step = setup->fixed ? setup->step : (double)NAN;
   run->problem.max_step = (double)INFINITY;
   run->problem.tolerance_q = 1.0;
   run->problem.tolerance_v = 1.0;
@@ -115,7 +115,7 @@ static baum_status take_fixed_step(integrator_run *run)
 
 baum_status integrator_run_step(integrator_run *run)
 {
-  if (run->integrator->step) {
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
     return take_fixed_step(run);
   }
   baum_status status = run->integrator->advance(run->self, &run->problem, &run->state);
@@ -125,7 +125,8 @@ baum_status integrator_run_step(integrator_run *run)
 
 baum_status integrator_run_to(integrator_run *run, double t)
 {
-  double slack = run->integrator->step ? 0.5 * run->step : 0.0;
+  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  double slack = fixed ? 0.5 * run->step : 0.0;
   while ((t - run->state.t) * run->problem.direction > slack) {
     baum_status status = integrator_run_step(run);
     if (status != BAUM_OK) {
@@ -133,7 +134,7 @@ baum_status integrator_run_to(integrator_run *run, double t)
     }
     assert_true(run->steps < MOST_STEPS);
   }
-  if (!run->integrator->step) {
+  if (!fixed) {
     return run->integrator->interpolate(run->self, &run->problem, t, run->q, run->v);
   }
   memcpy(run->q, run->state_q, sizeof run->q);

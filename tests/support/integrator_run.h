@@ -13,12 +13,14 @@ typedef struct integrator_setup {
   baum_mechanism *mechanism; /* frozen, drawn in its exact start pose; stays the caller's */
   const baum_integrator *integrator;
   baum_formulation formulation; /* BAUM_FORMULATION_DEFAULT: the first of the integrator's */
+  bool fixed;                   /* step of one length, else of the integrator's choice */
   double gain;                  /* [1/s] alpha and beta where the formulation has them */
   double step;                  /* [s] > 0, fixed step */
   double rtol;                  /* variable step */
   double direction;             /* +1, -1 */
 } integrator_setup;
 
+/* Fixed where the integrator can. */
 integrator_setup integrator_setup_make(baum_mechanism *mechanism, const baum_integrator *integrator,
                                        baum_formulation formulation);
 

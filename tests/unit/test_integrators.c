@@ -12,18 +12,39 @@
 
 /* ---- the battery ---- */
 
-typedef void battery_fn(const baum_integrator *integrator, baum_formulation formulation);
+/* An integrator in one of its ways. */
+typedef struct method {
+  const baum_integrator *integrator;
+  baum_formulation formulation;
+  bool fixed; /* step of one length */
+} method;
 
-/* Every integrator of this build with each of its formulations. */
+typedef void battery_fn(const method *m);
+
+static const char *kind_of_step(const method *m)
+{
+  return m->fixed ? "fixed step" : "variable step";
+}
+
+static integrator_setup setup_of(baum_mechanism *mechanism, const method *m)
+{
+  integrator_setup setup = integrator_setup_make(mechanism, m->integrator, m->formulation);
+  setup.fixed = m->fixed;
+  return setup;
+}
+
+/* Every integrator of this build with each of its formulations, with steps of one length and of its own choice. */
 static void for_each(battery_fn *test)
 {
   for (int k = 0; baum_integrator_at(k); k++) {
     const baum_integrator *integrator = baum_integrator_at(k);
-    if (!integrator->step && !integrator->advance) {
-      continue;
-    }
     for (const baum_formulation *f = integrator->formulations; *f; f++) {
-      test(integrator, *f);
+      if (integrator->step) {
+        test(&(method){integrator, *f, true});
+      }
+      if (integrator->advance) {
+        test(&(method){integrator, *f, false});
+      }
     }
   }
 }
@@ -50,42 +71,43 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
  * 1/s, and index 3 is known to be far off. */
 static double allowed(const integrator_setup *setup)
 {
-  static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9};
+  /* Of order 5 and more what is left is rounding, of 2000 steps and of the reference. */
+  static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
   /* The error constants of Adams' explicit methods are 5/12, 3/8 and 251/720, of Runge-Kutta's about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
            ? 3e-2
-           : wide * BY_ORDER[baum_integrator_order(setup->integrator)];
+           : wide * BY_ORDER[setup->fixed ? baum_integrator_order(setup->integrator) : 0];
 }
 
-static void check_motion(baum_mechanism *mechanism, const baum_integrator *integrator,
-                         baum_formulation formulation, motion_fn *motion, double rate)
+static void check_motion(baum_mechanism *mechanism, const method *m, motion_fn *motion, double rate)
 {
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   for (int sign = -1; sign <= 1; sign += 2) {
     setup.direction = sign;
     double error = error_at(mechanism, &setup, 2.0, motion, rate);
     if (!(error <= allowed(&setup))) {
-      fail_msg("%s, %s, direction %d: error %.3g, allowed %.3g", integrator->name,
-               baum_formulation_name(formulation), sign, error, allowed(&setup));
+      fail_msg("%s, %s, %s, direction %d: error %.3g, allowed %.3g", m->integrator->name,
+               kind_of_step(m), baum_formulation_name(m->formulation), sign, error,
+               allowed(&setup));
     }
   }
   baum_mechanism_destroy(mechanism);
 }
 
-static void throw_it(const baum_integrator *integrator, baum_formulation formulation)
+static void throw_it(const method *m)
 {
-  check_motion(make_throw(), integrator, formulation, throw_motion, 10.0);
+  check_motion(make_throw(), m, throw_motion, 10.0);
 }
 
-static void oscillate(const baum_integrator *integrator, baum_formulation formulation)
+static void oscillate(const method *m)
 {
-  check_motion(make_oscillator(), integrator, formulation, oscillator_motion, 2.0);
+  check_motion(make_oscillator(), m, oscillator_motion, 2.0);
 }
 
-static void swing(const baum_integrator *integrator, baum_formulation formulation)
+static void swing(const method *m)
 {
-  check_motion(make_pendulum(), integrator, formulation, pendulum_motion, 4.43);
+  check_motion(make_pendulum(), m, pendulum_motion, 4.43);
 }
 
 static void a_thrown_point_falls_as_galileo_says(void **state)
@@ -107,20 +129,21 @@ static void a_pendulum_swings_both_ways_in_time(void **state)
 }
 
 /* Stops at once, or asks for smaller steps for ever; the state is that of the last good step. */
-static void meet_fault(const baum_integrator *integrator, baum_formulation formulation)
+static void meet_fault(const method *m)
 {
   for (int answer = -1; answer <= 1; answer += 2) {
     force_fault fault = {.after = 0.7, .answer = answer};
     baum_mechanism *mechanism = make_faulty_pendulum(&fault);
-    integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+    integrator_setup setup = setup_of(mechanism, m);
     integrator_run run;
     double q[2];
     double v[2];
     assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
     baum_status status = integrator_run_to(&run, 1.0);
     if (status != BAUM_ERR_CALLBACK || !strstr(baum_message(), "faulty")) {
-      fail_msg("%s, %s, answer %d: %s: %s", integrator->name, baum_formulation_name(formulation),
-               answer, baum_status_name(status), baum_message());
+      fail_msg("%s, %s, answer %d: %s: %s", m->integrator->name,
+               baum_formulation_name(m->formulation), answer, baum_status_name(status),
+               baum_message());
     }
     assert_true(run.state.t > 0.5 && run.state.t <= 0.7 + 1.001e-3);
     pendulum_motion(run.state.t, q, v);
@@ -137,11 +160,11 @@ static void a_failing_function_leaves_the_last_good_step(void **state)
 }
 
 /* A function that stops is not called again in that step. */
-static void stop_at_once(const baum_integrator *integrator, baum_formulation formulation)
+static void stop_at_once(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
   baum_mechanism *mechanism = make_faulty_pendulum(&fault);
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   integrator_run run;
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
   while (integrator_run_step(&run) == BAUM_OK) {
@@ -159,19 +182,19 @@ static void a_function_that_stops_is_left_alone(void **state)
 }
 
 /* Beginning anew after a failure, elsewhere in time, and turning round. */
-static void begin_anew(const baum_integrator *integrator, baum_formulation formulation)
+static void begin_anew(const method *m)
 {
-  if (!integrator->restart || !integrator->statistics) {
+  if (m->fixed || !m->integrator->restart) {
     return;
   }
   force_fault fault = {.after = 0.7, .answer = -1};
   baum_mechanism *mechanism = make_faulty_pendulum(&fault);
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   integrator_run run;
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
   assert_int_equal(integrator_run_to(&run, 1.0), BAUM_ERR_CALLBACK);
   baum_i_statistics before;
-  integrator->statistics(run.self, &before);
+  m->integrator->statistics(run.self, &before);
   fault.after = (double)INFINITY;
   double q[2];
   double v[2];
@@ -185,8 +208,9 @@ static void begin_anew(const baum_integrator *integrator, baum_formulation formu
   pendulum_motion(0.0, q, v);
   assert_true(motion_error(2, run.q, run.v, q, v, 4.43) <= allowed(&setup));
   baum_i_statistics after;
-  integrator->statistics(run.self, &after);
-  assert_true(after.nonlinear_iterations > before.nonlinear_iterations);
+  m->integrator->statistics(run.self, &after);
+  bool iterates = before.nonlinear_iterations > 0;
+  assert_true(after.nonlinear_iterations >= before.nonlinear_iterations + iterates);
   assert_true(after.rejected >= before.rejected);
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
@@ -199,11 +223,11 @@ static void a_restart_begins_anew_after_a_failure_and_backwards(void **state)
 }
 
 /* The next step after a failure goes on from the last good one. */
-static void go_on(const baum_integrator *integrator, baum_formulation formulation)
+static void go_on(const method *m)
 {
   force_fault fault = {.after = 0.7, .answer = -1};
   baum_mechanism *mechanism = make_faulty_pendulum(&fault);
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   integrator_run run;
   double q[2];
   double v[2];
@@ -225,13 +249,13 @@ static void a_run_goes_on_when_what_failed_is_mended(void **state)
 }
 
 /* Inside the last step and at its ends; outside it is refused. */
-static void look_inside(const baum_integrator *integrator, baum_formulation formulation)
+static void look_inside(const method *m)
 {
-  if (!integrator->interpolate) {
+  if (m->fixed) {
     return;
   }
   baum_mechanism *mechanism = make_pendulum();
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   integrator_run run;
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
   double begin = 0.0;
@@ -243,14 +267,14 @@ static void look_inside(const baum_integrator *integrator, baum_formulation form
     double t = begin + 0.25 * k * (run.state.t - begin);
     double q[2];
     double v[2];
-    assert_int_equal(integrator->interpolate(run.self, &run.problem, t, run.q, run.v), BAUM_OK);
+    assert_int_equal(m->integrator->interpolate(run.self, &run.problem, t, run.q, run.v), BAUM_OK);
     pendulum_motion(t, q, v);
     assert_true(motion_error(2, run.q, run.v, q, v, 4.43) <= allowed(&setup));
   }
   ASSERT_NEAR(run.q[0], run.state_q[0], 0.0, 1e-14);
-  assert_int_equal(integrator->interpolate(run.self, &run.problem, 3.0, run.q, run.v),
+  assert_int_equal(m->integrator->interpolate(run.self, &run.problem, 3.0, run.q, run.v),
                    BAUM_ERR_INTEGRATOR);
-  assert_non_null(strstr(baum_message(), integrator->name));
+  assert_non_null(strstr(baum_message(), m->integrator->name));
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }
@@ -262,13 +286,13 @@ static void positions_inside_the_last_step_are_interpolated(void **state)
 }
 
 /* More digits than there are: refused as a matter of step size, at the start, with the advice. */
-static void ask_too_much(const baum_integrator *integrator, baum_formulation formulation)
+static void ask_too_much(const method *m)
 {
-  if (!integrator->advance) {
+  if (m->fixed) {
     return;
   }
   baum_mechanism *mechanism = make_pendulum();
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   setup.rtol = 1e-18;
   integrator_run run;
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
@@ -286,13 +310,13 @@ static void too_small_tolerances_are_an_error_of_the_step(void **state)
 }
 
 /* At 1e15 s neighbouring times are 0.125 s apart. */
-static void lose_the_step(const baum_integrator *integrator, baum_formulation formulation)
+static void lose_the_step(const method *m)
 {
-  if (!integrator->advance) {
+  if (m->fixed) {
     return;
   }
   baum_mechanism *mechanism = make_pendulum();
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   integrator_run run;
   double q[2];
   double v[2];
@@ -301,7 +325,7 @@ static void lose_the_step(const baum_integrator *integrator, baum_formulation fo
   assert_int_equal(integrator_run_restart(&run, 1e15, q, v, 1.0), BAUM_OK);
   baum_status status = integrator_run_to(&run, 1e15 + 10.0);
   if (status != BAUM_ERR_STEP && status != BAUM_ERR_CONVERGENCE) {
-    fail_msg("%s: %s: %s", integrator->name, baum_status_name(status), baum_message());
+    fail_msg("%s: %s: %s", m->integrator->name, baum_status_name(status), baum_message());
   }
   assert_true(strncmp(baum_message(), "t = 1e+15 s", 11) == 0);
   integrator_run_close(&run);
@@ -316,13 +340,12 @@ static void a_step_lost_in_the_rounding_of_time_is_an_error(void **state)
 
 /* ---- order ---- */
 
-static double error_with_step(const baum_integrator *integrator, baum_formulation formulation,
-                              double step)
+static double error_with_step(const method *m, double step)
 {
   baum_mechanism *mechanism = make_pendulum();
-  integrator_setup setup = integrator_setup_make(mechanism, integrator, formulation);
+  integrator_setup setup = setup_of(mechanism, m);
   setup.step = step;
-  if (integrator->gains == BAUM_GAINS_DEADBEAT) {
+  if (m->integrator->gains == BAUM_GAINS_DEADBEAT) {
     setup.gain = 0.5 / step; /* stable with both Eulers */
   }
   double error = error_at(mechanism, &setup, 1.6, pendulum_motion, 4.43);
@@ -330,19 +353,22 @@ static double error_with_step(const baum_integrator *integrator, baum_formulatio
   return error;
 }
 
-/* Halving the step three times; coarse enough that rounding (1e-13) is far, fine enough for the leading term. */
-static void observe_order(const baum_integrator *integrator, baum_formulation formulation)
+/* Halving the step three times; coarse enough that rounding (1e-13) is far, fine enough for the leading term. Orders 5
+ * and 8 reach rounding before terms of the next order have gone. */
+static void observe_order(const method *m)
 {
-  if (!integrator->step) {
+  static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};
+  if (!m->fixed) {
     return;
   }
-  double coarse = integrator->order == 1 ? 4e-4 : 4e-3;
-  double first = error_with_step(integrator, formulation, coarse);
-  double last = error_with_step(integrator, formulation, coarse / 8.0);
-  double order = log2(first / last) / 3.0;
-  if (!(fabs(order - integrator->order) <= 0.2)) {
-    fail_msg("%s, %s: order %.3f observed, errors %.3g and %.3g", integrator->name,
-             baum_formulation_name(formulation), order, first, last);
+  int wanted = m->integrator->order;
+  int halvings = wanted > 4 ? 2 : 3;
+  double first = error_with_step(m, COARSE[wanted]);
+  double last = error_with_step(m, ldexp(COARSE[wanted], -halvings));
+  double order = log2(first / last) / halvings;
+  if (!(order >= wanted - 0.2 && order <= wanted + (wanted > 4 ? 0.6 : 0.2))) {
+    fail_msg("%s, %s: order %.3f observed, errors %.3g and %.3g", m->integrator->name,
+             baum_formulation_name(m->formulation), order, first, last);
   }
 }
 
