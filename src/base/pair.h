@@ -39,6 +39,12 @@ static inline baum_i_pair baum_i_turned(baum_i_pair p)
   return (baum_i_pair){p[1], p[0]} * (baum_i_pair){-1.0, 1.0};
 }
 
+/* (y, x) */
+static inline baum_i_pair baum_i_exchanged(baum_i_pair p)
+{
+  return (baum_i_pair){p[1], p[0]};
+}
+
 static inline double baum_i_dot(baum_i_pair x, baum_i_pair y)
 {
   baum_i_pair product = x * y;
@@ -72,6 +78,24 @@ static inline baum_i_square baum_i_add_diagonal(baum_i_square m, double x)
 static inline baum_i_pair baum_i_times(baum_i_square m, baum_i_pair x)
 {
   return m.column[0] * x[0] + m.column[1] * x[1];
+}
+
+static inline baum_i_square baum_i_transposed(baum_i_square m)
+{
+  return (baum_i_square){{{m.column[0][0], m.column[1][0]}, {m.column[0][1], m.column[1][1]}}};
+}
+
+/* m^T x */
+static inline baum_i_pair baum_i_transposed_times(baum_i_square m, baum_i_pair x)
+{
+  baum_i_square products = baum_i_transposed((baum_i_square){{m.column[0] * x, m.column[1] * x}});
+  return products.column[0] + products.column[1];
+}
+
+/* m n */
+static inline baum_i_square baum_i_product(baum_i_square m, baum_i_square n)
+{
+  return (baum_i_square){{baum_i_times(m, n.column[0]), baum_i_times(m, n.column[1])}};
 }
 
 /* m n^T */

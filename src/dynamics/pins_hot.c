@@ -55,7 +55,8 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
   baum_i_node *nodes = block->nodes;
   const baum_i_pin_node *end = block->pins + block->pin_count;
   for (const baum_i_pin_node *pin = block->pins; pin < end; pin++) {
-    baum_i_node *node = &nodes[pin->node];
+    ptrdiff_t row = pin->row;
+    ptrdiff_t k = pin->node;
     size_t ta = (size_t)pin->triple[0];
     size_t tb = (size_t)pin->triple[1];
     /* Triples of planar bodies have the numbers of the bodies. */
@@ -69,10 +70,11 @@ static void set_pins(baum_i_block *block, const baum_i_pins *pins)
     const double *y = free + pin->place[1];
     baum_i_pair miss = baum_i_load(x) - baum_i_load(y) + x[2] * a.turned - y[2] * b.turned - right;
     baum_i_square pivot = pivot_of(&a, &b, weight);
-    baum_i_store(at.phi + pin->row, phi);
-    baum_i_store(at.phi_rate + pin->row, rate);
-    baum_i_store(at.gamma + pin->row, gamma);
-    baum_i_store(rights + 2 * (size_t)pin->node, right);
+    baum_i_store(at.phi + row, phi);
+    baum_i_store(at.phi_rate + row, rate);
+    baum_i_store(at.gamma + row, gamma);
+    baum_i_node *node = &nodes[k];
+    baum_i_store(rights + 2 * k, right);
     baum_i_store(arm, a.turned);
     baum_i_store(arm + 2, -b.turned);
     baum_i_store_square(node->pivot, pivot);

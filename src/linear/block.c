@@ -9,6 +9,12 @@
 #include "base/alloc.h"
 #include "linear/block_structure.h"
 
+/* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
+ * over this, and several small pivots multiply: below the first the result is refined. In long ladders healthy
+ * pivots fall with the number of nodes, and all of them share what one of few would cost. */
+static const double weak_pivot = 1e-3;
+static const double many_nodes = 128.0;
+
 /* ---- memory ---- */
 
 /* An array and how many doubles it has. */
@@ -119,6 +125,8 @@ baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, bau
     baum_i_block_destroy(b);
     return status;
   }
+  double few = fmin(1.0, many_nodes / fmax(1.0, b->node_count));
+  b->weak_pivot = weak_pivot * few * sqrt(few);
   set_dense_weights(b);
   baum_i_block_use_force(b, true);
   *out = b;
@@ -130,10 +138,10 @@ void baum_i_block_destroy(baum_i_block *block)
   if (!block) {
     return;
   }
-  const void *arrays[] = {block->pins,  block->fulls,        block->side_triple, block->entries,
-                          block->alike, block->opposite,     block->first_pairs, block->full_pairs,
-                          block->zeros, block->target_start, block->target,      block->place,
-                          block->dense, block->dense_sides,  block->still,       block->numbers};
+  const void *arrays[] = {
+    block->pins,     block->fulls,       block->side_triple, block->entries, block->alike,
+    block->opposite, block->first_pairs, block->full_pairs,  block->zeros,   block->target,
+    block->place,    block->dense,       block->dense_sides, block->still,   block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }

@@ -115,10 +115,11 @@ typedef struct baum_i_block {
   int off_count;
   int dense_count;
   int dense_side_count;
-  int factor_size; /* numbers in factor[] */
-  int motion_size; /* v, ground, and y of dense bodies */
-  bool leaves_v;   /* a triple has numbers outside of v: dense bodies, particles */
-  int hub;         /* mass block that more rows touch than blocks are good for; -1: none */
+  int factor_size;   /* numbers in factor[] */
+  int motion_size;   /* v, ground, and y of dense bodies */
+  double weak_pivot; /* det D over the product of the diagonal that S had: refined below */
+  bool leaves_v;     /* a triple has numbers outside of v: dense bodies, particles */
+  int hub;           /* mass block that more rows touch than blocks are good for; -1: none */
 
   unsigned char *still; /* (mass_block_count) W = 0 */
 
@@ -131,8 +132,7 @@ typedef struct baum_i_block {
   baum_i_full_pair *first_pairs; /* (first_count) likewise */
   baum_i_full_pair *full_pairs;  /* (full_pair_count) add to it */
   int32_t *zeros;                /* (zero_count) blocks to clear first */
-  int32_t *target_start;         /* (node_count) */
-  int32_t *target;               /* blocks that pairs of couplings of a node go to */
+  int32_t *target;               /* blocks that pairs of couplings go to, node after node */
   int32_t *place;           /* (triple_count) where its numbers are in free[], motion[] and such */
   baum_i_dense_body *dense; /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
@@ -147,7 +147,7 @@ typedef struct baum_i_block {
   double *pin_weight; /* (pin_count x 4) weights of both triples once more, side by side */
   double *side;       /* (side_count x 6) column by column */
   double *right;      /* (node_count x 2) r */
-  double *off;        /* (off_count x 4) S below the diagonal, then L, column by column */
+  double *off;        /* (off_count x 4) S below the diagonal, then L^T, column by column */
   double *factor;     /* L of the dense bodies */
 
   /* For refinement. */

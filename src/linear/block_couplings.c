@@ -98,12 +98,10 @@ baum_status baum_i_block_make_targets(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
   const baum_i_elimination *order = &b->order;
-  b->target_start = baum_i_alloc((size_t)b->node_count, sizeof *b->target_start);
-  baum_status status = b->target_start ? BAUM_OK : BAUM_ERR_MEMORY;
+  baum_status status = BAUM_OK;
   for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
     const int32_t *later = order->later + order->start[k];
     int count = order->start[k + 1] - order->start[k];
-    b->target_start[k] = u->targets.count;
     for (int f = 1; f < count; f++) {
       for (int e = 0; e < f && status == BAUM_OK; e++) {
         status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));

@@ -17,12 +17,8 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
- * over this, and several small pivots multiply: below the first the result is refined, below the second
- * this solver has nothing to say. In long ladders healthy pivots fall with the number of nodes, and all
- * of them share what one of few would cost. */
-static const double weak_pivot = 1e-3;
-static const double many_nodes = 128.0;
+/* det D against the product of the diagonal that S had, as block.h has weak_pivot: below this the solver has
+ * nothing to say. */
 static const double bad_pivot = 1e-10;
 
 /* A residual of this many units of its own size is rounding. */
@@ -49,8 +45,8 @@ static void scatter_full(const baum_i_block *b, const baum_i_full_node *full)
     baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
     double *x = b->motion + b->place[b->side_triple[s]];
     const double *w = b->weight + 2 * (size_t)b->side_triple[s];
-    x[0] -= w[0] * baum_i_dot(g.c[0], lambda);
-    x[1] -= w[0] * baum_i_dot(g.c[1], lambda);
+    baum_i_square moving = {{g.c[0], g.c[1]}};
+    baum_i_store(x, baum_i_load(x) - w[0] * baum_i_transposed_times(moving, lambda));
     x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
   }
 }
@@ -74,12 +70,31 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   }
 }
 
-static inline baum_i_square couple_sides(const baum_i_block *b, const baum_i_full_pair *pair,
-                                         baum_i_square s)
+/* Of a full side with a pin's, +- [ I  c ]: rows are those of the full one. */
+static inline baum_i_square couple_to_pin(const baum_i_block *b, int32_t side, int32_t arm,
+                                          const double *w)
 {
-  baum_i_columns n = baum_i_load_side(b, pair->side[0]);
-  baum_i_columns k = baum_i_load_side(b, pair->side[1]);
-  return baum_i_add_sides(s, &n, b->weight + 2 * (size_t)pair->triple, &k);
+  baum_i_columns g = baum_i_load_full(b->side + 6 * (ptrdiff_t)side);
+  const double *c = b->arm + 2 * (ptrdiff_t)arm;
+  double moving = arm % 2 == 0 ? w[0] : -w[0];
+  baum_i_pair turning = w[1] * g.c[2];
+  return (baum_i_square){{moving * g.c[0] + c[0] * turning, moving * g.c[1] + c[1] * turning}};
+}
+
+static inline baum_i_square couple_sides(const baum_i_block *b, const baum_i_full_pair *pair)
+{
+  const double *w = b->weight + 2 * (ptrdiff_t)pair->triple;
+  int32_t later = pair->side[0];
+  int32_t earlier = pair->side[1];
+  if (later >= 0 && earlier < 0) {
+    return couple_to_pin(b, later, ~earlier, w);
+  }
+  if (later < 0 && earlier >= 0) {
+    return baum_i_transposed(couple_to_pin(b, earlier, ~later, w));
+  }
+  baum_i_columns n = baum_i_load_side(b, later);
+  baum_i_columns k = baum_i_load_side(b, earlier);
+  return baum_i_couple_sides(&n, w, &k);
 }
 
 static void couple(baum_i_block *b)
@@ -89,70 +104,74 @@ static void couple(baum_i_block *b)
   }
   set_pairs(b, b->alike, b->alike_count, 1.0);
   set_pairs(b, b->opposite, b->opposite_count, -1.0);
-  const baum_i_square none = {{{0.0, 0.0}, {0.0, 0.0}}};
   for (int i = 0; i < b->first_count; i++) {
     const baum_i_full_pair *pair = &b->first_pairs[i];
-    baum_i_store_square(b->off + 4 * (size_t)pair->off, couple_sides(b, pair, none));
+    baum_i_store_square(b->off + 4 * (ptrdiff_t)pair->off, couple_sides(b, pair));
   }
   for (int i = 0; i < b->full_pair_count; i++) {
-    double *s = b->off + 4 * (size_t)b->full_pairs[i].off;
-    baum_i_store_square(s, couple_sides(b, &b->full_pairs[i], baum_i_load_square(s)));
+    const baum_i_full_pair *pair = &b->full_pairs[i];
+    double *to = b->off + 4 * (ptrdiff_t)pair->off;
+    baum_i_square s = couple_sides(b, pair);
+    baum_i_store(to, baum_i_load(to) + s.column[0]);
+    baum_i_store(to + 2, baum_i_load(to + 2) + s.column[1]);
   }
 }
 
 /* ---- factor and solve ---- */
 
-/* X adj(D) of the symmetric D. */
-static inline baum_i_square times_adjugate(baum_i_square x, const double d[4])
+/* A node whose turn it is, in registers: each number of D and of its right side twice. */
+typedef struct turn {
+  baum_i_pair d[3];    /* D: first, off the diagonal, last */
+  baum_i_pair inverse; /* 1 / det D */
+  baum_i_pair right[2];
+} turn;
+
+/* X adj(D) */
+static inline baum_i_square times_adjugate(baum_i_square x, const turn *t)
 {
   return (baum_i_square){
-    {x.column[0] * d[3] - x.column[1] * d[1], x.column[1] * d[0] - x.column[0] * d[1]}};
+    {x.column[0] * t->d[2] - x.column[1] * t->d[1], x.column[1] * t->d[0] - x.column[0] * t->d[1]}};
 }
 
-/* adj(D) r / det D */
-static inline baum_i_pair solve_pivot(const baum_i_node *node, baum_i_pair r)
+/* D^-1 of the right side. */
+static inline baum_i_pair solve_pivot(const turn *t)
 {
-  const double *d = node->pivot;
-  return node->inverse * (baum_i_pair){d[3] * r[0] - d[1] * r[1], d[0] * r[1] - d[1] * r[0]};
+  baum_i_pair corners = {t->d[2][0], t->d[0][0]};
+  baum_i_pair right = {t->right[0][0], t->right[1][0]};
+  baum_i_pair other = {t->right[1][0], t->right[0][0]};
+  return t->inverse * (corners * right - t->d[1] * other);
 }
 
-/* What coupling x of `from` (rows of the later node `to`) gives to that node. Returns L. */
-static inline baum_i_square eliminate_one(const baum_i_node *from, baum_i_square x, double inverse,
-                                          baum_i_pair right, baum_i_node *to)
+/* What the coupling at x (rows of the later node `to`) gives to that node; L^T stays in its place.
+ * Returns the coupling. */
+static inline baum_i_square eliminate_one(const turn *t, double *x, baum_i_node *to)
 {
-  baum_i_square u = times_adjugate(x, from->pivot);
-  baum_i_square product = baum_i_times_transposed(u, x);
-  baum_i_pair pushed = baum_i_times(u, right);
-  baum_i_store(to->pivot, baum_i_load(to->pivot) - inverse * product.column[0]);
-  baum_i_store(to->pivot + 2, baum_i_load(to->pivot + 2) - inverse * product.column[1]);
-  baum_i_store(to->lambda, baum_i_load(to->lambda) - inverse * pushed);
-  return (baum_i_square){{inverse * u.column[0], inverse * u.column[1]}};
+  baum_i_square s = baum_i_load_square(x);
+  baum_i_square u = times_adjugate(s, t);
+  baum_i_square product = baum_i_times_transposed(u, s);
+  baum_i_pair pushed = u.column[0] * t->right[0] + u.column[1] * t->right[1];
+  baum_i_square l = baum_i_transposed(u);
+  baum_i_store(x, t->inverse * l.column[0]);
+  baum_i_store(x + 2, t->inverse * l.column[1]);
+  baum_i_store(to->pivot, baum_i_load(to->pivot) - t->inverse * product.column[0]);
+  baum_i_store(to->pivot + 2, baum_i_load(to->pivot + 2) - t->inverse * product.column[1]);
+  baum_i_store(to->lambda, baum_i_load(to->lambda) - t->inverse * pushed);
+  return s;
 }
 
-/* The blocks that couplings of one node give to: what the f-th gives with those before it. */
-typedef struct couplings {
-  double *x; /* the first of the node's own blocks */
-  const int32_t *later;
-  int32_t count;
-  const int32_t *target;
-} couplings;
-
-/* All couplings of a node that has several. */
-static inline void eliminate_many(const couplings *c, const baum_i_node *from, double inverse,
-                                  baum_i_pair right, baum_i_node *nodes, double *off)
+/* All `count` couplings of a node that has several, from x on. `target`: the blocks that they give to,
+ * the f-th with those before it. */
+static inline void eliminate_many(const turn *t, double *x, const int32_t *later, ptrdiff_t count,
+                                  const int32_t *target, baum_i_node *nodes, double *off)
 {
-  const int32_t *target = c->target;
-  for (int32_t f = 0; f < c->count; f++) {
-    baum_i_square x = baum_i_load_square(c->x + 4 * (ptrdiff_t)f);
-    baum_i_square l = eliminate_one(from, x, inverse, right, &nodes[c->later[f]]);
-    baum_i_store_square(c->x + 4 * (ptrdiff_t)f, l);
-    for (int32_t e = 0; e < f; e++) {
+  for (ptrdiff_t f = 0; f < count; f++) {
+    baum_i_square s = eliminate_one(t, x + 4 * f, &nodes[later[f]]);
+    for (ptrdiff_t e = 0; e < f; e++) {
       /* S_fe -= X_f D^-1 X_e^T = X_f L_e^T */
-      baum_i_square product =
-        baum_i_times_transposed(x, baum_i_load_square(c->x + 4 * (ptrdiff_t)e));
-      double *s = off + 4 * (ptrdiff_t)*target++;
-      baum_i_store(s, baum_i_load(s) - product.column[0]);
-      baum_i_store(s + 2, baum_i_load(s + 2) - product.column[1]);
+      baum_i_square product = baum_i_product(s, baum_i_load_square(x + 4 * e));
+      double *to = off + 4 * (ptrdiff_t)*target++;
+      baum_i_store(to, baum_i_load(to) - product.column[0]);
+      baum_i_store(to + 2, baum_i_load(to + 2) - product.column[1]);
     }
   }
 }
@@ -172,35 +191,48 @@ static baum_i_pivots eliminate(baum_i_block *b)
 {
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
+  const int32_t *target = b->target;
   baum_i_node *nodes = b->nodes;
   double *off = b->off;
+  double *x = off;
+  double weak = b->weak_pivot;
   double margin = INFINITY;
-  double few = fmin(1.0, many_nodes / b->node_count);
-  double weak = weak_pivot * few * sqrt(few);
   for (ptrdiff_t k = 0; k < b->node_count; k++) {
     baum_i_node *node = &nodes[k];
-    const double *d = node->pivot;
-    double det = d[0] * d[3] - d[1] * d[1];
-    double inverse = 1.0 / det;
-    double over = det - weak * node->size;
+    turn t = {
+      .d = {baum_i_both(node->pivot[0]), baum_i_both(node->pivot[1]), baum_i_both(node->pivot[3])},
+      .right = {baum_i_both(node->lambda[0]), baum_i_both(node->lambda[1])}};
+    baum_i_pair det = t.d[0] * t.d[2] - t.d[1] * t.d[1];
+    t.inverse = baum_i_both(1.0) / det;
+    double over = det[0] - weak * node->size;
     margin = over < margin ? over : margin;
-    baum_i_pair right = baum_i_load(node->lambda);
-    ptrdiff_t first = start[k];
-    couplings c = {.x = off + 4 * first, .later = later + first, .count = start[k + 1] - start[k]};
-    if (c.count == 1) {
-      baum_i_store_square(
-        c.x, eliminate_one(node, baum_i_load_square(c.x), inverse, right, &nodes[c.later[0]]));
-    } else if (c.count > 1) {
-      c.target = b->target + b->target_start[k];
-      eliminate_many(&c, node, inverse, right, nodes, off);
+    node->inverse = t.inverse[0];
+    baum_i_store(node->lambda, solve_pivot(&t));
+    ptrdiff_t count = start[k + 1] - start[k];
+    if (count == 1) {
+      (void)eliminate_one(&t, x, &nodes[*later]);
+    } else {
+      eliminate_many(&t, x, later, count, target, nodes, off);
+      target += count * (count - 1) / 2;
     }
-    node->inverse = inverse;
-    baum_i_store(node->lambda, solve_pivot(node, right));
+    x += 4 * count;
+    later += count;
   }
   if (margin > 0.0) {
     return BAUM_I_PIVOTS_GOOD;
   }
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
+}
+
+/* lambda of a node minus L^T lambda of those that it is coupled with, which begin at x. */
+static inline baum_i_pair substitute_one(const baum_i_node *nodes, const double *x,
+                                         const int32_t *later, ptrdiff_t count, baum_i_pair lambda)
+{
+  for (ptrdiff_t e = 0; e < count; e++, x += 4) {
+    const double *l = nodes[later[e]].lambda;
+    lambda -= baum_i_both(l[0]) * baum_i_load(x) + baum_i_both(l[1]) * baum_i_load(x + 2);
+  }
+  return lambda;
 }
 
 /* From the last node to the first: lambda_k -= sum of L^T lambda_later, and what it does to the motion,
@@ -209,34 +241,28 @@ static baum_i_pivots eliminate(baum_i_block *b)
 static inline void backward(const baum_i_block *b, double *rows)
 {
   const int32_t *start = b->order.start;
-  const int32_t *later = b->order.later;
-  const double *off = b->off;
-  const double *arms = b->arm;
-  const double *weights = b->pin_weight;
-  const baum_i_pin_node *pins = b->pins;
+  const int32_t *later = b->order.later + b->off_count;
+  const double *x = b->off + 4 * (ptrdiff_t)b->off_count;
+  const double *arm = b->arm + 4 * (ptrdiff_t)b->pin_count;
+  const double *weight = b->pin_weight + 4 * (ptrdiff_t)b->pin_count;
+  const baum_i_pin_node *pin = b->pins + b->pin_count;
   double *motion = b->motion;
   baum_i_node *nodes = b->nodes;
-  int32_t end = start[b->node_count];
-  ptrdiff_t pin = b->pin_count - 1;
   for (ptrdiff_t k = b->node_count - 1; k >= 0; k--) {
-    baum_i_pair lambda = baum_i_load(nodes[k].lambda);
-    int32_t first = start[k];
-    const double *x = off + 4 * (size_t)first;
-    for (int32_t e = first; e < end; e++, x += 4) {
-      baum_i_pair l = baum_i_load(nodes[later[e]].lambda);
-      baum_i_pair p = baum_i_load(x) * l;
-      baum_i_pair q = baum_i_load(x + 2) * l;
-      lambda -= (baum_i_pair){p[0], q[0]} + (baum_i_pair){p[1], q[1]};
-    }
+    ptrdiff_t count = start[k + 1] - start[k];
+    x -= 4 * count;
+    later -= count;
+    baum_i_pair lambda = substitute_one(nodes, x, later, count, baum_i_load(nodes[k].lambda));
     baum_i_store(nodes[k].lambda, lambda);
-    end = first;
     /* Pins stand in the order of nodes. */
-    if (pin >= 0 && pins[pin].node == k) {
-      if (rows) {
-        baum_i_store(rows + pins[pin].row, lambda);
-      }
-      scatter_pin(&pins[pin], arms + 4 * pin, weights + 4 * pin, lambda, motion);
+    if (pin > b->pins && pin[-1].node == k) {
       pin--;
+      arm -= 4;
+      weight -= 4;
+      if (rows) {
+        baum_i_store(rows + pin->row, lambda);
+      }
+      scatter_pin(pin, arm, weight, lambda, motion);
     }
   }
   for (int i = 0; i < b->full_count; i++) {
@@ -249,13 +275,18 @@ static void forward(const baum_i_block *b)
 {
   baum_i_node *nodes = b->nodes;
   for (size_t k = 0; k < (size_t)b->node_count; k++) {
-    baum_i_pair right = baum_i_load(nodes[k].lambda);
+    const double *d = nodes[k].pivot;
+    const double *r = nodes[k].lambda;
+    baum_i_pair right = baum_i_load(r);
     for (int32_t e = b->order.start[k]; e < b->order.start[k + 1]; e++) {
       double *l = nodes[b->order.later[e]].lambda;
-      baum_i_square x = baum_i_load_square(b->off + 4 * (size_t)e);
+      baum_i_square x = baum_i_transposed(baum_i_load_square(b->off + 4 * (size_t)e));
       baum_i_store(l, baum_i_load(l) - baum_i_times(x, right));
     }
-    baum_i_store(nodes[k].lambda, solve_pivot(&nodes[k], right));
+    const turn t = {.d = {baum_i_both(d[0]), baum_i_both(d[1]), baum_i_both(d[3])},
+                    .inverse = baum_i_both(nodes[k].inverse),
+                    .right = {baum_i_both(r[0]), baum_i_both(r[1])}};
+    baum_i_store(nodes[k].lambda, solve_pivot(&t));
   }
 }
 
@@ -407,34 +438,38 @@ static void read_lambda(const baum_i_block *b, bool pins, double *lambda)
   }
 }
 
-/* A sum of zeros is zero, or NaN where a number is not finite; so many sums that none waits for itself. */
-static bool is_finite(const double *x, int count)
+/* Copies; whether all is finite: a sum of zeros is zero, or NaN where a number is not finite. So many sums
+ * that none waits for itself. */
+static bool copy_finite(const double *x, ptrdiff_t count, double *to)
 {
-  enum { LANES = 8 };
-  double sum[LANES] = {0.0};
-  int i = 0;
-  for (; i + LANES <= count; i += LANES) {
-    for (int k = 0; k < LANES; k++) {
-      sum[k] += 0.0 * x[i + k];
+  enum { SUMS = 4, SOME = 2 * SUMS };
+  baum_i_pair sum[SUMS] = {{0.0, 0.0}};
+  ptrdiff_t i = 0;
+  for (; i + SOME <= count; i += SOME) {
+    for (ptrdiff_t k = 0; k < SUMS; k++) {
+      baum_i_pair some = baum_i_load(x + i + 2 * k);
+      baum_i_store(to + i + 2 * k, some);
+      sum[k] += 0.0 * some;
     }
   }
-  for (int k = 0; i + k < count; k++) {
-    sum[k] += 0.0 * x[i + k];
+  baum_i_pair all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
+  double rest = all[0] + all[1];
+  for (; i < count; i++) {
+    to[i] = x[i];
+    rest += 0.0 * x[i];
   }
-  double all = 0.0;
-  for (int k = 0; k < LANES; k++) {
-    all += sum[k];
-  }
-  return all == 0.0;
+  return rest == 0.0;
 }
 
 static bool read_motion(const baum_i_block *b, double *a)
 {
-  memcpy(a, b->motion, (size_t)b->structure->nv * sizeof *a);
+  bool finite = copy_finite(b->motion, b->structure->nv, a);
   for (int i = 0; i < b->dense_count; i++) {
+    const baum_i_mass_block *body = &b->structure->mass_blocks[b->dense[i].mass_block];
     read_dense(b, &b->dense[i], a);
+    finite = finite && copy_finite(a + body->first, body->size, a + body->first);
   }
-  return is_finite(a, b->structure->nv);
+  return finite;
 }
 
 const baum_i_block_kernel BAUM_I_HOT(baum_i_block_kernel) = {

@@ -27,10 +27,11 @@ static inline baum_i_columns baum_i_load_side(const baum_i_block *b, int32_t num
   return (baum_i_columns){{{sign, 0.0}, {0.0, sign}, baum_i_load(b->arm + 2 * (size_t)arm)}};
 }
 
-/* s += w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
-static inline baum_i_square baum_i_add_sides(baum_i_square s, const baum_i_columns *n,
-                                             const double *w, const baum_i_columns *k)
+/* w_0 (n_0 k_0^T + n_1 k_1^T) + w_1 n_2 k_2^T */
+static inline baum_i_square baum_i_couple_sides(const baum_i_columns *n, const double *w,
+                                                const baum_i_columns *k)
 {
+  baum_i_square s = {{{0.0, 0.0}, {0.0, 0.0}}};
   for (int c = 0; c < 3; c++) {
     baum_i_square product = baum_i_outer(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
     s.column[0] += product.column[0];

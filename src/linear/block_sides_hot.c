@@ -61,7 +61,7 @@ static void whiten(baum_i_block *b)
 }
 
 /* The velocities of all triples: v itself, or a copy in pull[], which only refinement needs, where
- * places lie outside of v. */
+ * places lie outside of v. Of a dense body L^T v, since its sides are whitened. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {
@@ -74,12 +74,20 @@ static const double *gather_velocities(const baum_i_block *b, const double *v)
   memset(b->pull + b->structure->nv, 0, 3 * sizeof *v);
   for (int i = 0; i < b->dense_count; i++) {
     const baum_i_mass_block *body = &b->structure->mass_blocks[b->dense[i].mass_block];
-    memcpy(b->pull + b->dense[i].place, v + body->first, (size_t)body->size * sizeof *v);
+    const double *l = b->factor + b->dense[i].factor;
+    int n = body->size;
+    for (int j = 0; j < n; j++) {
+      double sum = 0.0;
+      for (int k = j; k < n; k++) {
+        sum += l[k * n + j] * v[body->first + k];
+      }
+      b->pull[b->dense[i].place + j] = sum;
+    }
   }
   return b->pull;
 }
 
-/* One of both rows of a node. */
+/* One of both rows of a node: Phi' from J v, and r. */
 static inline double set_row(const baum_i_block_rows *rows, int32_t r, double rate)
 {
   if (r < 0) {
@@ -90,53 +98,65 @@ static inline double set_row(const baum_i_block_rows *rows, int32_t r, double ra
   return rows->bending * rows->gamma[r] - rows->damping * rate - rows->stiffness * rows->phi[r];
 }
 
-/* With the sides of J itself. */
-static void set_right(const baum_i_block *b, const baum_i_full_node *full,
-                      const baum_i_block_rows *rows, const double *velocity)
+/* What a node sums over its sides. */
+typedef struct sums {
+  baum_i_pair on;   /* the diagonal of D */
+  baum_i_pair off;  /* what is beside it, twice */
+  baum_i_pair rate; /* J v */
+  baum_i_pair free; /* J a0 */
+} sums;
+
+/* G times the three numbers at x. */
+static inline baum_i_pair times_side(const baum_i_columns *g, const double *x)
 {
-  baum_i_pair rate = {0.0, 0.0};
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-    const double *v = velocity + b->place[b->side_triple[s]];
-    rate += v[0] * g.c[0] + v[1] * g.c[1] + v[2] * g.c[2];
-  }
-  double *right = b->right + 2 * (size_t)full->node;
-  right[0] = set_row(rows, full->row[0], rate[0]);
-  right[1] = set_row(rows, full->row[1], rate[1]);
+  return x[0] * g->c[0] + x[1] * g->c[1] + x[2] * g->c[2];
 }
 
-static void set_full_node(const baum_i_block *b, const baum_i_full_node *full)
+static inline void add_side(const baum_i_block *b, int side, const double *velocity, sums *sum)
 {
-  baum_i_node *node = &b->nodes[full->node];
-  baum_i_square pivot = {
-    {{full->row[0] < 0 ? 1.0 : 0.0, 0.0}, {0.0, full->row[1] < 0 ? 1.0 : 0.0}}};
-  baum_i_pair miss = -baum_i_load(b->right + 2 * (size_t)full->node);
+  baum_i_columns g = baum_i_load_full(b->side + 6 * (ptrdiff_t)side);
+  int32_t triple = b->side_triple[side];
+  int32_t place = b->place[triple];
+  const double *w = b->weight + 2 * (ptrdiff_t)triple;
+  baum_i_pair turning = w[1] * g.c[2];
+  sum->on += w[0] * (g.c[0] * g.c[0] + g.c[1] * g.c[1]) + turning * g.c[2];
+  sum->off += w[0] * (g.c[0] * baum_i_exchanged(g.c[0]) + g.c[1] * baum_i_exchanged(g.c[1])) +
+              turning * baum_i_exchanged(g.c[2]);
+  sum->rate += times_side(&g, velocity + place);
+  sum->free += times_side(&g, b->from + place);
+}
+
+static void set_node(const baum_i_block *b, const baum_i_full_node *full,
+                     const baum_i_block_rows *rows, const double *velocity)
+{
+  sums sum = {.on = {full->row[0] < 0 ? 1.0 : 0.0, full->row[1] < 0 ? 1.0 : 0.0}};
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-    const double *x = b->from + b->place[b->side_triple[s]];
-    pivot = baum_i_add_sides(pivot, &g, b->weight + 2 * (size_t)b->side_triple[s], &g);
-    miss += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
+    add_side(b, s, velocity, &sum);
   }
-  baum_i_store_square(node->pivot, pivot);
-  baum_i_store(node->lambda, miss);
-  node->size = pivot.column[0][0] * pivot.column[1][1];
+  baum_i_pair right = {set_row(rows, full->row[0], sum.rate[0]),
+                       set_row(rows, full->row[1], sum.rate[1])};
+  baum_i_node *node = &b->nodes[full->node];
+  baum_i_store(b->right + 2 * (ptrdiff_t)full->node, right);
+  baum_i_store(node->pivot, (baum_i_pair){sum.on[0], sum.off[0]});
+  baum_i_store(node->pivot + 2, (baum_i_pair){sum.off[0], sum.on[1]});
+  baum_i_store(node->lambda, sum.free - right);
+  node->size = sum.on[0] * sum.on[1];
 }
 
 static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
 {
-  if (b->full_count == 0) {
-    return;
-  }
-  for (int i = 0; i < b->entry_count; i++) {
-    b->side[b->entries[i].to] = rows->jacobian[b->entries[i].from];
-  }
-  const double *velocity = gather_velocities(b, rows->v);
-  for (int i = 0; i < b->full_count; i++) {
-    set_right(b, &b->fulls[i], rows, velocity);
+  const baum_i_side_entry *end = b->entries + b->entry_count;
+  for (const baum_i_side_entry *entry = b->entries; entry < end; entry++) {
+    b->side[entry->to] = rows->jacobian[entry->from];
   }
   whiten(b);
-  for (int i = 0; i < b->full_count; i++) {
-    set_full_node(b, &b->fulls[i]);
+  if (b->full_count > 0) {
+    const baum_i_block_rows at = *rows; /* in registers: nothing that is stored can change it */
+    const double *velocity = gather_velocities(b, rows->v);
+    const baum_i_full_node *last = b->fulls + b->full_count;
+    for (const baum_i_full_node *full = b->fulls; full < last; full++) {
+      set_node(b, full, &at, velocity);
+    }
   }
 }
 

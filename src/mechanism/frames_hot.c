@@ -26,20 +26,28 @@ BAUM_I_INLINE baum_i_body_place place_of(const bodies *some, int k)
   return some->places[some->first + k];
 }
 
+/* Without its sign a number in bits is in the order of its size; infinity and NaN come last. */
+BAUM_I_INLINE uint64_t size_bits(double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  return bits << 1;
+}
+
 /* Zero where a body has no angle; whether one is beyond own sincos. */
 BAUM_I_INLINE bool gather_angles(const bodies *some, const double *q, double *angle)
 {
-  bool far = false;
+  uint64_t largest = 0;
   for (int k = 0; k < some->count; k++) {
     baum_i_body_place place = place_of(some, k);
     double x = place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
     angle[k] = x;
-    far = far || !(fabs(x) <= baum_i_sincos_limit);
+    largest = size_bits(x) > largest ? size_bits(x) : largest;
   }
   for (int k = some->count; k % LANES != 0; k++) {
     angle[k] = 0.0;
   }
-  return far;
+  return largest > size_bits(baum_i_sincos_limit);
 }
 
 static void set_sines(const double *restrict angle, int count, double *restrict sine,
@@ -64,15 +72,17 @@ static void mend_far(const double *angle, int count, double *sine, double *cosin
 }
 
 BAUM_I_INLINE void set_frame(baum_i_body_place place, const double *q, const double *v,
-                             baum_i_frame *frame)
+                             double angle, baum_i_frame *frame)
 {
+  double w = 0.0;
   if (place.kind != BAUM_I_FRAME_NONE) {
     baum_i_store(&frame->x, baum_i_load(q + place.q));
     baum_i_store(&frame->vx, v ? baum_i_load(v + place.q) : baum_i_both(0.0));
   }
-  if (place.kind == BAUM_I_FRAME_BODY) {
-    frame->w = v ? v[place.q + 2] : 0.0;
+  if (place.kind == BAUM_I_FRAME_BODY && v) {
+    w = v[place.q + 2];
   }
+  baum_i_store(&frame->w, (baum_i_pair){w, angle});
 }
 
 BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v,
@@ -88,10 +98,8 @@ BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v
   }
   for (int k = 0; k < some->count; k++) {
     baum_i_frame *frame = &frames[some->first + k];
-    frame->c = cosine[k];
-    frame->s = sine[k];
-    frame->angle = angle[k];
-    set_frame(place_of(some, k), q, v, frame);
+    baum_i_store(&frame->c, (baum_i_pair){cosine[k], sine[k]});
+    set_frame(place_of(some, k), q, v, angle[k], frame);
   }
 }
 
