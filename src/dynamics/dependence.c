@@ -216,6 +216,7 @@ baum_status baum_i_find_dependence(baum_workspace *w, const baum_i_dependence_pr
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   *found = search_all(&s, label);
+  baum_i_point_set(&w->point, probe->t, probe->q, NULL);
   baum_i_free(s.memory);
   return baum_i_message_settle(BAUM_OK, &kept);
 }

@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What RATTLE is not for is found and named: forces of velocity, masses that vary. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "sentence.h"
+
+static void check(baum_status status)
+{
+  if (status < BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+}
+
+/* ---- a bar on a pin, and what acts on it ---- */
+
+typedef struct scene {
+  baum_mechanism *mechanism;
+  baum_body_id bar;
+} scene;
+
+static scene make_bar(void)
+{
+  scene s = {.mechanism = NULL};
+  check(baum_mechanism_create(&s.mechanism));
+  baum_planar_body_def bar = baum_planar_body_def_default();
+  bar.name = "bar";
+  bar.mass = 1.0;
+  bar.inertia = 0.1;
+  bar.position[0] = 0.5;
+  check(baum_mechanism_add_planar_body(s.mechanism, &bar, &s.bar));
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = s.bar;
+  pin.point[0] = pin.point[1] = 0.0;
+  check(baum_mechanism_add_planar_revolute(s.mechanism, &pin, NULL));
+  return s;
+}
+
+/* Freezes and starts; the mechanism is destroyed. */
+static baum_status start(const scene *s, baum_simulation **run)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rattle();
+  options.step = 1e-3;
+  check(baum_mechanism_freeze(s->mechanism));
+  baum_status status = baum_simulation_create(s->mechanism, &options, run);
+  baum_mechanism_destroy(s->mechanism);
+  return status;
+}
+
+static void expect_refusal(const scene *s, const char *parts)
+{
+  baum_simulation *run = NULL;
+  ASSERT_SAYS(start(s, &run), BAUM_ERR_UNSUPPORTED, parts);
+  assert_null(run);
+}
+
+static void expect_run(const scene *s)
+{
+  baum_simulation *run = NULL;
+  check(start(s, &run));
+  check(baum_simulation_step(run, 50));
+  baum_simulation_destroy(run);
+}
+
+/* ---- springs ---- */
+
+static int hard(double length, double rate, double out[3], void *user)
+{
+  (void)rate;
+  (void)user;
+  out[0] = 2.0 * length * length;
+  out[1] = 4.0 * length;
+  return 0;
+}
+
+static int damped(double length, double rate, double out[3], void *user)
+{
+  const double *damping = user;
+  out[0] = length + *damping * rate;
+  out[1] = 1.0;
+  out[2] = *damping;
+  return 0;
+}
+
+static void add_spring(const scene *s, double damping, baum_spring_fn *law, double *user)
+{
+  baum_planar_spring_def spring = baum_planar_spring_def_default();
+  spring.name = "coil";
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = s->bar;
+  spring.point_a[0] = 0.0;
+  spring.point_a[1] = 2.0;
+  spring.point_b[0] = 0.5;
+  spring.point_b[1] = 0.0;
+  spring.stiffness = law ? 0.0 : 3.0;
+  spring.damping = damping;
+  spring.law = law;
+  spring.user = user;
+  check(baum_mechanism_add_planar_spring(s->mechanism, &spring, NULL));
+}
+
+static void add_torsion_spring(const scene *s, double damping)
+{
+  baum_planar_torsion_spring_def spring = baum_planar_torsion_spring_def_default();
+  spring.name = "hairspring";
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = s->bar;
+  spring.stiffness = 2.0;
+  spring.damping = damping;
+  check(baum_mechanism_add_planar_torsion_spring(s->mechanism, &spring, NULL));
+}
+
+static void springs_are_taken_and_dampers_are_not(void **state)
+{
+  (void)state;
+  double tiny = 1e-6;
+  scene s = make_bar();
+  add_spring(&s, 0.0, NULL, NULL);
+  add_torsion_spring(&s, 0.0);
+  add_spring(&s, 0.0, hard, NULL);
+  expect_run(&s);
+
+  s = make_bar();
+  add_torsion_spring(&s, 0.0);
+  add_spring(&s, 1e-9, NULL, NULL);
+  expect_refusal(&s, "rattle|forces of time and position|force 2 \"coil\" depends on velocities");
+
+  s = make_bar();
+  add_torsion_spring(&s, 1e-9);
+  expect_refusal(&s, "force 1 \"hairspring\"");
+
+  s = make_bar();
+  add_spring(&s, 0.0, damped, &tiny);
+  expect_refusal(&s, "force 1 \"coil\"");
+}
+
+/* ---- functions of the user ---- */
+
+typedef struct behaviour {
+  double drag;    /* force - drag v */
+  double beyond;  /* but only where |v| is above */
+  bool by_time;   /* cos t */
+  bool fails;     /* away from the start pose */
+  double inertia; /* mass 1 + inertia x^2 */
+} behaviour;
+
+static int act(double t, const double *q, const double *v, const double *inputs, double *out,
+               void *user)
+{
+  (void)inputs;
+  const behaviour *b = user;
+  out[0] = -q[0] + (b->by_time ? cos(t) : 0.0) - (fabs(v[0]) > b->beyond ? b->drag * v[0] : 0.0);
+  return b->fails && q[0] != 0.5 ? -1 : 0;
+}
+
+static int weigh(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const behaviour *b = user;
+  out[0] = 1.0 + b->inertia * q[0] * q[0];
+  return 0;
+}
+
+static void add_user_force(const scene *s, behaviour *b)
+{
+  baum_user_force_def def = baum_user_force_def_default();
+  def.name = "wind";
+  def.bodies = &s->bar;
+  def.body_count = 1;
+  def.force = act;
+  def.user = b;
+  check(baum_mechanism_add_user_force(s->mechanism, &def, NULL));
+}
+
+static void add_coordinate(const scene *s, behaviour *b)
+{
+  static const double at[1] = {0.5};
+  static const double rest[1] = {0.0};
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.name = "plunger";
+  def.size = 1;
+  def.q = at;
+  def.v = rest;
+  def.mass = weigh;
+  def.force = act;
+  def.user = b;
+  check(baum_mechanism_add_coordinates(s->mechanism, &def, NULL));
+}
+
+static void functions_of_time_and_position_are_taken(void **state)
+{
+  (void)state;
+  behaviour b = {.by_time = true};
+  scene s = make_bar();
+  add_user_force(&s, &b);
+  add_coordinate(&s, &b);
+  expect_run(&s);
+}
+
+static void functions_of_velocity_are_named(void **state)
+{
+  (void)state;
+  behaviour calm = {0};
+  behaviour drag = {.drag = 1e-12};
+  behaviour late = {.drag = 0.1, .beyond = 20.0}; /* several times the rate of the start */
+  scene s = make_bar();
+  add_user_force(&s, &calm);
+  add_user_force(&s, &drag);
+  expect_refusal(&s, "force 2 \"wind\" depends on velocities");
+
+  s = make_bar();
+  add_user_force(&s, &late);
+  expect_refusal(&s, "force 1 \"wind\"");
+
+  s = make_bar();
+  add_coordinate(&s, &drag);
+  expect_refusal(&s, "body 2 \"plunger\" depends on velocities");
+}
+
+static void masses_that_vary_are_named(void **state)
+{
+  (void)state;
+  behaviour b = {.inertia = 1e-6};
+  scene s = make_bar();
+  add_coordinate(&s, &b);
+  expect_refusal(&s, "masses that are constant|body 2 \"plunger\"");
+}
+
+/* It is not the asking that fails: nothing is learnt there, and no sentence is left. Another force is still found. */
+static void functions_that_fail_elsewhere_are_taken(void **state)
+{
+  (void)state;
+  behaviour b = {.fails = true};
+  baum_simulation *run = NULL;
+  scene s = make_bar();
+  add_user_force(&s, &b);
+  check(start(&s, &run));
+  assert_string_equal(baum_simulation_message(run), "");
+  baum_simulation_destroy(run);
+
+  s = make_bar();
+  add_user_force(&s, &b);
+  add_torsion_spring(&s, 1.0);
+  expect_refusal(&s, "force 2 \"hairspring\"");
+}
+
+static void only_index_3_without_gains_is_offered(void **state)
+{
+  (void)state;
+  scene s = make_bar();
+  baum_simulation_options options = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  options.integrator = baum_rattle();
+  options.step = 1e-3;
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  check(baum_mechanism_freeze(s.mechanism));
+  ASSERT_SAYS(baum_simulation_create(s.mechanism, &options, &run), BAUM_ERR_UNSUPPORTED,
+              "rattle does not offer the formulation baumgarte|offers index3");
+  options.formulation = BAUM_FORMULATION_DEFAULT;
+  options.gains = baum_gains_fixed(1.0, 1.0);
+  ASSERT_SAYS(baum_simulation_create(s.mechanism, &options, &run), BAUM_ERR_ARGUMENT,
+              "gains are given");
+  options.gains = (baum_gains){0};
+  options.rtol = 1e-6;
+  ASSERT_SAYS(baum_simulation_create(s.mechanism, &options, &run), BAUM_ERR_ARGUMENT,
+              "rattle has a fixed step");
+  baum_mechanism_destroy(s.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(springs_are_taken_and_dampers_are_not),
+    cmocka_unit_test(functions_of_time_and_position_are_taken),
+    cmocka_unit_test(functions_of_velocity_are_named),
+    cmocka_unit_test(masses_that_vary_are_named),
+    cmocka_unit_test(functions_that_fail_elsewhere_are_taken),
+    cmocka_unit_test(only_index_3_without_gains_is_offered),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
