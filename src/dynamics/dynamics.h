@@ -181,6 +181,9 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
 /* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
  * M. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
+/* v alone; of bodies that cannot move too. */
+baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
+                                      double *v);
 
 /* normal_part.c: the part P x of x (nv) that the constraints take away, into out (nv); P is that of the last
  * acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,

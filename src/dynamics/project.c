@@ -129,6 +129,12 @@ static baum_status project_velocities(baum_workspace *w, double t, const double 
   return status;
 }
 
+baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
+                                      double *v)
+{
+  return workspace->mechanism->nc == 0 ? BAUM_OK : project_velocities(workspace, t, q, v);
+}
+
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v)
 {
   if (workspace->mechanism->nc == 0) {

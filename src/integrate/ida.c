@@ -13,8 +13,9 @@
  * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too; at index 1
  *   lambda is put in by tolerance_lambda, elsewhere its estimate does not fall with the step as it should. Newton's
  *   iteration is judged by sizes of its own (ida_newton.c): left out there too, multipliers run away.
- * - The start is consistent: q and v are given, v' and lambda come from one solution of (5) or (7). IDA's own
- *   search for a consistent start can succeed with wrong accelerations.
+ * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the equations but not small;
+ *   v' and lambda come from one solution of (5) or (7). IDA's own search for a consistent start can succeed with wrong
+ *   accelerations.
  * - The first step is given. IDA's own is too large for index 3.
  * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
  * - KLU keeps its pivots (sundials_klu.h).
@@ -68,6 +69,9 @@ static const baum_i_sundials_flag FLAGS[] = {
   {IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
   {0, BAUM_OK, NULL},
 };
+
+/* At a start, of rtol. */
+static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
 
@@ -213,6 +217,39 @@ static void count(const void *self, baum_i_statistics *out)
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
+/* Largest violation as a displacement, over the scale; of velocities, times 1/T. */
+static double violation_of(ida_run *run, const baum_i_problem *problem)
+{
+  const baum_workspace *w = problem->workspace;
+  double *displacement = N_VGetArrayPointer(run->newton.displacement);
+  double positions = run->dae.index == BAUM_RESIDUAL_INDEX2 ? 0.0 : 1.0;
+  double largest = 0.0;
+  baum_i_row_displacements(w, displacement);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    double phi = positions * fabs(w->phi[i]) / displacement[i];
+    double rate = fabs(w->phi_rate[i]) / (displacement[i] * problem->rate);
+    largest = fmax(largest, fmax(phi, rate));
+  }
+  return largest;
+}
+
+/* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first step, and its error
+ * estimate with it, at any length of the step. So it jumps here; Phi of index 2 stays. */
+static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
+                                   double *v)
+{
+  baum_workspace *w = problem->workspace;
+  if (run->dae.index == BAUM_RESIDUAL_INDEX1) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_violation(w, t, q, v);
+  if (status != BAUM_OK || violation_of(run, problem) <= LARGEST_VIOLATION * problem->rtol) {
+    return status;
+  }
+  return run->dae.index == BAUM_RESIDUAL_INDEX2 ? baum_i_project_velocities(w, t, q, v)
+                                                : baum_i_project(w, t, q, v);
+}
+
 /* y and y' that fulfil F = 0; mu and all derivatives of multipliers are 0. */
 static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
@@ -222,16 +259,19 @@ static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_
   size_t nc = (size_t)workspace->mechanism->nc;
   double *y = N_VGetArrayPointer(run->y);
   double *dy = N_VGetArrayPointer(run->dy);
-  baum_status status = baum_i_problem_acceleration(problem, state->t, state->q, state->v);
-  if (status != BAUM_OK) {
-    return status;
-  }
   N_VConst(0.0, run->y);
   N_VConst(0.0, run->dy);
   memcpy(y, state->q, nq * sizeof *y);
   memcpy(y + nq, state->v, nv * sizeof *y);
+  baum_status status = make_consistent(run, problem, state->t, y, y + nq);
+  if (status == BAUM_OK) {
+    status = baum_i_problem_acceleration(problem, state->t, y, y + nq);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
   memcpy(y + nq + nv, workspace->lambda, nc * sizeof *y);
-  memcpy(dy, state->v, nq * sizeof *dy);
+  memcpy(dy, y + nq, nq * sizeof *dy);
   memcpy(dy + nq, workspace->a, nv * sizeof *dy);
   status = baum_i_need_jacobian(workspace);
   if (status == BAUM_OK) {

@@ -253,8 +253,39 @@ static void gains_out_of_range_are_refused(void **state)
     o.step = (double)NAN;
     o.rtol = 1e-6;
     o.gains = baum_gains_taylor();
+    o.formulation = BAUM_FORMULATION_BAUMGARTE;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
                   "gains taylor: the rule needs a fixed step|ida");
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+/* Multipliers are tested by IDA at index 1 alone. */
+static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  for (int32_t k = 0; baum_integrator_at(k) != NULL; k++) {
+    baum_simulation_options o = good_options();
+    o.integrator = baum_integrator_at(k);
+    bool fixed = baum_integrator_has_fixed_step(o.integrator);
+    bool variable = baum_integrator_has_variable_step(o.integrator);
+    o.step = fixed ? 1e-3 : (double)NAN;
+    o.rtol = variable && !fixed ? 1e-6 : (double)NAN;
+    o.tolerance_lambda = 10.0;
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      o.formulation = (baum_formulation)f;
+      if (!baum_integrator_offers(o.integrator, o.formulation)) {
+        continue;
+      }
+      if (o.integrator != baum_ida()) {
+        check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                      "tolerance_lambda is 10, but|has no multipliers among its unknowns");
+      } else if (f != BAUM_FORMULATION_UNSTABILIZED && f != BAUM_FORMULATION_BAUMGARTE) {
+        check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
+                      "tolerance_lambda is 10, but with the formulation|cannot be tested");
+      }
+    }
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -517,6 +548,7 @@ int main(void)
     cmocka_unit_test(integrators_that_are_not_built_in_refuse_by_name),
     cmocka_unit_test(gains_with_a_formulation_that_has_none_are_refused),
     cmocka_unit_test(gains_out_of_range_are_refused),
+    cmocka_unit_test(tolerances_of_multipliers_are_refused_where_nothing_tests_them),
     cmocka_unit_test(unstable_gains_are_refused_and_the_nearest_good_pair_runs),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_warn),
     cmocka_unit_test(targets_that_are_none_change_nothing),

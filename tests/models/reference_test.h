@@ -25,6 +25,15 @@ static inline baum_simulation_options adams_options(void)
   return options;
 }
 
+/* IDA with the constraints on positions and velocities among its equations. */
+static inline baum_simulation_options ggl_options(void)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_ida();
+  options.formulation = BAUM_FORMULATION_GGL;
+  return options;
+}
+
 /* Climb, print, and demand that `wanted` is reached at some tolerance and kept from there on. */
 static inline void assert_reached(const reference *with, const baum_mechanism *mechanism,
                                   const baum_simulation_options *options, double wanted)

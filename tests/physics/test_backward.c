@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Out and back in time on both slider-cranks, with stabilization: the violation is damped in either
+/* Out and back in time on both slider-cranks, with stabilization, and by IDA with the constraints themselves: the violation is damped in either
  * direction, and the start is found again as well as the method found the far end.
  */
 #include <setjmp.h>
@@ -30,6 +30,7 @@ typedef struct method {
   const baum_integrator *integrator;
   double step; /* [s] NaN with a tolerance; the samples of tests/data are on its grid */
   double rtol;
+  baum_formulation formulation;
 } method;
 
 typedef struct journey {
@@ -66,7 +67,7 @@ static journey out_and_back(const model *m, const method *with, bool driven)
 {
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = with->integrator;
-  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.formulation = with->formulation;
   options.step = with->step;
   options.rtol = with->rtol;
   watched_run watched = watch(m->mechanism, &options);
@@ -87,9 +88,10 @@ static void assert_returns(physics_mechanism which, const method *with)
 {
   model m = build_mechanism(which);
   journey j = out_and_back(&m, with, which == DRIVEN_CRANK);
-  printf("%-20s %-20s %8.0e   error there %.1e, back %.1e   max|Phi| out %.1e, back %.1e\n",
-         baum_integrator_name(with->integrator), mechanism_name(which),
-         isnan(with->step) ? with->rtol : with->step, j.error[0], j.error[1], j.phi[0], j.phi[1]);
+  printf("%-20s %-10s %-20s %8.0e   error there %.1e, back %.1e   max|Phi| out %.1e, back %.1e\n",
+         baum_integrator_name(with->integrator), baum_formulation_name(with->formulation),
+         mechanism_name(which), isnan(with->step) ? with->rtol : with->step, j.error[0], j.error[1],
+         j.phi[0], j.phi[1]);
   (void)fflush(stdout);
   model_destroy(&m);
   assert_true(j.phi[1] <= MOST_VIOLATION * j.phi[0] + ROUNDING);
@@ -98,7 +100,7 @@ static void assert_returns(physics_mechanism which, const method *with)
 
 static void return_on_both(const baum_integrator *integrator, double step, double rtol)
 {
-  method with = {integrator, step, rtol};
+  method with = {integrator, step, rtol, BAUM_FORMULATION_BAUMGARTE};
   assert_returns(FREE_CRANK, &with);
   assert_returns(DRIVEN_CRANK, &with);
 }
@@ -142,6 +144,18 @@ static void ida_finds_its_start_again(void **state)
   return_on_both(baum_ida(), (double)NAN, 1e-8);
 }
 
+static void ida_with_the_constraints_themselves_finds_its_start_again(void **state)
+{
+  (void)state;
+  need_sundials();
+  const baum_formulation forms[] = {BAUM_FORMULATION_GGL, BAUM_FORMULATION_INDEX2};
+  for (int f = 0; f < 2; f++) {
+    method with = {baum_ida(), (double)NAN, 1e-8, forms[f]};
+    assert_returns(FREE_CRANK, &with);
+    assert_returns(DRIVEN_CRANK, &with);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -151,6 +165,7 @@ int main(void)
     cmocka_unit_test(adams_finds_its_start_again),
     cmocka_unit_test(bdf_finds_its_start_again),
     cmocka_unit_test(ida_finds_its_start_again),
+    cmocka_unit_test(ida_with_the_constraints_themselves_finds_its_start_again),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -80,13 +80,14 @@ static void print_falls(const double error[TOLERANCES])
   (void)fflush(stdout);
 }
 
-static double observe_fall(physics_mechanism which, const baum_integrator *integrator)
+static double observe_fall(physics_mechanism which, const baum_integrator *integrator,
+                           baum_formulation formulation)
 {
   double error[TOLERANCES];
   model m = build_mechanism(which);
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = integrator;
-  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.formulation = formulation;
   for (int k = 0; k < TOLERANCES; k++) {
     options.rtol = pow(10.0, -4.0 - k / (double)PER_DECADE);
     reference_run run = reference_compare(&REFERENCES[which], m.mechanism, &options);
@@ -101,13 +102,14 @@ static double observe_fall(physics_mechanism which, const baum_integrator *integ
   return fit_fall(error);
 }
 
-static void compare_falls(const baum_integrator *integrator, double least_mean)
+static void compare_falls(const baum_integrator *integrator, baum_formulation formulation,
+                          double least_mean)
 {
   double product = 1.0;
   double least = (double)INFINITY;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
-    double fall = observe_fall((physics_mechanism)which, integrator);
+    double fall = observe_fall((physics_mechanism)which, integrator, formulation);
     product *= fall;
     least = fmin(least, fall);
   }
@@ -122,21 +124,35 @@ static void the_error_of_adams_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_cvode_adams(), LEAST_FALL);
+  compare_falls(baum_cvode_adams(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL);
 }
 
 static void the_error_of_bdf_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_cvode_bdf(), LEAST_FALL);
+  compare_falls(baum_cvode_bdf(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL);
 }
 
 static void the_error_of_ida_at_index_1_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_ida(), LEAST_FALL_OF_IDA);
+  compare_falls(baum_ida(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL_OF_IDA);
+}
+
+static void the_error_of_ida_with_ggl_falls_with_its_tolerance(void **state)
+{
+  (void)state;
+  need_sundials();
+  compare_falls(baum_ida(), BAUM_FORMULATION_GGL, LEAST_FALL_OF_IDA);
+}
+
+static void the_error_of_ida_at_index_2_falls_with_its_tolerance(void **state)
+{
+  (void)state;
+  need_sundials();
+  compare_falls(baum_ida(), BAUM_FORMULATION_INDEX2, LEAST_FALL_OF_IDA);
 }
 
 int main(void)
@@ -145,6 +161,8 @@ int main(void)
     cmocka_unit_test(the_error_of_adams_falls_with_its_tolerance),
     cmocka_unit_test(the_error_of_bdf_falls_with_its_tolerance),
     cmocka_unit_test(the_error_of_ida_at_index_1_falls_with_its_tolerance),
+    cmocka_unit_test(the_error_of_ida_with_ggl_falls_with_its_tolerance),
+    cmocka_unit_test(the_error_of_ida_at_index_2_falls_with_its_tolerance),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -148,14 +148,17 @@ static void variable_steps_differ_by_their_tolerance(void **state)
     skip();
   }
   int failures = 0;
-  printf("\n%-24s %10s\n", "CVODE, rtol 1e-8", "apart");
-  for (int which = 0; which < CASES; which++) {
+  const baum_integrator *methods[] = {baum_cvode_adams(), baum_ida()};
+  printf("\n%-24s %10s\n", "rtol 1e-8", "apart");
+  for (int k = 0; k < 2 * CASES; k++) {
+    int which = k / 2;
     baum_simulation_options options = baum_simulation_options_default();
-    options.integrator = baum_cvode_adams();
+    options.integrator = methods[k % 2];
     options.rtol = 1e-8;
     double worst = compare_runs(which, &options, which < 2 ? 2e-3 : 0.2);
-    printf("%-24s %10.1e\n", NAMES[which], worst);
-    failures += worst <= 10.0 * options.rtol ? 0 : 1;
+    printf("%-24s %-12s %10.1e\n", NAMES[which], baum_integrator_name(methods[k % 2]), worst);
+    /* Rounding turns choices of steps; what then differs is the error itself, of IDA the larger. */
+    failures += worst <= (k % 2 ? 100.0 : 10.0) * options.rtol ? 0 : 1;
   }
   assert_int_equal(failures, 0);
 }

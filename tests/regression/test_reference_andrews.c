@@ -64,6 +64,23 @@ static void seven_bodies_in_twenty_one_coordinates(void **state)
   model_destroy(&m);
 }
 
+static void ida_with_ggl_reaches_it_in_angles_and_bodies_within_1e_6(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  baum_simulation_options options = ggl_options();
+  assert_int_equal(model_andrews_angles(true, &m), BAUM_OK);
+  assert_reached(&ANGLES, m.mechanism, &options, 1e-6);
+  model_destroy(&m);
+  assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
+  reference bodies = ANGLES;
+  bodies.name = "Andrews, 7 bodies";
+  bodies.columns = model_andrews_from_bodies;
+  assert_reached(&bodies, m.mechanism, &options, 1e-6);
+  model_destroy(&m);
+}
+
 static void rk4_with_projection_reaches_both(void **state)
 {
   (void)state;
@@ -118,6 +135,7 @@ int main(void)
     cmocka_unit_test(seven_angles_by_functions_with_jacobian),
     cmocka_unit_test(seven_angles_by_functions_with_phi_alone),
     cmocka_unit_test(seven_bodies_in_twenty_one_coordinates),
+    cmocka_unit_test(ida_with_ggl_reaches_it_in_angles_and_bodies_within_1e_6),
     cmocka_unit_test(rk4_with_projection_reaches_both),
     cmocka_unit_test(multipliers_have_the_sign_of_the_equations),
   };

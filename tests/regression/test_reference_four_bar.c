@@ -28,6 +28,17 @@ static void adams_reaches_the_reference_within_1e_8(void **state)
   model_destroy(&m);
 }
 
+static void ida_with_ggl_reaches_the_reference_within_1e_6(void **state)
+{
+  (void)state;
+  need_sundials();
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  baum_simulation_options options = ggl_options();
+  assert_reached(&NINE, m.mechanism, &options, 1e-6);
+  model_destroy(&m);
+}
+
 /* What is off at the start grows ten thousandfold in these 5 s. */
 static void adams_is_within_1e_9_at_its_tightest(void **state)
 {
@@ -59,6 +70,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_reference_within_1e_8),
     cmocka_unit_test(adams_is_within_1e_9_at_its_tightest),
+    cmocka_unit_test(ida_with_ggl_reaches_the_reference_within_1e_6),
     cmocka_unit_test(rk4_with_projection_reaches_it_too),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -68,6 +68,21 @@ static void ida_at_index_1_reaches_the_references_within_1e_6(void **state)
   }
 }
 
+static void ida_with_ggl_and_at_index_2_reaches_the_references_within_1e_6(void **state)
+{
+  (void)state;
+  need_sundials();
+  static const baum_formulation forms[] = {BAUM_FORMULATION_GGL, BAUM_FORMULATION_INDEX2};
+  for (int k = 0; k < 4; k++) {
+    model m = build(k / 2, false);
+    baum_simulation_options options = adams_options();
+    options.integrator = baum_ida();
+    options.formulation = forms[k % 2];
+    assert_reached(&REFERENCES[k / 2], m.mechanism, &options, 1e-6);
+    model_destroy(&m);
+  }
+}
+
 static void ida_at_index_3_runs_to_the_end_and_its_error_is_shown(void **state)
 {
   (void)state;
@@ -169,6 +184,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(adams_reaches_the_references_within_1e_8),
     cmocka_unit_test(ida_at_index_1_reaches_the_references_within_1e_6),
+    cmocka_unit_test(ida_with_ggl_and_at_index_2_reaches_the_references_within_1e_6),
     cmocka_unit_test(ida_at_index_3_runs_to_the_end_and_its_error_is_shown),
     cmocka_unit_test(rk4_with_projection_reaches_them_too),
     cmocka_unit_test(velocities_follow),
