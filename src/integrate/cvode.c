@@ -5,29 +5,26 @@
  *   y = (q, v)                                       (nq + nv)
  *   y' = (N v, a(t, q, v))                           a from (5) or (7), N the identity so far
  *
- * Adams-Moulton, orders 1 to 12, with fixed-point iteration; BDF, orders 1 to 5, with Newton's iteration on the
- * dense Jacobian
- *
- *   dy'/dy = [ 0     I   ]
- *            [ da/dq da/dv ]                         (2 nv x 2 nv), differences column by column
- *
- * (CVODE's own differences would allocate). Errors are measured in the weighted root mean square over y, with the
- * tolerances of baum_i_problem_tolerances().
+ * Adams-Moulton, orders 1 to 12, with fixed-point iteration, or where there are gains with Newton's iteration on their
+ * part of the Jacobian (cvode_embedded.c); BDF, orders 1 to 5, with Newton's iteration on the true Jacobian (cvode_newton.c)
+ * and projection (cvode_projection.c). Errors are measured in the weighted root mean square over y, with the tolerances of
+ * baum_i_problem_tolerances().
  */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include <cvode/cvode.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include "base/alloc.h"
+#include "integrate/cvode.h"
+#include "integrate/cvode_embedded.h"
+#include "integrate/cvode_newton.h"
+#include "integrate/cvode_projection.h"
 #include "integrate/sundials_common.h"
 
 /* Memory of a run. */
@@ -36,10 +33,10 @@ typedef struct cvode_run {
   void *cvode;
   N_Vector y;                     /* end of the last step */
   N_Vector inside;                /* interpolated */
-  SUNNonlinearSolver fixed_point; /* Adams */
-  SUNMatrix matrix;               /* BDF */
-  SUNLinearSolver dense;          /* BDF */
-  double *jacobian;               /* BDF: (2 nv x nv) da/dy, column by column */
+  N_Vector work;                  /* of the projection */
+  SUNNonlinearSolver fixed_point; /* Adams without gains */
+  baum_i_cvode_embedded embedded; /* Adams with gains */
+  baum_i_cvode_newton newton;     /* BDF */
   baum_i_statistics before;       /* up to the last restart */
 } cvode_run;
 
@@ -80,88 +77,31 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-/* A difference between rounding and truncation for a coordinate of value y that matters at the scale s. */
-static double choose_difference(double y, double s)
-{
-  double wanted = sqrt(DBL_EPSILON * s * (s + fabs(y)));
-  double moved = y + wanted;
-  return moved - y;
-}
-
-/* Column j of da/dy; y is moved and put back. */
-static baum_status difference(const baum_i_problem *problem, double t, double *y, int j,
-                              const double *a, double *column)
-{
-  const baum_workspace *workspace = problem->workspace;
-  int nq = workspace->mechanism->nq;
-  int nv = workspace->mechanism->nv;
-  const double *scale = workspace->mechanism->scale;
-  double s = j < nq ? scale[j] : scale[j - nq] * problem->rate;
-  double kept = y[j];
-  double step = choose_difference(kept, s);
-  y[j] += step;
-  baum_status status = baum_i_problem_motion(problem, t, y, y + nq);
-  y[j] = kept;
-  for (int i = 0; i < nv && status == BAUM_OK; i++) {
-    column[i] = (workspace->a[i] - a[i]) / step;
-  }
-  return status;
-}
-
-/* Both blocks of accelerations at (t, y) into run->jacobian; moved is scratch. */
-static baum_status differentiate(const cvode_run *run, double t, const double *y, const double *a,
-                                 double *moved)
-{
-  const baum_i_problem *problem = run->sundials.problem;
-  int nv = problem->workspace->mechanism->nv;
-  int n = problem->workspace->mechanism->nq + nv;
-  memcpy(moved, y, (size_t)n * sizeof *moved);
-  baum_status status = BAUM_OK;
-  for (int j = 0; j < n && status == BAUM_OK; j++) {
-    status = difference(problem, t, moved, j, a, run->jacobian + (size_t)j * nv);
-  }
-  return status;
-}
-
-/* matrix = I - gamma dy'/dy */
-static void fill(const cvode_run *run, double gamma, SUNMatrix matrix)
-{
-  const baum_mechanism *mechanism = run->sundials.problem->workspace->mechanism;
-  int nq = mechanism->nq;
-  int nv = mechanism->nv;
-  (void)SUNMatZero(matrix);
-  for (int j = 0; j < nq + nv; j++) {
-    double *column = SUNDenseMatrix_Column(matrix, j);
-    const double *accelerations = run->jacobian + (size_t)j * nv;
-    for (int i = 0; i < nv; i++) {
-      column[nq + i] = -gamma * accelerations[i];
-    }
-    if (j >= nq) {
-      column[j - nq] = -gamma;
-    }
-    column[j] += 1.0;
-  }
-}
-
-/* The system of Newton's iteration. CVODE's own way clones the matrix without looking whether there is memory.
+/* The system of Newton's iteration, always anew: its derivatives cost about an evaluation.
  * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
 static int build(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
                  N_Vector work1, N_Vector work2, N_Vector work3)
 {
   /* #lizard forgives: CVODE's parameters */
+  (void)rate;
+  (void)matrix;
+  (void)may_keep;
+  (void)work1;
   (void)work2;
   (void)work3;
   cvode_run *run = user;
-  int nq = run->sundials.problem->workspace->mechanism->nq;
-  baum_status status = BAUM_OK;
-  *is_new = !may_keep;
-  if (!may_keep) {
-    const double *a = N_VGetArrayPointer(rate) + nq;
-    status = differentiate(run, t, N_VGetArrayPointer(y), a, N_VGetArrayPointer(work1));
-  }
-  fill(run, gamma, matrix);
+  *is_new = SUNTRUE;
+  baum_status status = baum_i_cvode_newton_fill(&run->newton, t, N_VGetArrayPointer(y), gamma);
   return baum_i_sundials_answer(&run->sundials, status);
+}
+
+static int project(sunrealtype t, N_Vector y, N_Vector correction, sunrealtype tolerance,
+                   N_Vector error, void *user)
+{
+  (void)tolerance; /* the projection goes to rounding */
+  cvode_run *run = user;
+  return baum_i_cvode_project(&run->sundials, t, y, correction, error, run->work);
 }
 
 static int weigh(N_Vector y, N_Vector weights, void *user)
@@ -223,7 +163,7 @@ static void count(const void *self, baum_i_statistics *out)
   (void)CVodeGetNumNonlinSolvIters(run->cvode, &iterations);
   out->rejected = run->before.rejected + rejected[0] + rejected[1];
   out->factorizations = run->before.factorizations + setups;
-  out->full_factorizations = 0; /* a dense one allocates nothing */
+  out->full_factorizations = run->newton.klu.full_factorizations;
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
@@ -275,10 +215,9 @@ static void destroy(void *self)
   }
   CVodeFree(&run->cvode);
   (void)SUNNonlinSolFree(run->fixed_point);
-  (void)SUNLinSolFree(run->dense);
-  SUNMatDestroy(run->matrix);
+  baum_i_cvode_embedded_close(&run->embedded);
+  baum_i_cvode_newton_close(&run->newton);
   baum_i_sundials_close(&run->sundials);
-  baum_i_free(run->jacobian);
   baum_i_free(run);
 }
 
@@ -288,19 +227,26 @@ static int attach_fixed_point(cvode_run *run)
   return run->fixed_point ? CVodeSetNonlinearSolver(run->cvode, run->fixed_point) : CV_MEM_FAIL;
 }
 
-static int attach_dense(cvode_run *run)
+static int attach_adams(cvode_run *run, const baum_i_problem *problem)
 {
-  sunindextype n = N_VGetLength(run->y);
-  run->jacobian = baum_i_alloc((size_t)n * (size_t)n / 2, sizeof *run->jacobian);
-  run->matrix = run->jacobian ? SUNDenseMatrix(n, n, run->sundials.context) : NULL;
-  if (run->matrix) {
-    run->dense = SUNLinSol_Dense(run->y, run->matrix, run->sundials.context);
-  }
+  bool gains =
+    problem->formulation == BAUM_FORMULATION_BAUMGARTE && problem->workspace->mechanism->nc > 0;
+  return gains ? baum_i_cvode_embedded_attach(&run->embedded, &run->sundials, run->cvode, run->y)
+               : attach_fixed_point(run);
+}
+
+static int attach_bdf(cvode_run *run, const baum_i_problem *problem)
+{
+  SUNLinearSolver solver = run->newton.solver;
   /* These two have flags of their own; only memory can be wrong. */
-  bool attached = run->dense &&
-                  CVodeSetLinearSolver(run->cvode, run->dense, run->matrix) == CVLS_SUCCESS &&
-                  CVodeSetLinSysFn(run->cvode, build) == CVLS_SUCCESS;
-  return attached ? CV_SUCCESS : CV_MEM_FAIL;
+  bool attached =
+    CVodeSetLinearSolver(run->cvode, solver, run->newton.klu.matrix) == CVLS_SUCCESS &&
+    CVodeSetLinSysFn(run->cvode, build) == CVLS_SUCCESS;
+  if (!attached) {
+    return CV_MEM_FAIL;
+  }
+  bool projects = problem->formulation == BAUM_FORMULATION_PROJECTION;
+  return projects ? CVodeSetProjFn(run->cvode, project) : CV_SUCCESS;
 }
 
 static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem, double t)
@@ -320,7 +266,7 @@ static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem
     flag = CVodeWFtolerances(run->cvode, weigh);
   }
   if (flag == CV_SUCCESS) {
-    flag = method == CV_ADAMS ? attach_fixed_point(run) : attach_dense(run);
+    flag = method == CV_ADAMS ? attach_adams(run, problem) : attach_bdf(run, problem);
   }
   if (flag == CV_SUCCESS && isfinite(problem->max_step)) {
     flag = CVodeSetMaxStep(run->cvode, problem->max_step);
@@ -338,8 +284,15 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   }
   run->y = baum_i_sundials_vector(&run->sundials);
   run->inside = baum_i_sundials_vector(&run->sundials);
+  run->work = baum_i_sundials_vector(&run->sundials);
   baum_i_sundials_begin(&run->sundials, problem, start->t);
   load(run, problem, start);
+  if (method == CV_BDF) {
+    status = baum_i_cvode_newton_open(&run->newton, &run->sundials);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
   int flag = start_cvode(run, method, problem, start->t);
   run->sundials.unfinished = flag != CV_SUCCESS;
   return flag == CV_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
@@ -362,9 +315,35 @@ static baum_status create(int method, const char *name, const baum_i_problem *pr
   return BAUM_OK;
 }
 
+/* ---- for tests ---- */
+
+baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, double gamma,
+                                      const double *r, double *x)
+{
+  cvode_run *run = self;
+  size_t n = (size_t)N_VGetLength(run->y);
+  baum_status status = baum_i_cvode_newton_fill(&run->newton, t, y, gamma);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  SUNLinearSolver solver = run->newton.solver;
+  memcpy(N_VGetArrayPointer(run->work), r, n * sizeof *r);
+  bool solved = SUNLinSolSetup(solver, NULL) == 0 &&
+                SUNLinSolSolve(solver, NULL, run->inside, run->work, 0.0) == 0;
+  memcpy(x, N_VGetArrayPointer(run->inside), n * sizeof *x);
+  return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
+}
+
 /* ---- the two integrators ---- */
 
-static const baum_formulation FORMULATIONS[] = {
+static const baum_formulation ADAMS_FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_formulation BDF_FORMULATIONS[] = {
+  BAUM_FORMULATION_PROJECTION,
   BAUM_FORMULATION_BAUMGARTE,
   BAUM_FORMULATION_UNSTABILIZED,
   BAUM_FORMULATION_DEFAULT,
@@ -383,7 +362,8 @@ static baum_status create_bdf(const baum_i_problem *problem, const baum_i_state 
 
 static const baum_integrator ADAMS = {
   .name = "cvode_adams",
-  .formulations = FORMULATIONS,
+  .formulations = ADAMS_FORMULATIONS,
+  .why_no_projection = "CVODE projects only within BDF",
   .gains = BAUM_GAINS_AUTO,
   .create = create_adams,
   .destroy = destroy,
@@ -395,7 +375,7 @@ static const baum_integrator ADAMS = {
 
 static const baum_integrator BDF = {
   .name = "cvode_bdf",
-  .formulations = FORMULATIONS,
+  .formulations = BDF_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .create = create_bdf,
   .destroy = destroy,

@@ -55,6 +55,7 @@ struct baum_integrator {
     predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
   bool
     without_freedom; /* for mechanisms without freedom alone; takes no formulation, step or rtol */
+  const char *why_no_projection; /* where it is refused; NULL: nothing to say */
   bool tests_multipliers; /* at index 1 tolerance_lambda may be finite */
 
   /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */

@@ -18,7 +18,14 @@ static void destroy(void *self)
   (void)self;
 }
 
-static const baum_formulation CVODE_FORMULATIONS[] = {
+static const baum_formulation ADAMS_FORMULATIONS[] = {
+  BAUM_FORMULATION_BAUMGARTE,
+  BAUM_FORMULATION_UNSTABILIZED,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_formulation BDF_FORMULATIONS[] = {
+  BAUM_FORMULATION_PROJECTION,
   BAUM_FORMULATION_BAUMGARTE,
   BAUM_FORMULATION_UNSTABILIZED,
   BAUM_FORMULATION_DEFAULT,
@@ -53,7 +60,8 @@ static baum_status create_ida(const baum_i_problem *problem, const baum_i_state 
 
 static const baum_integrator ADAMS = {
   .name = "cvode_adams",
-  .formulations = CVODE_FORMULATIONS,
+  .formulations = ADAMS_FORMULATIONS,
+  .why_no_projection = "CVODE projects only within BDF",
   .gains = BAUM_GAINS_AUTO,
   .create = create_adams,
   .destroy = destroy,
@@ -61,7 +69,7 @@ static const baum_integrator ADAMS = {
 
 static const baum_integrator BDF = {
   .name = "cvode_bdf",
-  .formulations = CVODE_FORMULATIONS,
+  .formulations = BDF_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .create = create_bdf,
   .destroy = destroy,

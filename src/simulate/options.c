@@ -178,10 +178,13 @@ static baum_status check_pair(baum_simulation_options *o)
                    baum_formulation_name(offered[k]));
   }
   const char *name = baum_formulation_name(o->formulation);
+  bool projection = o->formulation == BAUM_FORMULATION_PROJECTION;
+  const char *why = projection ? o->integrator->why_no_projection : NULL;
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                     "simulation options: %s does not offer the formulation %s; it offers %s",
+                     "simulation options: %s does not offer the formulation %s; it offers %s%s%s",
                      o->integrator->name, name ? name : "of that number",
-                     list[0] ? list : "none, for no freedom is left");
+                     list[0] ? list : "none, for no freedom is left", why ? "; " : "",
+                     why ? why : "");
 }
 
 static baum_status check_gains(const baum_simulation_options *o)

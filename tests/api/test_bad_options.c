@@ -150,6 +150,14 @@ static void choices_that_are_none_are_refused(void **state)
   check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
                 "euler does not offer the formulation of that number|it offers baumgarte");
   o = good_options();
+  o.integrator = baum_cvode_adams();
+  o.step = (double)NAN;
+  o.rtol = 1e-4;
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                "cvode_adams does not offer the formulation projection; it offers baumgarte, "
+                "unstabilized; CVODE projects only within BDF");
+  o = good_options();
   o.gains.rule = 99;
   check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "gains: rule 99 is unknown");
   baum_mechanism_destroy(parts.mechanism);

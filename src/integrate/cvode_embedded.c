@@ -1,0 +1,96 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi): constraints are springs and dampers of rates
+ * alpha and beta, however smooth the motion is. Their part of df/dy is known,
+ *
+ *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
+ *           [ -beta^2 P   -2 alpha P ]
+ *
+ * and P P = P gives the inverse: (I - gamma df/dy) (dq, dv) = (r_q, r_v) without the rest has the solution
+ *
+ *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,     s = 2 alpha gamma + (beta gamma)^2
+ *
+ * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors that the evaluation before has left.
+ * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff ones remain what
+ * BDF is for.
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/cvode_embedded.h"
+
+#include <cvode/cvode.h>
+#include <sunnonlinsol/sunnonlinsol_newton.h>
+
+#include "integrate/sundials_klu.h"
+
+/* What a substitution cannot solve, a smaller step may. */
+static int answer(baum_i_sundials *sundials, baum_status status)
+{
+  if (status == BAUM_OK) {
+    return 0;
+  }
+  return status == BAUM_ERR_MEMORY ? baum_i_sundials_answer(sundials, status) : 1;
+}
+
+static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
+                 sunrealtype tolerance)
+{
+  (void)matrix;
+  (void)tolerance;
+  baum_i_cvode_embedded *embedded = solver->content;
+  const baum_i_problem *problem = embedded->sundials->problem;
+  int n = problem->workspace->mechanism->nv;
+  const double *r = N_VGetArrayPointer(b);
+  double *d = N_VGetArrayPointer(x);
+  double *normal = N_VGetArrayPointer(embedded->normal);
+  double gamma = 0.0;
+  (void)CVodeGetCurrentGamma(embedded->cvode, &gamma);
+  double damping = 2.0 * problem->direction * problem->alpha * gamma;
+  double stiffness = gamma * problem->beta * problem->beta;
+  double s = damping + gamma * stiffness;
+  for (int i = 0; i < n; i++) {
+    d[i] = (s * r[n + i] + stiffness * r[i]) / (1.0 + s);
+  }
+  baum_status status = baum_i_normal_part(problem->workspace, d, normal);
+  for (int i = 0; i < n && status == BAUM_OK; i++) {
+    d[n + i] = r[n + i] - normal[i];
+    d[i] = r[i] + gamma * d[n + i];
+  }
+  return answer(embedded->sundials, status);
+}
+
+static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
+{
+  (void)solver;
+  return SUNLINEARSOLVER_MATRIX_EMBEDDED;
+}
+
+int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundials *sundials,
+                                 void *cvode, N_Vector y)
+{
+  embedded->sundials = sundials;
+  embedded->cvode = cvode;
+  embedded->normal = baum_i_sundials_vector(sundials);
+  embedded->newton = SUNNonlinSol_Newton(y, sundials->context);
+  embedded->solver = baum_i_sundials_front(sundials, embedded, NULL, solve);
+  if (!embedded->newton || !embedded->solver) {
+    return CV_MEM_FAIL;
+  }
+  embedded->solver->ops->gettype = tell_type;
+  int flag = CVodeSetNonlinearSolver(cvode, embedded->newton);
+  if (flag != CV_SUCCESS) {
+    return flag;
+  }
+  /* This one has flags of its own; only memory can be wrong. */
+  return CVodeSetLinearSolver(cvode, embedded->solver, NULL) == CVLS_SUCCESS ? CV_SUCCESS
+                                                                             : CV_MEM_FAIL;
+}
+
+void baum_i_cvode_embedded_close(baum_i_cvode_embedded *embedded)
+{
+  (void)SUNNonlinSolFree(embedded->newton);
+  (void)SUNLinSolFree(embedded->solver);
+}
+
+#endif

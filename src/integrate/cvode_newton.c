@@ -1,0 +1,150 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Newton's iteration of CVODE BDF asks for the solution d = (dq, dv) of
+ *
+ *   (I - gamma df/dy) d = r,     f = (v, a(t, q, v)), a from (5) or (7).
+ *
+ * a is given implicitly, with the multipliers, by the residual of index 1 (dae_matrix.c)
+ *
+ *   F = (q' - v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
+ *
+ * whose last two parts vanish for v' = a(t, q, v). Differentiated along that, with da = (da/dq) dq + (da/dv) dv,
+ *
+ *   F_q dq + F_v dv + F_lambda dlambda = - (0, M da, J da) in these parts
+ *
+ * for the dlambda that goes with da; so that for c = 1 / gamma
+ *
+ *   (dF/dy + c dF/dy') (dq, dv, dlambda) = (c dq - dv, M (c dv - da), J (c dv - da)).
+ *
+ * With the right side c (r_q, M r_v, J r_v) this says dq - gamma dv = r_q and dv - gamma da = r_v, which is what is wanted;
+ * dlambda is not. The matrix has the derivatives of all forces and rows, and is as sparse as the mechanism.
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/cvode_newton.h"
+
+#include <string.h>
+
+#include "base/alloc.h"
+#include "dynamics/immobile.h"
+
+static const baum_workspace *workspace_of(const baum_i_cvode_newton *newton)
+{
+  return newton->klu.sundials->problem->workspace;
+}
+
+/* ---- the matrix ---- */
+
+baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, const double *y,
+                                     double gamma)
+{
+  const baum_i_problem *problem = newton->klu.sundials->problem;
+  const baum_workspace *w = problem->workspace;
+  const baum_mechanism *m = w->mechanism;
+  bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1,
+                        .alpha = gains ? problem->direction * problem->alpha : 0.0,
+                        .beta = gains ? problem->beta : 0.0};
+  baum_status status = baum_i_problem_acceleration(problem, t, y, y + m->nq);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  size_t nv = (size_t)m->nv;
+  newton->c = 1.0 / gamma;
+  memcpy(newton->y, y, 2 * nv * sizeof *y);
+  memcpy(newton->y + 2 * nv, w->lambda, (size_t)m->nc * sizeof *y);
+  memcpy(newton->dy, y + m->nq, nv * sizeof *y);
+  memcpy(newton->dy + nv, w->a, nv * sizeof *y);
+  status = baum_i_sundials_klu_fill(&newton->klu, &dae, newton->c, t, newton->y, newton->dy);
+  memcpy(newton->mass, w->mass, (size_t)m->mass_size * sizeof *y);
+  memcpy(newton->jacobian, w->jacobian, (size_t)m->jacobian_size * sizeof *y);
+  return status;
+}
+
+/* ---- solve ---- */
+
+static int factor(SUNLinearSolver solver, SUNMatrix matrix)
+{
+  (void)matrix;
+  baum_i_cvode_newton *newton = solver->content;
+  return baum_i_sundials_klu_factor(&newton->klu);
+}
+
+/* c (r_q, M r_v, J r_v); rows that are left out read dlambda = 0. */
+static void make_right_side(const baum_i_cvode_newton *newton, const double *r, double *right)
+{
+  const baum_workspace *w = workspace_of(newton);
+  const baum_mechanism *m = w->mechanism;
+  double *forces = right + m->nv;
+  double *rows = forces + m->nv;
+  memcpy(right, r, (size_t)m->nv * sizeof *r);
+  memset(forces, 0, (size_t)(m->nv + m->nc) * sizeof *r);
+  baum_i_mass_times(&w->structure, newton->mass, r + m->nv, forces);
+  baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nv, rows);
+  for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
+    rows[i] = w->redundancy.dropped[i] ? 0.0 : rows[i];
+  }
+  for (int i = 0; i < 2 * m->nv + m->nc; i++) {
+    right[i] *= newton->c;
+  }
+}
+
+/* Bodies that are left out of the motion stay where they are to the last digit: f = (v, 0). */
+static void solve_immobile(const baum_i_cvode_newton *newton, const double *r, double *x)
+{
+  const baum_workspace *w = workspace_of(newton);
+  const baum_i_immobile *immobile = w->immobile;
+  for (int k = 0; immobile && immobile->rests && k < immobile->count; k++) {
+    int i = immobile->velocity[k];
+    x[w->mechanism->nv + i] = r[w->mechanism->nv + i];
+    x[i] = r[i] + r[w->mechanism->nv + i] / newton->c;
+  }
+}
+
+static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
+                 sunrealtype tolerance)
+{
+  (void)matrix;
+  (void)tolerance;
+  baum_i_cvode_newton *newton = solver->content;
+  baum_i_sundials_klu *klu = &newton->klu;
+  size_t nv = (size_t)workspace_of(newton)->mechanism->nv;
+  make_right_side(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(klu->right));
+  int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
+  memcpy(N_VGetArrayPointer(x), N_VGetArrayPointer(klu->solution), 2 * nv * sizeof(double));
+  solve_immobile(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+  return failed;
+}
+
+/* ---- life ---- */
+
+baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials)
+{
+  baum_status status = baum_i_sundials_klu_open(&newton->klu, sundials, BAUM_RESIDUAL_INDEX1);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_mechanism *m = workspace_of(newton)->mechanism;
+  size_t n = (size_t)baum_i_residual_size(m, BAUM_RESIDUAL_INDEX1);
+  size_t count = 2 * n + (size_t)m->mass_size + (size_t)m->jacobian_size;
+  newton->numbers = baum_i_alloc(count, sizeof *newton->numbers);
+  if (!newton->numbers) {
+    return baum_i_fail_memory();
+  }
+  newton->y = newton->numbers;
+  newton->dy = newton->y + n;
+  newton->mass = newton->dy + n;
+  newton->jacobian = newton->mass + m->mass_size;
+  newton->solver = baum_i_sundials_front(sundials, newton, factor, solve);
+  return newton->solver ? BAUM_OK : baum_i_fail_memory();
+}
+
+void baum_i_cvode_newton_close(baum_i_cvode_newton *newton)
+{
+  (void)SUNLinSolFree(newton->solver);
+  baum_i_sundials_klu_close(&newton->klu);
+  baum_i_free(newton->numbers);
+}
+
+#endif

@@ -1,0 +1,28 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The linear systems of CVODE BDF with the true Jacobian. Only files of CVODE include it, and only when the build has
+ * SUNDIALS. */
+#ifndef BAUM_I_INTEGRATE_CVODE_NEWTON_H
+#define BAUM_I_INTEGRATE_CVODE_NEWTON_H
+
+#include "integrate/sundials_klu.h"
+
+typedef struct baum_i_cvode_newton {
+  baum_i_sundials_klu klu;
+  SUNLinearSolver solver; /* for CVODE, a front before klu */
+  double c;               /* [1/s] 1 / gamma of the matrix */
+  double *numbers;        /* behind all below */
+  double *y;              /* (n) q, v, lambda */
+  double *dy;             /* (n) q', v', 0 */
+  double *mass;           /* block values of M where the matrix was made */
+  double *jacobian;       /* likewise J */
+} baum_i_cvode_newton;
+
+/* As baum_i_sundials_klu_open() and _close(); attach newton->solver with newton->klu.matrix. */
+baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials);
+void baum_i_cvode_newton_close(baum_i_cvode_newton *newton);
+
+/* The matrix at (t, y), y = (q, v). As an acceleration. */
+baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, const double *y,
+                                     double gamma);
+
+#endif
