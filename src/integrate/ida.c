@@ -512,6 +512,7 @@ static const baum_integrator IDA = {
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .tests_multipliers = true,
+  .solves_residuals = true,
   .create = create,
   .destroy = destroy,
   .advance = advance,

@@ -51,12 +51,14 @@ struct baum_integrator {
   const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
   baum_i_method method;                 /* amplification */
+  baum_i_method_family family;          /* of methods without one */
   bool
     predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
+  bool solves_residuals; /* of the whole system; else it goes by accelerations or poses */
   bool
     without_freedom; /* for mechanisms without freedom alone; takes no formulation, step or rtol */
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
-  bool tests_multipliers; /* at index 1 tolerance_lambda may be finite */
+  bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
 
   /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
   baum_status (*create)(const baum_i_problem *problem, const baum_i_state *start, void **out);

@@ -80,6 +80,7 @@ static const baum_integrator IDA = {
   .formulations = IDA_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .tests_multipliers = true,
+  .solves_residuals = true,
   .create = create_ida,
   .destroy = destroy,
 };

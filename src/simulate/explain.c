@@ -17,7 +17,7 @@ static const char *formulation_text(baum_formulation formulation)
     return "J v = nu kept by the implicit method itself; Phi drifts slowly";
   case BAUM_FORMULATION_GGL:
     return "Phi = 0 and J v = nu kept by the implicit method itself (Gear, Gupta, Leimkuhler)";
-  case BAUM_FORMULATION_INDEX3: return "Phi = 0 kept by the implicit method itself";
+  case BAUM_FORMULATION_INDEX3: return "Phi = 0 kept by the method itself";
   case BAUM_FORMULATION_DEFAULT:
   default: return "";
   }
@@ -73,8 +73,8 @@ static void say_solver(baum_simulation *run)
   baum_i_solver_text(run->workspace, text);
   if (run->integrator->without_freedom) {
     say(run, "solver        %s on the constraints\n", baum_i_kkt_backend(run->workspace->kkt));
-  } else if (baum_i_integrator_offers(run->integrator, BAUM_FORMULATION_INDEX3)) {
-    /* It solves residuals: (5) is solved for the start and for what is given out. */
+  } else if (run->integrator->solves_residuals) {
+    /* (5) is solved for the start and for what is given out. */
     say(run, "solver        klu on the Jacobian of the residual; start and channels: %s\n", text);
   } else {
     say(run, "solver        %s\n", text);
