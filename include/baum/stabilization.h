@@ -75,18 +75,26 @@ BAUM_API baum_gains baum_gains_auto(void);
 
 /** What becomes of a violation. */
 typedef enum baum_stability {
-  BAUM_STABLE = 0,       /**< Every violation decays: spectral radius < 1. */
-  BAUM_MARGINAL = 1,     /**< Some violation neither decays nor grows exponentially: radius = 1. */
-  BAUM_UNSTABLE = 2,     /**< Some violation grows exponentially: radius > 1. */
-  BAUM_VARIABLE_STEP = 3 /**< The method chooses its step, so there is no fixed region. */
+  BAUM_STABLE = 0,        /**< Every violation decays: spectral radius < 1. */
+  BAUM_MARGINAL = 1,      /**< Some violation neither decays nor grows exponentially: radius = 1. */
+  BAUM_UNSTABLE = 2,      /**< Some violation grows exponentially: radius > 1. */
+  BAUM_VARIABLE_STEP = 3, /**< The method chooses its step, so there is no fixed region; see
+                               baum_stability_statement(). */
+  BAUM_WITHOUT_GAINS = 4  /**< The method keeps the constraints by itself. */
 } baum_stability;
 
 /** Amplification of a violation by one step. */
 typedef struct baum_amplification {
   size_t struct_size;       /**< Set by baum_stability_at(). */
   baum_stability stability; /**< Class. */
-  double spectral_radius;   /**< [-] largest |z|; NaN for BAUM_VARIABLE_STEP. */
-  double z[2][2]; /**< [-] the two largest roots, real and imaginary part; NaN likewise. */
+  double spectral_radius;   /**< [-] largest |z|; NaN without a region: BAUM_VARIABLE_STEP and
+                                 BAUM_WITHOUT_GAINS. */
+  double z[2][2]; /**< [-] the largest root z of each of the two modes, real and imaginary part, the
+                       larger of them first; NaN likewise. */
+  double
+    damping; /**< [-] what a step takes off the slowest violation in the long run, as a share of
+                       it: 1 - spectral_radius, with its digits also where that is small; negative
+                       where violations grow; NaN likewise. */
 } baum_amplification;
 
 /** Amplification at a point of the plane of Fig. 1.
@@ -101,32 +109,98 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        double beta2_h2, baum_amplification *out,
                                        size_t caller_size);
 
+/** What holds for a method in words, also for one that chooses its steps or needs no gains.
+ *  @return static text of one or two sentences; NULL for NULL
+ */
+BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
+
 /** Largest alpha h for which alpha = damping_ratio x beta is stable.
- *  @param      damping_ratio  [-] > 0
- *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when nothing
- *                             is stable
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ *  @param      damping_ratio  [-] > 0, finite
+ *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when small
+ *                             gains are unstable; baum_stability_intervals() has what comes after it
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region: variable step, or without
+ *              gains)
  */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
 
-/** The point of fastest decay, see baum_gains_deadbeat().
+/** All intervals of alpha h for which alpha = damping_ratio x beta is stable. Most methods have one,
+ *  from 0. Gaps and islands narrower than 1 % of their alpha h may be missed.
+ *  @param      damping_ratio  [-] > 0, finite
+ *  @param      capacity       of the arrays; >= 0
+ *  @param[out] from,to        [-] (capacity) receive the first `capacity` intervals in order; `to` may
+ *                             be infinite. NULL when capacity is 0
+ *  @param[out] count          receives the number of intervals, which may exceed the capacity
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
+ */
+BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
+                                              double damping_ratio, int32_t capacity, double *from,
+                                              double *to, int32_t *count);
+
+/** The alpha h of fastest decay for alpha = damping_ratio x beta.
+ *  @param      damping_ratio  [-] > 0, finite
+ *  @param[out] alpha_h        receives it; 0 when nothing is stable
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
+ */
+BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrator,
+                                                double damping_ratio, double *alpha_h);
+
+/** The point of fastest decay of all, alpha h > 0: the dead-beat point where there is one; of several
+ *  the one of least gains. Takes some milliseconds for Adams-Bashforth methods.
  *  @param[out] alpha_h,beta2_h2  receive the point
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
+ */
+BAUM_API baum_status baum_stability_best(const baum_integrator *integrator, double *alpha_h,
+                                         double *beta2_h2);
+
+/** The dead-beat point, see baum_gains_deadbeat(): all roots are zero.
+ *  @param[out] alpha_h,beta2_h2  receive the point
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region; or a method of several
+ *              steps, which has no such point)
  */
 BAUM_API baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
                                              double *beta2_h2);
 
 /** The nearest point that damps well (spectral radius <= 0.9) in the plane of (alpha h, beta^2
- *  h^2). Its distance is within 1 % of the least; enough for advice, not for plotting the edge.
+ *  h^2). Its distance is within 1 % of the least.
  *  @param      alpha_h,beta2_h2            [-] finite, the point asked for
  *  @param[out] good_alpha_h,good_beta2_h2  receive the nearest good point; the point itself when it
  *                                          is good
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (variable step)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
  */
 BAUM_API baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
                                             double beta2_h2, double *good_alpha_h,
                                             double *good_beta2_h2);
+
+/** Spectral radii over a rectangle of the plane.
+ *  @param      alpha_h   [-] (2) first and last column, finite
+ *  @param      beta2_h2  [-] (2) first and last row, finite
+ *  @param      columns   >= 1; one is the first
+ *  @param      rows      >= 1; likewise
+ *  @param[out] radius    [-] (rows x columns) row-major; infinite beyond double
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
+ */
+BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],
+                                         const double beta2_h2[2], int32_t columns, int32_t rows,
+                                         double *radius);
+
+/** Outline of the region in alpha h >= 0, beta^2 h^2 >= 0 where the spectral radius is at most a
+ *  given number: 1 for the region of stability, less for a level line of damping. Every part of the
+ *  region is a closed curve, its first point repeated at its end and the region on its right; so is
+ *  every hole. Curves are separated by one point of NaNs. The points lie on the line, but for those
+ *  on alpha h = 0 or beta^2 h^2 = 0 where the region is cut off. Parts of less than some hundredth of
+ *  the whole may be missed. Uses 30 kB of stack.
+ *  @param      radius            [-] > 0, finite
+ *  @param      capacity          of the arrays; >= 0. 2000 is enough for every method here
+ *  @param[out] alpha_h,beta2_h2  [-] (capacity) receive the first `capacity` points. NULL when
+ *                                capacity is 0
+ *  @param[out] count             receives the number of points, which may exceed the capacity; 0 when
+ *                                the radius is nowhere so small
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
+ */
+BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
+                                            int32_t capacity, double *alpha_h, double *beta2_h2,
+                                            int32_t *count);
 
 #ifdef __cplusplus
 }

@@ -70,7 +70,7 @@ static const baum_i_sundials_flag FLAGS[] = {
   {0, BAUM_OK, NULL},
 };
 
-/* At a start, of rtol. */
+/* At a start, of the tolerance. */
 static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
@@ -217,6 +217,14 @@ static void count(const void *self, baum_i_statistics *out)
   out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
 }
 
+/* rtol with the smaller of the factors of what is tested. */
+static double tightest(const ida_run *run, const baum_i_problem *problem)
+{
+  bool index3 = run->dae.index == BAUM_RESIDUAL_INDEX3;
+  double factor = index3 ? problem->tolerance_q : fmin(problem->tolerance_q, problem->tolerance_v);
+  return problem->rtol * factor;
+}
+
 /* Largest violation as a displacement, over the scale; of velocities, times 1/T. */
 static double violation_of(ida_run *run, const baum_i_problem *problem)
 {
@@ -243,7 +251,8 @@ static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, 
     return BAUM_OK;
   }
   baum_status status = baum_i_violation(w, t, q, v);
-  if (status != BAUM_OK || violation_of(run, problem) <= LARGEST_VIOLATION * problem->rtol) {
+  if (status != BAUM_OK ||
+      violation_of(run, problem) <= LARGEST_VIOLATION * tightest(run, problem)) {
     return status;
   }
   return run->dae.index == BAUM_RESIDUAL_INDEX2 ? baum_i_project_velocities(w, t, q, v)
@@ -298,7 +307,8 @@ static int give_first_step(ida_run *run)
   const double *a = N_VGetArrayPointer(run->dy) + mechanism->nq;
   double rate = fmax(problem->rate, baum_i_state_rate(mechanism, v, a));
   double factor = run->dae.index == BAUM_RESIDUAL_INDEX3 ? sqrt(2.0) : 0.3;
-  return IDASetInitStep(run->ida, problem->direction * factor * sqrt(problem->rtol) / rate);
+  double step = factor * sqrt(tightest(run, problem)) / rate;
+  return IDASetInitStep(run->ida, problem->direction * step);
 }
 
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
@@ -511,6 +521,7 @@ static const baum_integrator IDA = {
   .name = "ida",
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
+  .family = BAUM_I_FAMILY_BDF,
   .tests_multipliers = true,
   .solves_residuals = true,
   .create = create,

@@ -226,11 +226,12 @@ static baum_stability classify(double growth)
   return growth < -MARGIN ? BAUM_STABLE : BAUM_MARGINAL;
 }
 
-static void fill_variable_step(baum_amplification *out)
+static void fill_without_region(baum_stability stability, baum_amplification *out)
 {
-  out->stability = BAUM_VARIABLE_STEP;
+  out->stability = stability;
   const double none = (double)NAN;
   out->spectral_radius = none;
+  out->damping = none;
   for (int k = 0; k < 2; k++) {
     out->z[k][0] = none;
     out->z[k][1] = none;
@@ -267,7 +268,11 @@ void baum_i_amplification(const baum_i_method *method, double alpha_h, double be
                           baum_amplification *out)
 {
   if (method->kind == BAUM_I_METHOD_VARIABLE_STEP) {
-    fill_variable_step(out);
+    fill_without_region(BAUM_VARIABLE_STEP, out);
+    return;
+  }
+  if (method->kind == BAUM_I_METHOD_WITHOUT_GAINS) {
+    fill_without_region(BAUM_WITHOUT_GAINS, out);
     return;
   }
   number w[2];
@@ -278,5 +283,6 @@ void baum_i_amplification(const baum_i_method *method, double alpha_h, double be
     out->z[k][1] = finite ? w[k].im : 0.0;
   }
   out->spectral_radius = hypot(out->z[0][0], out->z[0][1]);
+  out->damping = -excess(w[0]);
   out->stability = classify(excess(w[0]));
 }

@@ -24,7 +24,8 @@
 static const double PI = 3.14159265358979323846;
 static const double ZERO = 1e-10; /* |R| of a zero, and |Im mu| of a real one */
 static const double CLOSE_IN = 0.6;
-enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 32, LEVELS = 50 };
+static const double FARTHEST = 1e3; /* of the lattice for a region without end */
+enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 50 };
 
 /* ---- Dead-beat ------------------------------------------------------------ */
 
@@ -109,12 +110,12 @@ static void try_point(search *best, double s, double m)
   }
 }
 
-static void search_window(search *best, const baum_i_chart_window *w)
+static void search_window(search *best, const baum_i_chart_window *w, int cells)
 {
-  for (int i = 0; i <= LATTICE; i++) {
-    for (int j = 0; j <= LATTICE; j++) {
-      double s = w->s[0] + (w->s[1] - w->s[0]) * i / LATTICE;
-      double m = w->m[0] + (w->m[1] - w->m[0]) * j / LATTICE;
+  for (int i = 0; i <= cells; i++) {
+    for (int j = 0; j <= cells; j++) {
+      double s = w->s[0] + (w->s[1] - w->s[0]) * i / cells;
+      double m = w->m[0] + (w->m[1] - w->m[0]) * j / cells;
       if (s >= -1.0 && s <= 1.0 && m > 0.0) {
         try_point(best, s, m);
       }
@@ -125,7 +126,7 @@ static void search_window(search *best, const baum_i_chart_window *w)
 /* From a window that holds the best point, LEVELS times closer. */
 static void close_in(search *best, baum_i_chart_window window)
 {
-  search_window(best, &window);
+  search_window(best, &window, LATTICE);
   double half_s = 0.5 * (window.s[1] - window.s[0]);
   double half_m = 0.5 * (window.m[1] - window.m[0]);
   for (int k = 0; k < LEVELS; k++) {
@@ -133,29 +134,34 @@ static void close_in(search *best, baum_i_chart_window window)
     half_m *= CLOSE_IN;
     window = (baum_i_chart_window){{best->s - half_s, best->s + half_s},
                                    {best->m - half_m, best->m + half_m}};
-    search_window(best, &window);
+    search_window(best, &window, FINE_LATTICE);
   }
+}
+
+bool baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2)
+{
+  double mu[2] = {0.0, 0.0};
+  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
+    *alpha_h = 0.5;
+    *beta2_h2 = 1.0;
+    return true;
+  }
+  if (method->kind != BAUM_I_METHOD_ONE_STEP || !find_zero(method, mu)) {
+    return false;
+  }
+  *alpha_h = -mu[0];
+  *beta2_h2 = mu[0] * mu[0] + mu[1] * mu[1];
+  return true;
 }
 
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2)
 {
-  double mu[2] = {0.0, 0.0};
-  search best = {.method = method, .growth = 0.0};
-  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
-    best.point[0] = 0.5;
-    best.point[1] = 1.0;
-  } else if (method->kind == BAUM_I_METHOD_ONE_STEP && find_zero(method, mu)) {
-    best.point[0] = -mu[0];
-    best.point[1] = mu[0] * mu[0] + mu[1] * mu[1];
-  } else {
-    double extent = baum_i_chart_extent(method, 0.0);
-    close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, fmin(extent, 1.0 / ZERO)}});
+  if (baum_i_stability_deadbeat(method, alpha_h, beta2_h2)) {
+    return;
   }
+  search best = {.method = method};
+  double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
+  close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];
   *beta2_h2 = best.point[1];
-}
-
-void baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2)
-{
-  baum_i_stability_best(method, alpha_h, beta2_h2);
 }

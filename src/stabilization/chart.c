@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double FARTHEST = 1e6; /* what reaches farther has no end */
-enum { COLUMNS = 48, ROWS = 512 };
+enum { COLUMNS = 48, ROWS = 512, BISECTIONS = 50 };
 
 void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
 {
@@ -27,6 +27,28 @@ void baum_i_chart_point(const baum_i_method *method, double s, double m, double 
   }
   if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
     point[0] -= 0.5 * point[1];
+  }
+}
+
+bool baum_i_chart_within(const baum_i_method *method, const double at[2], double growth)
+{
+  double point[2];
+  if (!(fabs(at[0]) <= 1.0) || at[1] < 0.0) {
+    return false;
+  }
+  baum_i_chart_point(method, at[0], at[1], point);
+  return baum_i_amplification_within(method, point[0], point[1], growth);
+}
+
+void baum_i_chart_edge(const baum_i_method *method, double growth, const double outside[2],
+                       double inside[2])
+{
+  double far[2] = {outside[0], outside[1]};
+  for (int k = 0; k < BISECTIONS; k++) {
+    double middle[2] = {0.5 * (inside[0] + far[0]), 0.5 * (inside[1] + far[1])};
+    double *end = baum_i_chart_within(method, middle, growth) ? inside : far;
+    end[0] = middle[0];
+    end[1] = middle[1];
   }
 }
 
@@ -61,9 +83,7 @@ static double bound(const baum_i_method *method, double radius)
 static bool reaches(const baum_i_method *method, double m, double growth)
 {
   for (int k = 0; k <= COLUMNS; k++) {
-    double point[2];
-    baum_i_chart_point(method, 2.0 * k / COLUMNS - 1.0, m, point);
-    if (baum_i_amplification_within(method, point[0], point[1], growth)) {
+    if (baum_i_chart_within(method, (const double[2]){2.0 * k / COLUMNS - 1.0, m}, growth)) {
       return true;
     }
   }

@@ -1,0 +1,295 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The public questions about stability: checks, then src/stabilization with the method that an integrator says it
+ * is. */
+#include "integrate/integrator.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+
+/* ---- checks ---- */
+
+static baum_status check_integrator(const baum_integrator *integrator)
+{
+  if (integrator) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "integrator is NULL, must be one such as baum_euler()");
+}
+
+/* Has it a region? */
+static baum_status check_fixed_step(const baum_integrator *integrator)
+{
+  baum_status status = check_integrator(integrator);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "%s chooses its step, so it has no fixed region of stability",
+                       integrator->name);
+  }
+  if (integrator->method.kind == BAUM_I_METHOD_WITHOUT_GAINS) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "%s keeps the constraints by itself, without gains, so it has no region of "
+                       "stability",
+                       integrator->name);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_finite(double value, const char *name)
+{
+  if (isfinite(value)) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g, must be finite", name, value);
+}
+
+static baum_status check_positive(double value, const char *name)
+{
+  if (value > 0.0 && isfinite(value)) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g, must be > 0 and finite", name, value);
+}
+
+static baum_status check_point(double alpha_h, double beta2_h2)
+{
+  baum_status status = check_finite(alpha_h, "alpha_h");
+  return status == BAUM_OK ? check_finite(beta2_h2, "beta2_h2") : status;
+}
+
+static baum_status check_out(const void *out, const char *name)
+{
+  if (out) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is NULL", name);
+}
+
+static baum_status check_pair(const void *first, const char *first_name, const void *second,
+                              const char *second_name)
+{
+  baum_status status = check_out(first, first_name);
+  return status == BAUM_OK ? check_out(second, second_name) : status;
+}
+
+/* Two arrays of `capacity` and their count. */
+static baum_status check_arrays(int32_t capacity, const void *first, const char *first_name,
+                                const void *second, const char *second_name, const int32_t *count)
+{
+  if (capacity < 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "capacity is %d, must be >= 0", (int)capacity);
+  }
+  baum_status status = check_out(count, "count");
+  if (status == BAUM_OK && capacity > 0) {
+    status = check_pair(first, first_name, second, second_name);
+  }
+  return status;
+}
+
+static baum_status check_range(const double range[2], const char *name)
+{
+  baum_status status = check_out(range, name);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (isfinite(range[0]) && isfinite(range[1])) {
+    return BAUM_OK;
+  }
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g to %g, must be finite", name, range[0], range[1]);
+}
+
+/* ---- at a point ---- */
+
+baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h, double beta2_h2,
+                              baum_amplification *out, size_t caller_size)
+{
+  baum_status status = check_integrator(integrator);
+  if (status == BAUM_OK) {
+    status = check_point(alpha_h, beta2_h2);
+  }
+  if (status == BAUM_OK) {
+    status = check_out(out, "out");
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "caller_size is %zu, must be sizeof *out", caller_size);
+  }
+  baum_amplification amplification;
+  memset(&amplification, 0, sizeof amplification);
+  baum_i_amplification(&integrator->method, alpha_h, beta2_h2, &amplification);
+  size_t size = caller_size < sizeof amplification ? caller_size : sizeof amplification;
+  amplification.struct_size = size;
+  memcpy(out, &amplification, size);
+  return BAUM_OK;
+}
+
+const char *baum_stability_statement(const baum_integrator *integrator)
+{
+  if (!integrator) {
+    return NULL;
+  }
+  if (integrator->without_freedom) {
+    return "Positions are solved from the constraints; there is nothing to stabilize.";
+  }
+  return baum_i_method_statement(&integrator->method, integrator->family,
+                                 integrator->advance != NULL);
+}
+
+/* ---- along a ray ---- */
+
+static baum_status check_ray(const baum_integrator *integrator, double damping_ratio)
+{
+  baum_status status = check_fixed_step(integrator);
+  return status == BAUM_OK ? check_positive(damping_ratio, "damping_ratio") : status;
+}
+
+baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
+                                 double *alpha_h)
+{
+  baum_status status = check_ray(integrator, damping_ratio);
+  if (status == BAUM_OK) {
+    status = check_out(alpha_h, "alpha_h");
+  }
+  if (status == BAUM_OK) {
+    *alpha_h = baum_i_stability_limit(&integrator->method, damping_ratio);
+  }
+  return status;
+}
+
+baum_status baum_stability_intervals(const baum_integrator *integrator, double damping_ratio,
+                                     int32_t capacity, double *from, double *to, int32_t *count)
+{
+  baum_status status = check_ray(integrator, damping_ratio);
+  if (status == BAUM_OK) {
+    status = check_arrays(capacity, from, "from", to, "to", count);
+  }
+  if (status == BAUM_OK) {
+    *count = baum_i_stability_intervals(&integrator->method, damping_ratio, capacity, from, to);
+  }
+  return status;
+}
+
+baum_status baum_stability_best_on_ray(const baum_integrator *integrator, double damping_ratio,
+                                       double *alpha_h)
+{
+  baum_status status = check_ray(integrator, damping_ratio);
+  if (status == BAUM_OK) {
+    status = check_out(alpha_h, "alpha_h");
+  }
+  if (status == BAUM_OK) {
+    *alpha_h = baum_i_stability_best_on_ray(&integrator->method, damping_ratio);
+  }
+  return status;
+}
+
+/* ---- in the plane ---- */
+
+static baum_status check_point_out(const baum_integrator *integrator, const double *alpha_h,
+                                   const double *beta2_h2)
+{
+  baum_status status = check_fixed_step(integrator);
+  return status == BAUM_OK ? check_pair(alpha_h, "alpha_h", beta2_h2, "beta2_h2") : status;
+}
+
+baum_status baum_stability_best(const baum_integrator *integrator, double *alpha_h,
+                                double *beta2_h2)
+{
+  baum_status status = check_point_out(integrator, alpha_h, beta2_h2);
+  if (status == BAUM_OK) {
+    baum_i_stability_best(&integrator->method, alpha_h, beta2_h2);
+  }
+  return status;
+}
+
+baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
+                                    double *beta2_h2)
+{
+  baum_status status = check_point_out(integrator, alpha_h, beta2_h2);
+  if (status != BAUM_OK || baum_i_stability_deadbeat(&integrator->method, alpha_h, beta2_h2)) {
+    return status;
+  }
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                     "%s remembers several steps, so no gains end a violation within one; "
+                     "baum_stability_best() has the point of fastest decay",
+                     integrator->name);
+}
+
+baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
+                                   double beta2_h2, double *good_alpha_h, double *good_beta2_h2)
+{
+  baum_status status = check_fixed_step(integrator);
+  if (status == BAUM_OK) {
+    status = check_point(alpha_h, beta2_h2);
+  }
+  if (status == BAUM_OK) {
+    status = check_pair(good_alpha_h, "good_alpha_h", good_beta2_h2, "good_beta2_h2");
+  }
+  if (status == BAUM_OK) {
+    baum_i_stability_nearest(&integrator->method, alpha_h, beta2_h2, good_alpha_h, good_beta2_h2);
+  }
+  return status;
+}
+
+static baum_status check_grid(const double alpha_h[2], const double beta2_h2[2], int32_t columns,
+                              int32_t rows, const double *radius)
+{
+  baum_status status = check_range(alpha_h, "alpha_h");
+  if (status == BAUM_OK) {
+    status = check_range(beta2_h2, "beta2_h2");
+  }
+  if (status == BAUM_OK && !(columns >= 1 && rows >= 1)) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "columns is %d and rows is %d, must be >= 1",
+                         (int)columns, (int)rows);
+  }
+  return status == BAUM_OK ? check_out(radius, "radius") : status;
+}
+
+/* Point k of n, both ends included. */
+static double share(const double range[2], int32_t k, int32_t n)
+{
+  double part = n > 1 ? (double)k / (n - 1) : 0.0;
+  return range[0] + (range[1] - range[0]) * part;
+}
+
+baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],
+                                const double beta2_h2[2], int32_t columns, int32_t rows,
+                                double *radius)
+{
+  baum_status status = check_fixed_step(integrator);
+  if (status == BAUM_OK) {
+    status = check_grid(alpha_h, beta2_h2, columns, rows, radius);
+  }
+  for (int32_t j = 0; status == BAUM_OK && j < rows; j++) {
+    for (int32_t i = 0; i < columns; i++) {
+      radius[(size_t)j * (size_t)columns + (size_t)i] =
+        1.0 + baum_i_amplification_growth(&integrator->method, share(alpha_h, i, columns),
+                                          share(beta2_h2, j, rows));
+    }
+  }
+  return status;
+}
+
+baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
+                                   int32_t capacity, double *alpha_h, double *beta2_h2,
+                                   int32_t *count)
+{
+  baum_status status = check_fixed_step(integrator);
+  if (status == BAUM_OK) {
+    status = check_positive(radius, "radius");
+  }
+  if (status == BAUM_OK) {
+    status = check_arrays(capacity, alpha_h, "alpha_h", beta2_h2, "beta2_h2", count);
+  }
+  if (status == BAUM_OK) {
+    baum_i_outline out = {.capacity = capacity, .alpha_h = alpha_h, .beta2_h2 = beta2_h2};
+    baum_i_stability_outline(&integrator->method, radius - 1.0, &out);
+    *count = out.count;
+  }
+  return status;
+}

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What gains do with a method, in words.
+ *
+ * Explicit with its own step: outside of the region of stability violations grow until the error
+ * test sees them, so the step settles where h s is at the edge (Hairer, Wanner 1996, IV.2).
+ * Adams-Moulton with fixed-point iteration: the iteration contracts while |h l_0 s| < 1 (l_0 <= 1),
+ * and beyond order 2 the regions are bounded too, so that it is like an explicit method.
+ * BDF of order k is A(a_k)-stable, a_5 = 51.84 degrees (Hairer, Wanner 1996, V.2); the roots of (17)
+ * are alpha / beta = cos(their angle to the negative axis), and cos 51.84 = 0.618.
+ */
+#include "stabilization/amplification.h"
+
+static const char *of_variable_step(baum_i_method_family family)
+{
+  switch (family) {
+  case BAUM_I_FAMILY_ADAMS:
+    return "Adams-Moulton with fixed-point iteration, variable step: error test and convergence "
+           "keep the step inside of the method's bounded region, h sqrt(alpha^2 + beta^2) of about "
+           "1, so that violations decay for any gains and high gains cost steps.";
+  case BAUM_I_FAMILY_BDF:
+    return "BDF, variable step: orders 1 to 5 are A(51.84 degrees)-stable, so that alpha / beta >= "
+           "0.618 damps violations at any alpha h; below that orders 3 to 5 may not, until the "
+           "error test shortens the step.";
+  case BAUM_I_FAMILY_EXPLICIT:
+  default:
+    return "Variable step: the error test keeps an explicit method inside of its region, so that "
+           "violations decay for any gains and high gains cost steps.";
+  }
+}
+
+const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
+                                    bool chooses_step)
+{
+  switch (method->kind) {
+  case BAUM_I_METHOD_VARIABLE_STEP: return of_variable_step(family);
+  case BAUM_I_METHOD_WITHOUT_GAINS:
+    return "Fixed step; the method keeps the constraints by itself and takes no gains.";
+  case BAUM_I_METHOD_ONE_STEP:
+  case BAUM_I_METHOD_SEMI_IMPLICIT:
+  case BAUM_I_METHOD_ADAMS_BASHFORTH:
+  default: break;
+  }
+  if (chooses_step) {
+    return "With a fixed step violations decay where the spectral radius at (alpha h, beta^2 h^2) "
+           "is "
+           "below 1. With steps of its own the same region caps the step: the error test keeps the "
+           "method inside, h up to (limit of alpha h) / alpha, and high gains cost steps.";
+  }
+  return "Fixed step: violations decay where the spectral radius at (alpha h, beta^2 h^2) is below "
+         "1, and grow where it is above.";
+}
