@@ -43,6 +43,14 @@ static const facts FACTS[] = {
    4,
    {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
    BAUM_GAINS_AUTO},
+  {"dp5",
+   5,
+   {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
+   BAUM_GAINS_AUTO},
+  {"rk8",
+   8,
+   {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
+   BAUM_GAINS_AUTO},
   {"ab2", 2, {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED}, BAUM_GAINS_AUTO},
   {"ab3", 3, {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED}, BAUM_GAINS_AUTO},
   {"ab4", 4, {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED}, BAUM_GAINS_AUTO},
@@ -74,6 +82,18 @@ static void integrators_tell_name_order_and_step(void **state)
   }
   assert_null(baum_integrator_at(COUNT));
   assert_null(baum_integrator_at(-1));
+}
+
+static void only_pairs_take_a_step_or_a_tolerance(void **state)
+{
+  (void)state;
+  for (int k = 0; k < COUNT; k++) {
+    const baum_integrator *integrator = baum_integrator_at(k);
+    bool pair = integrator == baum_dp5() || integrator == baum_rk8();
+    bool varies = pair || (FACTS[k].order == 0 && integrator != baum_kinematics());
+    assert_int_equal(baum_integrator_has_variable_step(integrator), varies);
+  }
+  assert_false(baum_integrator_has_variable_step(NULL));
 }
 
 static void no_integrator_has_no_facts(void **state)
@@ -295,6 +315,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(integrators_tell_name_order_and_step),
+    cmocka_unit_test(only_pairs_take_a_step_or_a_tolerance),
     cmocka_unit_test(no_integrator_has_no_facts),
     cmocka_unit_test(integrators_offer_their_formulations_default_first),
     cmocka_unit_test(formulations_have_names),
