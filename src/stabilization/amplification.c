@@ -43,7 +43,7 @@ static const double PI = 3.14159265358979323846;
 static const double ROOT_TOLERANCE = 1e-6;
 
 /* Of a test on the circle, relative: below this Schur and Cohn's test is not asked. */
-static const double UNDECIDED = 1e-10;
+static const double UNDECIDED = 1e-12;
 
 enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
 

@@ -13,7 +13,8 @@
  *
  * Adams-Bashforth methods remember, so they have no such point. Their least radius over the plane is
  * at complex mu: of two real ones the worse decides, and it does as well twice. There it is looked
- * for in the chart, on a lattice that closes in. The largest of several |z| has valleys with a sharp
+ * for in the chart, on a lattice that closes in on the best point so far, that of critical damping to
+ * begin with. The largest of several |z| has valleys with a sharp
  * bottom, along which a search by descent would stall; a lattice does not mind.
  */
 #include <math.h>
@@ -22,7 +23,8 @@
 #include "stabilization/chart.h"
 
 static const double PI = 3.14159265358979323846;
-static const double ZERO = 1e-10; /* |R| of a zero, and |Im mu| of a real one */
+static const double ZERO = 1e-10;  /* |R| of a zero, and |Im mu| of a real one */
+static const double EQUAL = 1e-12; /* of radii, where AB2 has a plateau */
 static const double CLOSE_IN = 0.6;
 static const double FARTHEST = 1e3; /* of the lattice for a region without end */
 enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 50 };
@@ -101,7 +103,7 @@ static void try_point(search *best, double s, double m)
     return;
   }
   double growth = baum_i_amplification_growth(best->method, point[0], point[1]);
-  if (growth < best->growth) {
+  if (growth < best->growth - EQUAL) {
     best->growth = growth;
     best->s = s;
     best->m = m;
@@ -161,6 +163,7 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
+  try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0)); /* often the best of all */
   close_in(&best, (baum_i_chart_window){{0.0, 1.0}, {0.0, extent}});
   *alpha_h = best.point[0];
   *beta2_h2 = best.point[1];

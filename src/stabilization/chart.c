@@ -13,7 +13,7 @@
 
 static const double PI = 3.14159265358979323846;
 static const double FARTHEST = 1e6; /* what reaches farther has no end */
-enum { COLUMNS = 48, ROWS = 512, BISECTIONS = 50 };
+enum { COLUMNS = 48, ROWS = 512 };
 
 void baum_i_chart_point(const baum_i_method *method, double s, double m, double point[2])
 {
@@ -40,11 +40,11 @@ bool baum_i_chart_within(const baum_i_method *method, const double at[2], double
   return baum_i_amplification_within(method, point[0], point[1], growth);
 }
 
-void baum_i_chart_edge(const baum_i_method *method, double growth, const double outside[2],
-                       double inside[2])
+void baum_i_chart_edge(const baum_i_method *method, double growth, int bisections,
+                       const double outside[2], double inside[2])
 {
   double far[2] = {outside[0], outside[1]};
-  for (int k = 0; k < BISECTIONS; k++) {
+  for (int k = 0; k < bisections; k++) {
     double middle[2] = {0.5 * (inside[0] + far[0]), 0.5 * (inside[1] + far[1])};
     double *end = baum_i_chart_within(method, middle, growth) ? inside : far;
     end[0] = middle[0];

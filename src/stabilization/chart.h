@@ -25,10 +25,10 @@ void baum_i_chart_point(const baum_i_method *method, double s, double m, double 
 /* Is spectral radius - 1 <= growth there? No point outside of the chart is. */
 bool baum_i_chart_within(const baum_i_method *method, const double at[2], double growth);
 
-/* The edge of the region between a place (s, m) inside and one outside, by bisection; `inside` is
- * moved there and stays inside. */
-void baum_i_chart_edge(const baum_i_method *method, double growth, const double outside[2],
-                       double inside[2]);
+/* The edge of the region between a place (s, m) inside and one outside, by so many bisections;
+ * `inside` is moved there and stays inside. */
+void baum_i_chart_edge(const baum_i_method *method, double growth, int bisections,
+                       const double outside[2], double inside[2]);
 
 /* A little more than the largest m where spectral radius - 1 <= growth; 0 when there is none,
  * infinite when there is no largest. Islands smaller than a fiftieth of the region may be missed. */

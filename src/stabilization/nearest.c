@@ -12,7 +12,7 @@
 static const double GOOD_GROWTH = -0.1; /* spectral radius 0.9 */
 static const double FARTHEST = 1e3;     /* of the lattice for a region without end */
 static const double AROUND = 2.0;       /* cells that the next lattice reaches */
-enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 14 };
+enum { CELLS = 96, FINE_CELLS = 16, LEVELS = 16, BISECTIONS = 8 };
 
 typedef struct lattice {
   const baum_i_method *method;
@@ -25,17 +25,11 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-static void node(const lattice *l, int i, int j, double at[2])
-{
-  at[0] = l->origin[0] + i * l->step[0];
-  at[1] = l->origin[1] + j * l->step[1];
-}
-
 static void try_crossing(lattice *l, const double inside[2], const double outside[2])
 {
   double at[2] = {inside[0], inside[1]};
   double point[2];
-  baum_i_chart_edge(l->method, GOOD_GROWTH, outside, at);
+  baum_i_chart_edge(l->method, GOOD_GROWTH, BISECTIONS, outside, at);
   baum_i_chart_point(l->method, at[0], at[1], point);
   double distance = hypot(point[0] - l->wanted[0], point[1] - l->wanted[1]);
   if (!l->found || distance < l->least) {
@@ -46,25 +40,32 @@ static void try_crossing(lattice *l, const double inside[2], const double outsid
   }
 }
 
-static void try_pair(lattice *l, int i, int j, int di, int dj)
+static bool look(const lattice *l, int i, int j, double at[2])
 {
-  double here[2];
-  double there[2];
-  node(l, i, j, here);
-  node(l, i + di, j + dj, there);
-  bool good = baum_i_chart_within(l->method, here, GOOD_GROWTH);
-  if (good != baum_i_chart_within(l->method, there, GOOD_GROWTH)) {
-    try_crossing(l, good ? here : there, good ? there : here);
-  }
+  at[0] = l->origin[0] + i * l->step[0];
+  at[1] = l->origin[1] + j * l->step[1];
+  return baum_i_chart_within(l->method, at, GOOD_GROWTH);
 }
 
-/* From one node beyond the lattice on, so that the border of the chart is an edge too. */
+/* One node beyond the lattice on every side, so that the border of the chart is an edge too. */
 static void cross_all(lattice *l)
 {
-  for (int i = -1; i <= l->cells; i++) {
-    for (int j = -1; j <= l->cells; j++) {
-      try_pair(l, i, j, 1, 0);
-      try_pair(l, i, j, 0, 1);
+  bool column[CELLS + 3] = {false}; /* the one before */
+  for (int i = -1; i <= l->cells + 1; i++) {
+    bool below = false;
+    for (int j = -1; j <= l->cells + 1; j++) {
+      double at[2];
+      bool good = look(l, i, j, at);
+      const double left[2] = {at[0] - l->step[0], at[1]};
+      const double under[2] = {at[0], at[1] - l->step[1]};
+      if (i >= 0 && good != column[j + 1]) {
+        try_crossing(l, good ? at : left, good ? left : at);
+      }
+      if (j >= 0 && good != below) {
+        try_crossing(l, good ? at : under, good ? under : at);
+      }
+      below = good;
+      column[j + 1] = good;
     }
   }
 }

@@ -15,6 +15,7 @@
 
 #include "stabilization/chart.h"
 
+enum { BISECTIONS = 42 };                /* from 1/160 down to some roundings */
 enum { CELLS = 160, NODES = CELLS + 3 }; /* one node beyond the chart on every side */
 enum { INSIDE = 1, ENTERED = 2 }; /* ENTERED: a curve has come in through edge 0 of the square */
 
@@ -72,7 +73,7 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
   place(m, square[0] + c[0], square[1] + c[1], inside);
   c = CORNER[(edge + 1) & 3];
   place(m, square[0] + c[0], square[1] + c[1], outside);
-  baum_i_chart_edge(m->method, m->growth, outside, inside);
+  baum_i_chart_edge(m->method, m->growth, BISECTIONS, outside, inside);
   baum_i_chart_point(m->method, inside[0], inside[1], point);
 }
 

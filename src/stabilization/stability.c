@@ -14,6 +14,7 @@
 static const double SCAN_RATIO = 1.01; /* of neighbouring b */
 static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
 static const double OVERDAMPED = 1e9;  /* zeta beyond which nothing changes any more */
+static const double EQUAL = 1e-13;     /* of radii: rounding */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
 static bool is_stable(const baum_i_method *method, double damping_ratio, double b)
@@ -105,7 +106,7 @@ static void try_point(const baum_i_method *method, double damping_ratio, double 
 {
   if (baum_i_amplification_within(method, damping_ratio * b, b * b, best->growth)) {
     double growth = baum_i_amplification_growth(method, damping_ratio * b, b * b);
-    if (growth < best->growth) {
+    if (growth < best->growth - EQUAL) {
       *best = (lowest){growth, b};
     }
   }
