@@ -6,11 +6,11 @@
 #include <stdbool.h>
 
 typedef struct baum_i_step_control {
-  double order;  /* the estimated error of a step grows with h^order */
-  double step;   /* [s] to try next */
-  double last;   /* error of the last accepted step */
-  bool refused;  /* a try from here has been refused */
-  bool measured; /* a step has been accepted */
+  double order;      /* the estimated error of a step grows with h^order */
+  double step;       /* [s] to try next */
+  double last_step;  /* [s] last one accepted; 0: none yet */
+  double last_error; /* its error */
+  bool refused;      /* a try from here has been refused */
 } baum_i_step_control;
 
 /* Begin with a first step. */

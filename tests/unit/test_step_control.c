@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Length of the next step: the formulas by hand, their bounds, and what control does with a known error. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "integrate/step_control.h"
+
+static baum_i_step_control begun(void)
+{
+  baum_i_step_control control;
+  baum_i_step_control_begin(&control, 5, 0.1);
+  assert_true(control.step == 0.1 && !control.refused);
+  return control;
+}
+
+static void the_first_step_goes_by_its_error_alone(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  baum_i_step_control_accept(&control, 0.1, 1.0 / 32.0);
+  ASSERT_NEAR(control.step, 0.1 * 0.85 * 2.0, 1e-15, 0.0);
+}
+
+/* Errors 1/32 and 1/32 with the same step: no trend, and the memory of the error before takes a little off. */
+static void a_steady_error_is_kept(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  baum_i_step_control_accept(&control, 0.1, 1.0 / 32.0);
+  baum_i_step_control_accept(&control, 0.1, 1.0 / 32.0);
+  double b = 0.1 / 5.0;
+  ASSERT_NEAR(control.step, 0.1 * 0.85 * pow(1.0 / 32.0, 1.75 * b - 0.2), 1e-15, 0.0);
+}
+
+/* The error doubles twice from one step to the next, and will again. */
+static void a_growing_error_is_foreseen(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  baum_i_step_control_accept(&control, 0.1, 0.125);
+  baum_i_step_control_accept(&control, 0.1, 0.5);
+  ASSERT_NEAR(control.step, 0.1 * 0.85 * pow(0.5 * 4.0, -0.2), 1e-15, 0.0);
+}
+
+static void steps_change_within_bounds(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  baum_i_step_control_accept(&control, 0.1, 0.0);
+  ASSERT_NEAR(control.step, 0.6, 1e-15, 0.0);
+  baum_i_step_control_refuse(&control, 0.6, 1e300);
+  ASSERT_NEAR(control.step, 0.12, 1e-15, 0.0);
+  baum_i_step_control_refuse(&control, 0.12, 1.0000001);
+  ASSERT_NEAR(control.step, 0.12 * 0.85, 1e-7, 0.0);
+  baum_i_step_control_refuse(&control, 0.1, (double)NAN);
+  ASSERT_NEAR(control.step, 0.05, 1e-15, 0.0);
+  baum_i_step_control_halve(&control, 0.05);
+  ASSERT_NEAR(control.step, 0.025, 1e-15, 0.0);
+}
+
+static void after_a_refusal_steps_do_not_grow_at_once(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  baum_i_step_control_refuse(&control, 0.1, 3.0);
+  baum_i_step_control_accept(&control, 0.05, 1e-6);
+  assert_true(control.step == 0.05);
+  baum_i_step_control_accept(&control, 0.05, 1e-6);
+  assert_true(control.step > 0.1);
+}
+
+/* Of an error c(t) h^5 whose c grows and falls by a hundred, one step in twenty is refused at most, and most of the
+ * tolerance is used: half of the steps have an error above a tenth of it. */
+static void a_varying_error_is_followed(void **state)
+{
+  (void)state;
+  baum_i_step_control control = begun();
+  int taken = 0;
+  int refused = 0;
+  int used = 0;
+  for (double t = 0.0; t < 100.0;) {
+    double h = control.step;
+    double error = exp(2.3 * sin(t)) * pow(10.0 * h, 5.0);
+    if (error > 1.0) {
+      baum_i_step_control_refuse(&control, h, error);
+      refused++;
+      continue;
+    }
+    baum_i_step_control_accept(&control, h, error);
+    t += h;
+    taken++;
+    used += error > 0.1 ? 1 : 0;
+  }
+  assert_true(20 * refused <= taken);
+  assert_true(2 * used >= taken);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_first_step_goes_by_its_error_alone),
+    cmocka_unit_test(a_steady_error_is_kept),
+    cmocka_unit_test(a_growing_error_is_foreseen),
+    cmocka_unit_test(steps_change_within_bounds),
+    cmocka_unit_test(after_a_refusal_steps_do_not_grow_at_once),
+    cmocka_unit_test(a_varying_error_is_followed),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
