@@ -36,7 +36,7 @@ static const double DENSE[] = {
   69997945.0 / 29380423.0,
 };
 
-static const baum_i_rk_pair PAIR = {
+const baum_i_rk_pair baum_i_dp5_pair = {
   .name = "dp5",
   .table = {.stages = 6, .c = C, .a = A, .b = B},
   .error_order = 5,
@@ -49,7 +49,7 @@ static const baum_i_rk_pair PAIR = {
 static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
 {
   (void)start;
-  return baum_i_rk_adaptive_create(&PAIR, problem, out);
+  return baum_i_rk_adaptive_create(&baum_i_dp5_pair, problem, out);
 }
 
 static const baum_integrator INTEGRATOR = {

@@ -2,9 +2,9 @@
 /* The method of order 8 with 12 stages of J. R. Dormand and P. J. Prince, with estimates of orders 5 and 3 and an
  * interpolant of order 7 by E. Hairer and G. Wanner: DOP853 (Hairer, Norsett, Wanner 1993, sections II.5, II.6 and II.10).
  *
- * Rates 6 and 9 to 12 and the three extra ones of the interpolant lie at 0.1, 0.2 and 7/9 of the step; the estimates
- * take no rate at its end. Numbers as in the authors' program, which gives 30 digits; estimate 3 is b less the weights
- * (0.2440..., 0.7338..., 0.0220...) of rates 1, 9 and 12.
+ * The estimates take no rate at the end of the step. The one of order 3 is b less the weights 0.2440..., 0.7338... and
+ * 0.0220... of rates 1, 9 and 12. Three extra rates of the interpolant lie at 0.1, 0.2 and 7/9 of the step. Numbers are
+ * those of the authors' program, which gives 30 digits, rounded.
  *
  * A violation obeys z = R(mu), R the exponential series up to mu^8 and then the table's own coefficients up to mu^12.
  */
@@ -268,7 +268,7 @@ static const double DENSE[] = {
   -149.72683625798564,
 };
 
-static const baum_i_rk_pair PAIR = {
+const baum_i_rk_pair baum_i_rk8_pair = {
   .name = "rk8",
   .table = {.stages = 12, .c = C, .a = A, .b = B},
   .error_order = 8,
@@ -285,7 +285,7 @@ static const baum_i_rk_pair PAIR = {
 static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
 {
   (void)start;
-  return baum_i_rk_adaptive_create(&PAIR, problem, out);
+  return baum_i_rk_adaptive_create(&baum_i_rk8_pair, problem, out);
 }
 
 static const baum_integrator INTEGRATOR = {

@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Tables of Runge-Kutta pairs against the conditions of order (J. Butcher; Hairer, Norsett, Wanner 1993, section II.2):
+ * a method with weights b and stages A has order p if, for every rooted tree t of up to p nodes,
+ *
+ *   sum_i b_i phi_i(t) = 1 / gamma(t),   phi_i(t) = product over the root's branches t' of sum_j a_ij phi_j(t'),
+ *                                        gamma(t) = |t| product of gamma(t')
+ *
+ * and an interpolant b(x) has it if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). Estimates are differences of methods: their
+ * sums vanish. There are 200 trees of up to 8 nodes.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "integrate/rk_adaptive.h"
+
+/* ---- rooted trees ---- */
+
+enum { TREES = 200, NODES_MAX = 8, STAGES_MAX = 16 };
+
+typedef struct tree {
+  int nodes;
+  int branch_count;
+  int branches[NODES_MAX]; /* numbers of smaller trees, none smaller than the one before */
+  double gamma;
+} tree;
+
+typedef struct forest {
+  tree trees[TREES];
+  int count;
+} forest;
+
+static void plant(forest *f, const tree *t)
+{
+  tree grown = *t;
+  grown.gamma = t->nodes;
+  for (int i = 0; i < t->branch_count; i++) {
+    grown.gamma *= f->trees[t->branches[i]].gamma;
+  }
+  assert_true(f->count < TREES);
+  f->trees[f->count++] = grown;
+}
+
+/* All ways to add branches with `missing` nodes in all, of trees from `first` on. */
+static void branch_out(forest *f, tree *t, int missing, int first)
+{
+  if (missing == 0) {
+    plant(f, t);
+    return;
+  }
+  for (int i = first; i < f->count && f->trees[i].nodes <= missing; i++) {
+    t->branches[t->branch_count++] = i;
+    branch_out(f, t, missing - f->trees[i].nodes, i);
+    t->branch_count--;
+  }
+}
+
+/* In the order of their nodes. */
+static void grow(forest *f)
+{
+  f->count = 0;
+  for (int nodes = 1; nodes <= NODES_MAX; nodes++) {
+    tree t = {.nodes = nodes};
+    branch_out(f, &t, nodes - 1, 0);
+  }
+  assert_int_equal(f->count, TREES);
+}
+
+/* ---- a pair as one matrix ---- */
+
+/* Stages of the step, its end, and the extra ones. */
+typedef struct matrix {
+  int n;
+  double a[STAGES_MAX][STAGES_MAX];
+  double c[STAGES_MAX];
+} matrix;
+
+static void fill(const baum_i_rk_pair *pair, matrix *m)
+{
+  const baum_i_rk_table *table = &pair->table;
+  int s = table->stages;
+  const double *row = table->a;
+  memset(m, 0, sizeof *m);
+  m->n = s + 1 + pair->extra;
+  for (int i = 1; i < s; row += i, i++) {
+    memcpy(m->a[i], row, (size_t)i * sizeof *row);
+  }
+  memcpy(m->a[s], table->b, (size_t)s * sizeof *row);
+  row = pair->extra_a;
+  for (int i = s + 1; i < m->n; row += i, i++) {
+    memcpy(m->a[i], row, (size_t)i * sizeof *row);
+  }
+  memcpy(m->c, table->c, (size_t)s * sizeof *row);
+  m->c[s] = 1.0;
+  for (int i = 0; i < pair->extra; i++) {
+    m->c[s + 1 + i] = pair->extra_c[i];
+  }
+}
+
+/* phi of all trees at all stages. */
+static void weigh(const forest *f, const matrix *m, double phi[TREES][STAGES_MAX])
+{
+  for (int k = 0; k < f->count; k++) {
+    for (int i = 0; i < m->n; i++) {
+      phi[k][i] = 1.0;
+      for (int b = 0; b < f->trees[k].branch_count; b++) {
+        double sum = 0.0;
+        for (int j = 0; j < i; j++) {
+          sum += m->a[i][j] * phi[f->trees[k].branches[b]][j];
+        }
+        phi[k][i] *= sum;
+      }
+    }
+  }
+}
+
+/* A pair and the weights of its trees. */
+typedef struct scene {
+  const baum_i_rk_pair *pair;
+  const baum_integrator *integrator;
+  int dense_order;
+  int error_order;  /* up to which the estimates vanish */
+  int error3_order; /* 0: there is none */
+  forest trees;
+  matrix m;
+  double phi[TREES][STAGES_MAX];
+} scene;
+
+static scene *scenes(void)
+{
+  static scene both[2] = {
+    {.pair = &baum_i_dp5_pair, .dense_order = 4, .error_order = 4},
+    {.pair = &baum_i_rk8_pair, .dense_order = 7, .error_order = 5, .error3_order = 3}};
+  both[0].integrator = baum_dp5();
+  both[1].integrator = baum_rk8();
+  for (int k = 0; k < 2; k++) {
+    grow(&both[k].trees);
+    fill(both[k].pair, &both[k].m);
+    weigh(&both[k].trees, &both[k].m, both[k].phi);
+  }
+  return both;
+}
+
+static double sum_of(const scene *s, const double *weights, int count, int k)
+{
+  double sum = 0.0;
+  for (int i = 0; i < count; i++) {
+    sum += weights[i] * s->phi[k][i];
+  }
+  return sum;
+}
+
+/* ---- conditions ---- */
+
+/* Entries of the tables are up to 358 and rounded to 16 digits. */
+static const double ROUNDING = 1e-13;
+
+static void rows_add_up_to_their_times(void **state)
+{
+  (void)state;
+  scene *all = scenes();
+  for (int k = 0; k < 2; k++) {
+    const matrix *m = &all[k].m;
+    for (int i = 0; i < m->n; i++) {
+      double sum = 0.0;
+      for (int j = 0; j < i; j++) {
+        sum += m->a[i][j];
+      }
+      ASSERT_NEAR(sum, m->c[i], 0.0, ROUNDING);
+    }
+  }
+}
+
+static bool fulfils(const scene *s, int k)
+{
+  const tree *t = &s->trees.trees[k];
+  double sum = sum_of(s, s->pair->table.b, s->pair->table.stages, k);
+  return fabs(sum - 1.0 / t->gamma) <= ROUNDING;
+}
+
+static void all_trees_up_to_the_order_and_not_beyond(void **state)
+{
+  (void)state;
+  scene *all = scenes();
+  for (int k = 0; k < 2; k++) {
+    int order = baum_integrator_order(all[k].integrator);
+    int failures = 0;
+    for (int i = 0; i < TREES; i++) {
+      bool wanted = all[k].trees.trees[i].nodes <= order;
+      assert_true(!wanted || fulfils(&all[k], i));
+      failures += !wanted && !fulfils(&all[k], i);
+    }
+    assert_true(order == NODES_MAX || failures > 0);
+  }
+}
+
+static void check_vanishing(const scene *s, const double *weights, int order)
+{
+  double beyond = 0.0;
+  for (int i = 0; i < TREES; i++) {
+    double sum = sum_of(s, weights, s->pair->error_count, i);
+    int nodes = s->trees.trees[i].nodes;
+    if (nodes <= order) {
+      ASSERT_NEAR(sum, 0.0, 0.0, ROUNDING);
+    } else if (nodes == order + 1) {
+      beyond = fmax(beyond, fabs(sum));
+    }
+  }
+  assert_true(beyond > 1e-6);
+}
+
+static void estimates_vanish_up_to_their_order(void **state)
+{
+  (void)state;
+  scene *all = scenes();
+  for (int k = 0; k < 2; k++) {
+    check_vanishing(&all[k], all[k].pair->error, all[k].error_order);
+    if (all[k].pair->error3) {
+      check_vanishing(&all[k], all[k].pair->error3, all[k].error3_order);
+    }
+  }
+}
+
+/* Weights of the interpolant at x of a step of length 1, from the nested form of rk_adaptive.c. */
+static void interpolate(const scene *s, double x, double *weights)
+{
+  const baum_i_rk_pair *pair = s->pair;
+  int stages = pair->table.stages;
+  for (int i = 0; i < s->m.n; i++) {
+    double b = i < stages ? pair->table.b[i] : 0.0;
+    double f[8] = {b, (i == 0) - b, 2.0 * b - (i == 0) - (i == stages)};
+    for (int k = 0; k < pair->dense; k++) {
+      f[3 + k] = pair->dense_row[k * s->m.n + i];
+    }
+    double value = 0.0;
+    for (int k = 2 + pair->dense; k >= 0; k--) {
+      value = (value + f[k]) * (k % 2 == 0 ? x : 1.0 - x);
+    }
+    weights[i] = value;
+  }
+}
+
+static void interpolants_fulfil_all_trees_up_to_their_order(void **state)
+{
+  (void)state;
+  scene *all = scenes();
+  for (int k = 0; k < 2; k++) {
+    for (double x = 0.125; x < 1.1; x += 0.125) {
+      double weights[STAGES_MAX];
+      interpolate(&all[k], x, weights);
+      for (int i = 0; i < TREES; i++) {
+        const tree *t = &all[k].trees.trees[i];
+        if (t->nodes <= all[k].dense_order) {
+          ASSERT_NEAR(sum_of(&all[k], weights, all[k].m.n, i), pow(x, t->nodes) / t->gamma, 0.0,
+                      ROUNDING);
+        }
+      }
+    }
+  }
+}
+
+/* R(mu) = 1 + sum mu^k b A^(k-1) 1. */
+static void the_stability_polynomial_is_that_of_the_table(void **state)
+{
+  (void)state;
+  scene *all = scenes();
+  for (int k = 0; k < 2; k++) {
+    const baum_i_method *method = &all[k].integrator->method;
+    int stages = all[k].pair->table.stages;
+    double power[STAGES_MAX];
+    assert_int_equal(method->kind, BAUM_I_METHOD_ONE_STEP);
+    assert_int_equal(method->degree, stages);
+    assert_true(method->coefficients[0] == 1.0);
+    for (int i = 0; i < stages; i++) {
+      power[i] = 1.0;
+    }
+    for (int d = 1; d <= stages; d++) {
+      double sum = 0.0;
+      for (int i = stages - 1; i >= 0; i--) {
+        sum += all[k].pair->table.b[i] * power[i];
+        double next = 0.0;
+        for (int j = 0; j < i; j++) {
+          next += all[k].m.a[i][j] * power[j];
+        }
+        power[i] = next;
+      }
+      /* The last of rk8 is 3.6e-10. */
+      ASSERT_NEAR(method->coefficients[d], sum, 1e-9, 1e-17);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(rows_add_up_to_their_times),
+    cmocka_unit_test(all_trees_up_to_the_order_and_not_beyond),
+    cmocka_unit_test(estimates_vanish_up_to_their_order),
+    cmocka_unit_test(interpolants_fulfil_all_trees_up_to_their_order),
+    cmocka_unit_test(the_stability_polynomial_is_that_of_the_table),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
