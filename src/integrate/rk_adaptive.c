@@ -98,7 +98,8 @@ static baum_status fail_short(const adaptive_run *run, const baum_i_problem *pro
     BAUM_ERR_STEP,
     "t = %.9g s: %s: a step of %.3g s is too short beside the time; the error stays "
     "above the tolerance however small the step: a force may jump here, the pose "
-    "may be near a singular one, or rtol = %g is too small",
+    "may be near a singular one, the motion may grow without bound, or rtol = %g "
+    "is too small",
     run->t, run->pair->name, h, problem->rtol);
 }
 

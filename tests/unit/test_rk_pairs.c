@@ -1,0 +1,397 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Runge-Kutta pairs with steps of their own choice: the interpolant, what it leaves alone, what a step costs, and what
+ * makes a step shorter. Their tables: test_rk_tables.c. What they share with all integrators: test_integrators.c. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/planar.h>
+
+#include "assert_near.h"
+#include "integrator_run.h"
+
+/* ---- both pairs in all formulations ---- */
+
+typedef struct method {
+  const baum_integrator *integrator;
+  baum_formulation formulation;
+  int dense_order;
+} method;
+
+typedef void battery_fn(const method *m);
+
+static void for_each(battery_fn *test)
+{
+  const baum_integrator *const pairs[2] = {baum_dp5(), baum_rk8()};
+  static const int dense_orders[2] = {4, 7};
+  for (int k = 0; k < 2; k++) {
+    for (const baum_formulation *f = pairs[k]->formulations; *f; f++) {
+      test(&(method){pairs[k], *f, dense_orders[k]});
+    }
+  }
+}
+
+static void open_run(integrator_run *run, baum_mechanism *mechanism, const method *m, double rtol)
+{
+  integrator_setup setup = integrator_setup_make(mechanism, m->integrator, m->formulation);
+  setup.fixed = false;
+  setup.rtol = rtol;
+  assert_int_equal(integrator_run_open(run, &setup), BAUM_OK);
+}
+
+static void look(integrator_run *run, double t)
+{
+  baum_status status = run->integrator->interpolate(run->self, &run->problem, t, run->q, run->v);
+  if (status != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+static int64_t rejected(const integrator_run *run)
+{
+  baum_i_statistics statistics;
+  run->integrator->statistics(run->self, &statistics);
+  return statistics.rejected;
+}
+
+/* ---- the interpolant ---- */
+
+/* Largest error inside a first step of length h, which is 10 % of what the tolerance would allow. */
+static double error_inside(const method *m, double h)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_run run;
+  double largest = 0.0;
+  open_run(&run, mechanism, m, 0.5);
+  run.problem.max_step = h;
+  assert_int_equal(integrator_run_step(&run), BAUM_OK);
+  assert_true(run.state.t == h);
+  for (int i = 1; i < 8; i++) {
+    double q[2];
+    double v[2];
+    pendulum_motion(0.125 * i * h, q, v);
+    look(&run, 0.125 * i * h);
+    largest = fmax(largest, motion_error(2, run.q, run.v, q, v, 4.43));
+  }
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+  return largest;
+}
+
+/* The error of one step falls with h^(order + 1), a little faster where terms beyond that still show: steps for which
+ * they do not would end in rounding. */
+static void fall_inside(const method *m)
+{
+  double longest = m->dense_order == 4 ? 0.1 : 0.2;
+  double first = error_inside(m, longest);
+  double last = error_inside(m, 0.25 * longest);
+  double order = log2(first / last) / 2.0 - 1.0;
+  if (!(order >= m->dense_order - 0.2 && order <= m->dense_order + 0.8)) {
+    fail_msg("%s, %s: order %.2f inside a step, errors %.3g and %.3g", m->integrator->name,
+             baum_formulation_name(m->formulation), order, first, last);
+  }
+}
+
+static void interpolants_have_their_order(void **state)
+{
+  (void)state;
+  for_each(fall_inside);
+}
+
+/* q' by differences of second order from one end of the step inwards, over 1e-4 of it. */
+static double rate_at_end(integrator_run *run, double t, double inwards, double at_end)
+{
+  look(run, t + inwards);
+  double near = run->q[0];
+  look(run, t + 2.0 * inwards);
+  return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
+}
+
+/* Values and rates at both ends of every step are those of the states there, so that they go on from step to step. */
+static void join(const method *m)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_run run;
+  open_run(&run, mechanism, m, 1e-5);
+  while (run.state.t < 2.0) {
+    baum_i_state before = {.t = run.state.t};
+    double q[2] = {run.state_q[0], run.state_q[1]};
+    double v[2] = {run.state_v[0], run.state_v[1]};
+    assert_int_equal(integrator_run_step(&run), BAUM_OK);
+    look(&run, before.t);
+    assert_memory_equal(run.q, q, sizeof q);
+    assert_memory_equal(run.v, v, sizeof v);
+    double inwards = 1e-4 * (run.state.t - before.t);
+    /* (1e-4 h)^2 q''' / 3 with h < 0.3 and q''' < 100. */
+    ASSERT_NEAR(rate_at_end(&run, before.t, inwards, q[0]), v[0], 0.0, 1e-7);
+    ASSERT_NEAR(rate_at_end(&run, run.state.t, -inwards, run.state_q[0]), run.state_v[0], 0.0,
+                1e-7);
+    look(&run, run.state.t);
+    for (int i = 0; i < 2; i++) {
+      ASSERT_NEAR(run.q[i], run.state_q[i], 0.0, 1e-15);
+      ASSERT_NEAR(run.v[i], run.state_v[i], 0.0, 1e-14);
+    }
+  }
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void steps_join_with_value_and_rate(void **state)
+{
+  (void)state;
+  for_each(join);
+}
+
+/* Bit for bit, and at no cost but the extra stages, once for each step. */
+static void look_at_every_step(const method *m)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_run plain;
+  integrator_run watched;
+  open_run(&plain, mechanism, m, 1e-6);
+  open_run(&watched, mechanism, m, 1e-6);
+  int extra = m->dense_order == 7 ? 3 : 0;
+  int64_t looked = 0;
+  while (plain.state.t < 3.0) {
+    double begin = watched.state.t;
+    assert_int_equal(integrator_run_step(&plain), BAUM_OK);
+    assert_int_equal(integrator_run_step(&watched), BAUM_OK);
+    assert_true(plain.state.t == watched.state.t);
+    assert_memory_equal(plain.state_q, watched.state_q, 2 * sizeof(double));
+    assert_memory_equal(plain.state_v, watched.state_v, 2 * sizeof(double));
+    for (int i = 0; i < 3; i++) {
+      look(&watched, begin + 0.3 * i * (watched.state.t - begin));
+    }
+    looked++;
+  }
+  assert_int_equal(watched.workspace->evaluations - plain.workspace->evaluations, looked * extra);
+  integrator_run_close(&plain);
+  integrator_run_close(&watched);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void who_looks_inside_does_not_alter_the_motion(void **state)
+{
+  (void)state;
+  for_each(look_at_every_step);
+}
+
+/* ---- steps ---- */
+
+/* One evaluation for each stage; the first step begins with one more. */
+static void count_evaluations(const method *m)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_run run;
+  open_run(&run, mechanism, m, 1e-6);
+  run.problem.max_step = 0.02;
+  int64_t before = run.workspace->evaluations;
+  assert_int_equal(integrator_run_to(&run, 0.2), BAUM_OK);
+  assert_int_equal(rejected(&run), 0);
+  int extra = m->dense_order == 7 && run.state.t != 0.2 ? 3 : 0;
+  int stages = m->dense_order == 4 ? 6 : 12;
+  assert_int_equal(run.workspace->evaluations - before, 1 + stages * run.steps + extra);
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void a_step_costs_one_evaluation_for_each_stage(void **state)
+{
+  (void)state;
+  for_each(count_evaluations);
+}
+
+static void keep_below(const method *m)
+{
+  for (int sign = -1; sign <= 1; sign += 2) {
+    baum_mechanism *mechanism = make_pendulum();
+    integrator_run run;
+    open_run(&run, mechanism, m, 1e-2);
+    run.problem.max_step = 0.03;
+    run.problem.direction = sign;
+    double before = 0.0;
+    while (fabs(run.state.t) < 0.5) {
+      assert_int_equal(integrator_run_step(&run), BAUM_OK);
+      double h = sign * (run.state.t - before);
+      assert_true(h > 0.0 && h <= 0.03 + 1e-16); /* as rounded beside the time */
+      before = run.state.t;
+    }
+    integrator_run_close(&run);
+    baum_mechanism_destroy(mechanism);
+  }
+}
+
+static void no_step_is_longer_than_the_longest(void **state)
+{
+  (void)state;
+  for_each(keep_below);
+}
+
+/* A longest step may change between steps. */
+static void a_longest_step_acts_at_once(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_throw();
+  integrator_run run;
+  open_run(&run, mechanism, &(method){baum_rk8(), BAUM_FORMULATION_BAUMGARTE, 7}, 1e-2);
+  for (int k = 1; k <= 5; k++) {
+    double before = run.state.t;
+    run.problem.max_step = 0.01 * k;
+    assert_int_equal(integrator_run_step(&run), BAUM_OK);
+    ASSERT_NEAR(run.state.t - before, 0.01 * k, 0.0, 1e-15);
+  }
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- what makes a step shorter ---- */
+
+/* A force of zero that fails in the calls from..from + times - 1. */
+typedef struct hiccup {
+  int calls;
+  int from;
+  int times;
+  int answer; /* 0: a value that is not a number */
+} hiccup;
+
+static int answer_hiccup(double t, const double *q, const double *v, const double *inputs,
+                         double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  hiccup *h = user;
+  int call = h->calls++;
+  bool fails = call >= h->from && call < h->from + h->times;
+  if (fails && h->answer == 0) {
+    out[0] = (double)NAN;
+    return 0;
+  }
+  return fails ? h->answer : 0;
+}
+
+static baum_mechanism *make_hiccup(hiccup *h)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  baum_user_force_def force = baum_user_force_def_default();
+  baum_body_id id;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  bob.position[0] = 1.0;
+  bob.velocity[0] = bob.velocity[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bob, &id), BAUM_OK);
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = id;
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  assert_int_equal(baum_mechanism_add_planar_distance(mechanism, &rod, NULL), BAUM_OK);
+  force.bodies = &id;
+  force.body_count = 1;
+  force.force = answer_hiccup;
+  force.user = h;
+  assert_int_equal(baum_mechanism_add_user_force(mechanism, &force, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  return mechanism;
+}
+
+/* Wherever in a step it fails, the step is taken again at half its length, and the motion is right. */
+static void get_over(const method *m)
+{
+  for (int answer = 0; answer <= 1; answer++) {
+    for (int from = 1; from <= 26; from++) {
+      hiccup h = {.answer = answer, .times = 0};
+      baum_mechanism *mechanism = make_hiccup(&h);
+      integrator_run run;
+      double q[2];
+      double v[2];
+      open_run(&run, mechanism, m, 1e-8);
+      run.problem.max_step = 0.05;
+      assert_int_equal(integrator_run_to(&run, 0.06), BAUM_OK);
+      h = (hiccup){.answer = answer, .from = from, .times = 2};
+      int64_t before = rejected(&run);
+      assert_int_equal(integrator_run_to(&run, 1.0), BAUM_OK);
+      assert_in_range(rejected(&run) - before, 2, 2);
+      pendulum_motion(1.0, q, v);
+      assert_true(motion_error(2, run.q, run.v, q, v, 4.43) <= 1e-6);
+      integrator_run_close(&run);
+      baum_mechanism_destroy(mechanism);
+    }
+  }
+}
+
+static void evaluations_that_fail_for_a_while_are_got_over(void **state)
+{
+  (void)state;
+  for_each(get_over);
+}
+
+/* x'' = x'^2, x'(0) = 1 ends at t = 1, where x' = 1 / (1 - t) is infinite. */
+static int push(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)t;
+  (void)q;
+  (void)inputs;
+  (void)user;
+  out[0] = v[0] * v[0];
+  return 0;
+}
+
+static int unit_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static void a_motion_without_bound_ends_in_steps_too_short(void **state)
+{
+  (void)state;
+  static const double SPEED[1] = {1.0};
+  const baum_integrator *const pairs[2] = {baum_dp5(), baum_rk8()};
+  for (int k = 0; k < 2; k++) {
+    baum_mechanism *mechanism = NULL;
+    baum_coordinates_def def = baum_coordinates_def_default();
+    integrator_run run;
+    def.size = 1;
+    def.v = SPEED;
+    def.mass = unit_mass;
+    def.force = push;
+    assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+    assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
+    assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+    assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+    open_run(&run, mechanism, &(method){pairs[k], BAUM_FORMULATION_UNSTABILIZED, 0}, 1e-6);
+    assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
+    assert_non_null(strstr(baum_message(), "grow without bound"));
+    assert_non_null(strstr(baum_message(), pairs[k]->name));
+    /* The last good state: x' still follows, to the errors of the time of the end that it gathers. */
+    assert_true(isfinite(run.state_q[0]) && isfinite(run.state_v[0]));
+    ASSERT_NEAR(run.state.t, 1.0, 0.0, 1e-4);
+    integrator_run_close(&run);
+    baum_mechanism_destroy(mechanism);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(interpolants_have_their_order),
+    cmocka_unit_test(steps_join_with_value_and_rate),
+    cmocka_unit_test(who_looks_inside_does_not_alter_the_motion),
+    cmocka_unit_test(a_step_costs_one_evaluation_for_each_stage),
+    cmocka_unit_test(no_step_is_longer_than_the_longest),
+    cmocka_unit_test(a_longest_step_acts_at_once),
+    cmocka_unit_test(evaluations_that_fail_for_a_while_are_got_over),
+    cmocka_unit_test(a_motion_without_bound_ends_in_steps_too_short),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
