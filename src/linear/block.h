@@ -55,10 +55,10 @@ typedef struct baum_i_full_node {
   int32_t side_count;
 } baum_i_full_node;
 
-/* One number of J in a full side. */
+/* One column of J in a full side. */
 typedef struct baum_i_side_entry {
-  int32_t to;   /* in side[] */
-  int32_t from; /* in the values of J */
+  int32_t to;      /* in side[] */
+  int32_t from[2]; /* in the values of J; the second -1: the node has one row */
 } baum_i_side_entry;
 
 /* A coupling of two pins by one body. */

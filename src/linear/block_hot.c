@@ -224,46 +224,58 @@ static baum_i_pivots eliminate(baum_i_block *b)
   return weakest(b) > bad_pivot ? BAUM_I_PIVOTS_WEAK : BAUM_I_PIVOTS_BAD;
 }
 
-/* lambda of a node minus L^T lambda of those that it is coupled with, which begin at x. */
-static inline baum_i_pair substitute_one(const baum_i_node *nodes, const double *x,
-                                         const int32_t *later, ptrdiff_t count, baum_i_pair lambda)
+/* Couplings that are still to be taken, from the last to the first. */
+typedef struct couplings {
+  const int32_t *start; /* of each node, in later[] and in off[] */
+  const int32_t *later;
+  const double *off;
+  baum_i_node *nodes;
+  ptrdiff_t end; /* of those of the next node */
+} couplings;
+
+/* lambda_k -= sum of L^T lambda_later */
+static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
 {
-  for (ptrdiff_t e = 0; e < count; e++, x += 4) {
-    const double *l = nodes[later[e]].lambda;
-    lambda -= baum_i_both(l[0]) * baum_i_load(x) + baum_i_both(l[1]) * baum_i_load(x + 2);
+  baum_i_pair lambda = baum_i_load(c->nodes[k].lambda);
+  ptrdiff_t first = c->start[k];
+  for (ptrdiff_t e = first; e < c->end; e++) {
+    const double *x = c->off + 4 * e;
+    const double *l = c->nodes[c->later[e]].lambda;
+    lambda -= l[0] * baum_i_load(x) + l[1] * baum_i_load(x + 2);
   }
+  c->end = first;
+  baum_i_store(c->nodes[k].lambda, lambda);
   return lambda;
 }
 
-/* From the last node to the first: lambda_k -= sum of L^T lambda_later, and what it does to the motion,
- * which fills the time that the next lambda waits for this one. rows (nc), where lambda of pins is wanted,
- * or NULL. */
+/* From the last node to the first, and what each lambda does to the motion, which fills the time that
+ * the next one waits for it. rows (nc), where lambda of pins is wanted, or NULL. */
 static inline void backward(const baum_i_block *b, double *rows)
 {
-  const int32_t *start = b->order.start;
-  const int32_t *later = b->order.later + b->off_count;
-  const double *x = b->off + 4 * (ptrdiff_t)b->off_count;
+  couplings c = {.start = b->order.start,
+                 .later = b->order.later,
+                 .off = b->off,
+                 .nodes = b->nodes,
+                 .end = b->off_count};
   const double *arm = b->arm + 4 * (ptrdiff_t)b->pin_count;
   const double *weight = b->pin_weight + 4 * (ptrdiff_t)b->pin_count;
-  const baum_i_pin_node *pin = b->pins + b->pin_count;
   double *motion = b->motion;
-  baum_i_node *nodes = b->nodes;
-  for (ptrdiff_t k = b->node_count - 1; k >= 0; k--) {
-    ptrdiff_t count = start[k + 1] - start[k];
-    x -= 4 * count;
-    later -= count;
-    baum_i_pair lambda = substitute_one(nodes, x, later, count, baum_i_load(nodes[k].lambda));
-    baum_i_store(nodes[k].lambda, lambda);
-    /* Pins stand in the order of nodes. */
-    if (pin > b->pins && pin[-1].node == k) {
-      pin--;
-      arm -= 4;
-      weight -= 4;
-      if (rows) {
-        baum_i_store(rows + pin->row, lambda);
-      }
-      scatter_pin(pin, arm, weight, lambda, motion);
+  ptrdiff_t k = b->node_count - 1;
+  /* Pins stand in the order of nodes. */
+  for (const baum_i_pin_node *pin = b->pins + b->pin_count; pin-- > b->pins;) {
+    for (ptrdiff_t next = pin->node; k > next; k--) {
+      (void)backward_one(&c, k);
     }
+    baum_i_pair lambda = backward_one(&c, k--);
+    if (rows) {
+      baum_i_store(rows + pin->row, lambda);
+    }
+    arm -= 4;
+    weight -= 4;
+    scatter_pin(pin, arm, weight, lambda, motion);
+  }
+  for (; k >= 0; k--) {
+    (void)backward_one(&c, k);
   }
   for (int i = 0; i < b->full_count; i++) {
     scatter_full(b, &b->fulls[i]);
@@ -442,23 +454,22 @@ static void read_lambda(const baum_i_block *b, bool pins, double *lambda)
  * that none waits for itself. */
 static bool copy_finite(const double *x, ptrdiff_t count, double *to)
 {
-  enum { SUMS = 4, SOME = 2 * SUMS };
-  baum_i_pair sum[SUMS] = {{0.0, 0.0}};
+  baum_i_pair sum[2] = {{0.0, 0.0}, {0.0, 0.0}};
   ptrdiff_t i = 0;
-  for (; i + SOME <= count; i += SOME) {
-    for (ptrdiff_t k = 0; k < SUMS; k++) {
-      baum_i_pair some = baum_i_load(x + i + 2 * k);
-      baum_i_store(to + i + 2 * k, some);
-      sum[k] += 0.0 * some;
-    }
+  for (; i + 4 <= count; i += 4) {
+    baum_i_pair first = baum_i_load(x + i);
+    baum_i_pair second = baum_i_load(x + i + 2);
+    baum_i_store(to + i, first);
+    baum_i_store(to + i + 2, second);
+    sum[0] += 0.0 * first;
+    sum[1] += 0.0 * second;
   }
-  baum_i_pair all = (sum[0] + sum[1]) + (sum[2] + sum[3]);
-  double rest = all[0] + all[1];
   for (; i < count; i++) {
     to[i] = x[i];
-    rest += 0.0 * x[i];
+    sum[0][0] += 0.0 * x[i];
   }
-  return rest == 0.0;
+  sum[0] += sum[1];
+  return sum[0][0] + sum[0][1] == 0.0;
 }
 
 static bool read_motion(const baum_i_block *b, double *a)

@@ -145,9 +145,12 @@ static void set_node(const baum_i_block *b, const baum_i_full_node *full,
 
 static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
 {
+  const double *jacobian = rows->jacobian;
   const baum_i_side_entry *end = b->entries + b->entry_count;
+  double *side = b->side;
   for (const baum_i_side_entry *entry = b->entries; entry < end; entry++) {
-    b->side[entry->to] = rows->jacobian[entry->from];
+    double second = entry->from[1] < 0 ? 0.0 : jacobian[entry->from[1]];
+    baum_i_store(side + entry->to, (baum_i_pair){jacobian[entry->from[0]], second});
   }
   whiten(b);
   if (b->full_count > 0) {

@@ -184,17 +184,16 @@ static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *r
     status = find_side(u, u->triple_of[body] + j / 3, &number);
   }
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
-  for (int r = 0; r < 2 && status == BAUM_OK; r++) {
-    if (node->row[r] >= 0) {
-      baum_i_side_entry *entry = baum_i_vector_append(&u->entries);
-      if (!entry) {
-        return BAUM_ERR_MEMORY;
-      }
-      entry->to = 6 * number + 2 * (j % 3) + r;
-      entry->from = rows->value + (node->row[r] - rows->row) * rows->cols + c;
-    }
+  baum_i_side_entry *entry = status == BAUM_OK ? baum_i_vector_append(&u->entries) : NULL;
+  if (!entry) {
+    return BAUM_ERR_MEMORY;
   }
-  return status;
+  entry->to = 6 * number + 2 * (j % 3);
+  for (int r = 0; r < 2; r++) {
+    int32_t row = node->row[r];
+    entry->from[r] = row < 0 ? -1 : rows->value + (row - rows->row) * rows->cols + c;
+  }
+  return BAUM_OK;
 }
 
 static baum_status add_full(baum_i_block_builder *u, const baum_i_row_block *rows,

@@ -2,9 +2,13 @@
 /* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent nodes:
  * J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. The graphs of
  * joints are sparse and stay so; where they do not, the caller wants another solver anyway.
+ *
+ * A node whose neighbours are all coupled already makes no fill whatever its degree is. Such nodes come first, so
+ * that a round takes all ends of a mechanism, not the thinnest only.
  */
 #include "linear/elimination.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 
 #include "base/alloc.h"
@@ -16,14 +20,15 @@ typedef struct list {
   int32_t room;
 } list;
 
-/* Everything while the order is being found. Nodes not yet eliminated stand in a bucket by degree;
- * those that a round has touched wait for the next one. */
+/* Everything while the order is being found. Nodes not yet eliminated stand in buckets: those without fill in
+ * the first, the others by degree; those that a round has touched wait for the next one. */
 typedef struct search {
   int count;
   list *coupled;     /* (count) */
   int32_t *head;     /* (count) first of each bucket, -1: empty */
   int32_t *next;     /* (count) */
   int32_t *previous; /* (count) -1: first */
+  int32_t *bucket;   /* (count) */
   int32_t *touched;  /* (count) round */
   int32_t *mark;     /* (count) */
   int32_t stamp;
@@ -51,16 +56,38 @@ static baum_status push(list *l, int32_t item)
 
 /* ---- buckets ---- */
 
+/* Whether all neighbours of a node are coupled with each other. Of many it is not asked. */
+static bool makes_no_fill(search *s, int32_t node)
+{
+  enum { MANY = 8 };
+  const list *around = &s->coupled[node];
+  bool none = around->count <= MANY;
+  s->stamp++;
+  for (int32_t i = 0; i < around->count && none; i++) {
+    s->mark[around->item[i]] = s->stamp;
+  }
+  for (int32_t i = 0; i < around->count && none; i++) {
+    const list *beyond = &s->coupled[around->item[i]];
+    int32_t shared = 1;
+    for (int32_t k = 0; k < beyond->count; k++) {
+      shared += s->mark[beyond->item[k]] == s->stamp ? 1 : 0;
+    }
+    none = shared == around->count;
+  }
+  return none;
+}
+
 static void enter(search *s, int32_t node)
 {
-  int32_t degree = s->coupled[node].count;
-  int32_t first = s->head[degree];
+  int32_t bucket = makes_no_fill(s, node) ? 0 : s->coupled[node].count;
+  int32_t first = s->head[bucket];
+  s->bucket[node] = bucket;
   s->next[node] = first;
   s->previous[node] = -1;
   if (first >= 0) {
     s->previous[first] = node;
   }
-  s->head[degree] = node;
+  s->head[bucket] = node;
 }
 
 static void leave(search *s, int32_t node)
@@ -70,7 +97,7 @@ static void leave(search *s, int32_t node)
   if (before >= 0) {
     s->next[before] = after;
   } else {
-    s->head[s->coupled[node].count] = after;
+    s->head[s->bucket[node]] = after;
   }
   if (after >= 0) {
     s->previous[after] = before;
@@ -137,13 +164,13 @@ static baum_status eliminate(search *s, int32_t node)
   return status == BAUM_OK && s->later.count > s->most ? BAUM_ERR_SINGULAR : status;
 }
 
-static baum_status take_round(search *s, int32_t degree)
+static baum_status take_round(search *s, int32_t bucket)
 {
   baum_status status = BAUM_OK;
   s->round++;
   s->waiting.count = 0;
-  while (s->head[degree] >= 0 && status == BAUM_OK) {
-    int32_t node = s->head[degree];
+  while (s->head[bucket] >= 0 && status == BAUM_OK) {
+    int32_t node = s->head[bucket];
     leave(s, node);
     status = eliminate(s, node);
   }
@@ -156,14 +183,12 @@ static baum_status take_round(search *s, int32_t degree)
 static baum_status take_rounds(search *s)
 {
   baum_status status = BAUM_OK;
-  int32_t degree = 0;
   while (s->out->count < s->count && status == BAUM_OK) {
-    while (s->head[degree] < 0) {
-      degree++;
+    int32_t bucket = 0;
+    while (s->head[bucket] < 0) {
+      bucket++;
     }
-    status = take_round(s, degree);
-    /* What was eliminated leaves its neighbours with at least its own degree less one. */
-    degree = degree > 0 ? degree - 1 : 0;
+    status = take_round(s, bucket);
   }
   return status;
 }
@@ -220,13 +245,14 @@ static baum_status make_room(search *s)
   out->place = baum_i_alloc(n, sizeof *out->place);
   out->start = baum_i_alloc(n + 1, sizeof *out->start);
   s->coupled = baum_i_alloc(n, sizeof *s->coupled);
-  s->head = baum_i_alloc(5 * n + 1, sizeof *s->head);
+  s->head = baum_i_alloc(6 * n + 1, sizeof *s->head);
   if (!out->node || !out->place || !out->start || !s->coupled || !s->head) {
     return BAUM_ERR_MEMORY;
   }
   s->next = s->head + n;
   s->previous = s->next + n;
-  s->touched = s->previous + n;
+  s->bucket = s->previous + n;
+  s->touched = s->bucket + n;
   s->mark = s->touched + n;
   return BAUM_OK;
 }

@@ -260,43 +260,20 @@ void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, co
   }
 }
 
-void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
-                           const double *six, double *x)
+void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *x)
 {
   for (int k = 0; k < span->body_count; k++) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
-    double *at = x + body->v;
-    if (body->nv == 3) {
-      at[0] += six[3 * k];
-      at[1] += six[3 * k + 1];
-      at[2] += six[3 * k + 2];
-      continue;
-    }
     for (int i = 0; i < body->nv; i++) {
-      at[i] += six[3 * k + i];
+      x[body->v + i] += six[3 * k + i];
     }
   }
 }
 
-/* A planar body on the ground: the three columns of one of both. */
-static void pack_one(bool first, int rows, const double *six, double *packed)
+void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                            const double *six, double *packed)
 {
-  six += first ? 0 : 3;
-  for (int row = 0; row < rows; row++) {
-    memcpy(packed, six, 3 * sizeof *six);
-    packed += 3;
-    six += 6;
-  }
-}
-
-void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                        const double *six, double *packed)
-{
-  bool grounded = span->body_count == 2 && span->nl == 3;
-  if (grounded && (span->bodies[0] == 0 || span->bodies[1] == 0)) {
-    pack_one(span->bodies[1] == 0, rows, six, packed);
-    return;
-  }
   for (int row = 0; row < rows; row++) {
     for (int k = 0; k < span->body_count; k++) {
       int nv = mechanism->bodies[span->bodies[k]]->nv;

@@ -10,9 +10,12 @@
 #ifndef BAUM_I_MECHANISM_PLANAR_H
 #define BAUM_I_MECHANISM_PLANAR_H
 
+#include <string.h>
+
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
 
+#include "base/hot.h"
 #include "mechanism/mechanism.h"
 
 /* The fields that every planar joint and spring definition begins with. */
@@ -102,13 +105,52 @@ baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
 void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
                           double *six);
 
-/* Add six numbers to the bodies' places in a vector over v. */
-void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
-                           const double *six, double *x);
+/* The same as baum_i_planar_scatter(), whatever the bodies are. */
+void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *x);
 
-/* Rows of six to rows of nl. */
-void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                        const double *six, double *packed);
+BAUM_I_INLINE void baum_i_planar_add_three(const double *three, double *x)
+{
+  x[0] += three[0];
+  x[1] += three[1];
+  x[2] += three[2];
+}
+
+/* Add six numbers to the bodies' places in a vector over v. */
+BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
+                                         const double *six, double *x)
+{
+  if (span->nl == 6) {
+    baum_i_planar_add_three(six, x + span->columns[0]);
+    baum_i_planar_add_three(six + 3, x + span->columns[3]);
+  } else if (span->nl == 3 && span->body_count == 2) {
+    baum_i_planar_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
+  } else {
+    baum_i_planar_scatter_any(mechanism, span, six, x);
+  }
+}
+
+/* The same as baum_i_planar_pack(), whatever the bodies are. */
+void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                            const double *six, double *packed);
+
+/* Rows of six to rows of nl. Nearly always both bodies have all their columns, or one stands on the ground. */
+BAUM_I_INLINE void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span,
+                                      int rows, const double *six, double *packed)
+{
+  if (span->nl == 6) {
+    memcpy(packed, six, (size_t)(6 * rows) * sizeof *six);
+  } else if (span->nl == 3 && span->body_count == 2) {
+    bool first = span->bodies[1] == 0;
+    for (int row = 0; row < rows; row++, six += 6) {
+      for (int i = 0; i < 3; i++) {
+        *packed++ = first ? six[i] : six[3 + i];
+      }
+    }
+  } else {
+    baum_i_planar_pack_any(mechanism, span, rows, six, packed);
+  }
+}
 
 /* 6 x 6 to nl x nl. */
 void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,

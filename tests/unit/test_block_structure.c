@@ -100,7 +100,7 @@ static void a_row_of_bodies_couples_neighbours(void **state)
   assert_int_equal(b->first_count, BODIES - 2); /* no pins here */
   assert_int_equal(b->full_pair_count, 0);
   assert_int_equal(b->side_count, 2 * (BODIES - 1));
-  assert_int_equal(b->entry_count, 12 * (BODIES - 1));
+  assert_int_equal(b->entry_count, 6 * (BODIES - 1));
   baum_i_block_destroy(b);
   free_net(&n);
 }

@@ -166,7 +166,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     load l = load_at(element, point);
     double moment = l.at.arm[0] * l.force[1] - l.at.arm[1] * l.force[0] + l.torque;
     const double three[3] = {l.force[0], l.force[1], moment};
-    baum_i_planar_scatter(point->mechanism, &element->span, three, out);
+    baum_i_planar_scatter_any(point->mechanism, &element->span, three, out);
   }
   return BAUM_OK;
 }

@@ -79,12 +79,12 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   const double *numbers = point->parameters + force->element.parameter;
   baum_i_marker a = baum_i_marker_at(point, force->span.bodies[0], numbers);
   baum_i_marker b = baum_i_marker_at(point, force->span.bodies[1], numbers + 2);
-  spring s = {.line = baum_i_separation_of(&a, &b)};
+  spring s;
+  s.line = baum_i_separation_of(&a, &b);
   s.length = hypot(s.line.d[0], s.line.d[1]);
   if (s.length < DBL_MIN) {
     /* Of a denormal length the reciprocal is not finite. */
-    s.length = 0.0;
-    return s;
+    return (spring){.line = s.line};
   }
   const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
   baum_i_separation_spread(&s.line, e, s.h);
@@ -142,22 +142,34 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
+/* -T h */
+static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
+{
+  const double *numbers = point->parameters + element->element.parameter;
+  baum_i_marker a = baum_i_marker_at(point, element->span.bodies[0], numbers);
+  baum_i_marker b = baum_i_marker_at(point, element->span.bodies[1], numbers + 2);
+  baum_i_separation line = baum_i_separation_of(&a, &b);
+  double length = hypot(line.d[0], line.d[1]);
+  if (length < DBL_MIN) {
+    return BAUM_OK;
+  }
+  const double e[2] = {line.d[0] / length, line.d[1] / length};
+  baum_i_spring_law law = law_of(element, point);
+  baum_i_tension t;
+  baum_status status =
+    baum_i_tension_at(&law, point, length, e[0] * line.rate[0] + e[1] * line.rate[1], &t);
+  const double pull[2] = {-t.value * e[0], -t.value * e[1]};
+  double six[6];
+  baum_i_separation_spread(&line, pull, six);
+  baum_i_planar_scatter(point->mechanism, &element->span, six, out);
+  return status;
+}
+
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   baum_status status = BAUM_OK;
   for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_force *element = group->forces[i];
-    spring s = spring_at(element, point);
-    if (s.length == 0.0) {
-      continue;
-    }
-    baum_i_spring_law law = law_of(element, point);
-    baum_i_tension t;
-    status = baum_i_tension_at(&law, point, s.length, s.rate, &t);
-    for (int k = 0; k < 6; k++) {
-      s.h[k] *= -t.value;
-    }
-    baum_i_planar_scatter(point->mechanism, &element->span, s.h, out);
+    status = add_one(group->forces[i], point, out);
   }
   return status;
 }

@@ -62,8 +62,7 @@ static void one_phi(const baum_i_planar_pair *pair, double *out)
 static void one_jacobian(const baum_i_planar_pair *pair, double *six)
 {
   baum_i_pin_jacobian(pair, six);
-  six[14] = -1.0;
-  six[17] = 1.0;
+  baum_i_planar_set_row(six + 12, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0);
 }
 
 static void one_gamma(const baum_i_planar_pair *pair, double *out)
@@ -77,7 +76,7 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  static const baum_i_planar_kernels kernels = {one_phi, one_jacobian, one_gamma};
+  static const baum_i_planar_kernels kernels = {3, one_phi, one_jacobian, one_gamma};
   return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 

@@ -75,7 +75,7 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  static const baum_i_planar_kernels kernels = {one_phi, one_jacobian, one_gamma};
+  static const baum_i_planar_kernels kernels = {1, one_phi, one_jacobian, one_gamma};
   return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 

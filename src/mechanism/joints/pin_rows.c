@@ -22,14 +22,10 @@ void baum_i_pin_phi(const baum_i_planar_pair *pair, double *phi)
 
 void baum_i_pin_jacobian(const baum_i_planar_pair *pair, double *six)
 {
-  six[0] = 1.0;
-  six[2] = -pair->a.arm[1];
-  six[3] = -1.0;
-  six[5] = pair->b.arm[1];
-  six[7] = 1.0;
-  six[8] = pair->a.arm[0];
-  six[10] = -1.0;
-  six[11] = -pair->b.arm[0];
+  const double *a = pair->a.arm;
+  const double *b = pair->b.arm;
+  baum_i_planar_set_row(six, 1.0, 0.0, -a[1], -1.0, 0.0, b[1]);
+  baum_i_planar_set_row(six + 6, 0.0, 1.0, a[0], 0.0, -1.0, -b[0]);
 }
 
 void baum_i_pin_gamma(const baum_i_planar_pair *pair, double *gamma)

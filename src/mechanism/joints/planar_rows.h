@@ -76,23 +76,48 @@ static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
 /* What one joint computes; static const beside the kernels, so that the loop below needs no calls
  * through pointers. */
 typedef struct baum_i_planar_kernels {
+  int rows;
   baum_i_planar_kernel *phi;
-  baum_i_planar_kernel *jacobian; /* six columns; the zeros are there already */
+  baum_i_planar_kernel *jacobian; /* six columns */
   baum_i_planar_kernel *gamma;
 } baum_i_planar_kernels;
 
+/* One row of J. */
+static inline void baum_i_planar_set_row(double six[6], double x_a, double y_a, double angle_a,
+                                         double x_b, double y_b, double angle_b)
+{
+  six[0] = x_a;
+  six[1] = y_a;
+  six[2] = angle_a;
+  six[3] = x_b;
+  six[4] = y_b;
+  six[5] = angle_b;
+}
+
 BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const baum_i_point *point,
                                               const baum_i_planar_pair *pair,
-                                              baum_i_planar_kernel *kernel, double *packed)
+                                              const baum_i_planar_kernels *kernels,
+                                              double *jacobian)
 {
-  enum { COLUMNS = BAUM_I_PLANAR_COLUMNS };
-  double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS] = {0.0};
-  kernel(pair, six);
-  if (joint->span.nl == COLUMNS) {
-    memcpy(packed, six, (size_t)(joint->rows * COLUMNS) * sizeof *six);
-  } else {
-    baum_i_planar_pack(point->mechanism, &joint->span, joint->rows, six, packed);
-  }
+  double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  kernels->jacobian(pair, six);
+  baum_i_planar_pack(point->mechanism, &joint->span, kernels->rows, six,
+                     jacobian + joint->jacobian);
+}
+
+/* Phi, J and gamma, which have much in common: found first, stored then. */
+BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
+                                         const baum_i_planar_pair *pair,
+                                         const baum_i_planar_kernels *kernels,
+                                         const baum_i_rows *rows)
+{
+  double phi[BAUM_I_PLANAR_ROWS];
+  double gamma[BAUM_I_PLANAR_ROWS];
+  kernels->phi(pair, phi);
+  kernels->gamma(pair, gamma);
+  baum_i_planar_put_jacobian(joint, point, pair, kernels, rows->jacobian);
+  memcpy(rows->phi + joint->row, phi, (size_t)kernels->rows * sizeof *phi);
+  memcpy(rows->gamma + joint->row, gamma, (size_t)kernels->rows * sizeof *gamma);
 }
 
 BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group,
@@ -100,15 +125,19 @@ BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group
                                                  const baum_i_planar_kernels *kernels,
                                                  const baum_i_rows *rows)
 {
+  bool all = rows->phi && rows->jacobian && rows->gamma;
   for (int i = 0; i < group->count; i++) {
     const baum_i_joint *joint = group->joints[i];
     baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+    if (all) {
+      baum_i_planar_put_all(joint, point, &pair, kernels, rows);
+      continue;
+    }
     if (rows->phi) {
       kernels->phi(&pair, rows->phi + joint->row);
     }
     if (rows->jacobian) {
-      baum_i_planar_put_jacobian(joint, point, &pair, kernels->jacobian,
-                                 rows->jacobian + joint->jacobian);
+      baum_i_planar_put_jacobian(joint, point, &pair, kernels, rows->jacobian);
     }
     if (rows->gamma) {
       kernels->gamma(&pair, rows->gamma + joint->row);

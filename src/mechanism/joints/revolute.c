@@ -28,7 +28,7 @@ static int rows(const void *def)
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  static const baum_i_planar_kernels kernels = {baum_i_pin_phi, baum_i_pin_jacobian,
+  static const baum_i_planar_kernels kernels = {2, baum_i_pin_phi, baum_i_pin_jacobian,
                                                 baum_i_pin_gamma};
   return baum_i_planar_evaluate(group, point, &kernels, out);
 }

@@ -73,8 +73,7 @@ static void one_phi(const baum_i_planar_pair *pair, double *out)
 static void one_jacobian(const baum_i_planar_pair *pair, double *six)
 {
   baum_i_axis_gradient(pair, pair->numbers + BAUM_I_AXIS_NORMAL, six);
-  six[8] = -1.0;
-  six[11] = 1.0;
+  baum_i_planar_set_row(six + 6, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0);
 }
 
 static void one_gamma(const baum_i_planar_pair *pair, double *out)
@@ -88,7 +87,7 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  static const baum_i_planar_kernels kernels = {one_phi, one_jacobian, one_gamma};
+  static const baum_i_planar_kernels kernels = {2, one_phi, one_jacobian, one_gamma};
   return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 
