@@ -120,10 +120,11 @@ BAUM_I_INLINE void baum_i_planar_add_three(const double *three, double *x)
 BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
                                          const double *six, double *x)
 {
-  if (span->nl == 6) {
+  bool pair = span->body_count == 2;
+  if (pair && span->nl == 6) {
     baum_i_planar_add_three(six, x + span->columns[0]);
     baum_i_planar_add_three(six + 3, x + span->columns[3]);
-  } else if (span->nl == 3 && span->body_count == 2) {
+  } else if (pair && span->nl == 3) {
     baum_i_planar_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
   } else {
     baum_i_planar_scatter_any(mechanism, span, six, x);
@@ -134,13 +135,14 @@ BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const 
 void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
                             const double *six, double *packed);
 
-/* Rows of six to rows of nl. Nearly always both bodies have all their columns, or one stands on the ground. */
+/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the ground. */
 BAUM_I_INLINE void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                       int rows, const double *six, double *packed)
 {
-  if (span->nl == 6) {
+  bool pair = span->body_count == 2;
+  if (pair && span->nl == 6) {
     memcpy(packed, six, (size_t)(6 * rows) * sizeof *six);
-  } else if (span->nl == 3 && span->body_count == 2) {
+  } else if (pair && span->nl == 3) {
     bool first = span->bodies[1] == 0;
     for (int row = 0; row < rows; row++, six += 6) {
       for (int i = 0; i < 3; i++) {
