@@ -45,7 +45,7 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *  between its ends. Formulations as baum_dp5(). The first choice where forces are not stiff and
  *  rtol is 1e-5 or less. */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (auto),
+/** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (best damping),
  *  UNSTABILIZED; its past cannot be projected. Begins with Runge-Kutta steps, also after
  *  baum_simulation_set_state(), _set_input() and _set_driver(), a turn in time and a target off the
  *  grid. */
@@ -59,6 +59,9 @@ BAUM_API const baum_integrator *baum_ab4(void);
  *  For constant masses and forces of time, position and inputs; masses that vary and forces that depend
  *  on velocities, as dampers do, are refused. Functions of the user are asked at some states. */
 BAUM_API const baum_integrator *baum_rattle(void);
+/** Generalized-alpha with spectral radius 0.8, order 2, fixed step, implicit: for stiff forces, and to
+ *  compare with at index 3. INDEX3: Phi = 0 to rounding after every step, Phi' of second order. */
+BAUM_API const baum_integrator *baum_generalized_alpha(void);
 /** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
  *  UNSTABILIZED. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);

@@ -5,14 +5,14 @@
 typedef const baum_integrator *integrator_fn(void);
 
 static integrator_fn *const INTEGRATORS[] = {
-  baum_euler,      baum_semi_implicit_euler,
-  baum_rk2,        baum_rk3,
-  baum_rk4,        baum_dp5,
-  baum_rk8,        baum_ab2,
-  baum_ab3,        baum_ab4,
-  baum_rattle,     baum_cvode_adams,
-  baum_cvode_bdf,  baum_ida,
-  baum_kinematics,
+  baum_euler,       baum_semi_implicit_euler,
+  baum_rk2,         baum_rk3,
+  baum_rk4,         baum_dp5,
+  baum_rk8,         baum_ab2,
+  baum_ab3,         baum_ab4,
+  baum_rattle,      baum_generalized_alpha,
+  baum_cvode_adams, baum_cvode_bdf,
+  baum_ida,         baum_kinematics,
 };
 
 const baum_integrator *baum_integrator_at(int32_t k)

@@ -231,7 +231,8 @@ baum_status baum_i_options_check(baum_simulation_options *options)
       BAUM_ERR_ARGUMENT,
       "simulation options: integrator is NULL; there is no default, choose one of "
       "baum_euler, baum_semi_implicit_euler, baum_rk2, baum_rk3, baum_rk4, baum_dp5, baum_rk8, "
-      "baum_ab2, baum_ab3, baum_ab4, baum_rattle, baum_cvode_adams, baum_cvode_bdf, baum_ida, "
+      "baum_ab2, baum_ab3, baum_ab4, baum_rattle, baum_generalized_alpha, baum_cvode_adams, "
+      "baum_cvode_bdf, baum_ida, "
       "baum_kinematics");
   }
   baum_status status = check_steps(options);

@@ -70,7 +70,8 @@ static bool find_pair(int k, baum_simulation_options *o)
 {
   for (int32_t i = 0; baum_integrator_at(i) != NULL; i++) {
     const baum_integrator *integrator = baum_integrator_at(i);
-    if (!baum_integrator_has_fixed_step(integrator) && !baum_has("sundials")) {
+    bool absent = !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
+    if (absent || !every_element_suits(integrator)) {
       continue;
     }
     for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {

@@ -219,7 +219,7 @@ static void start_options(const baum_integrator *integrator, baum_simulation_opt
 static bool is_absent(const baum_integrator *integrator)
 {
   bool built = baum_integrator_has_fixed_step(integrator) || baum_has("sundials");
-  return !built || integrator == baum_kinematics();
+  return !built || integrator == baum_kinematics() || !every_element_suits(integrator);
 }
 
 static const struct {

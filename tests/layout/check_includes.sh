@@ -11,7 +11,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
 
   # The backend files, and what each may see.
   function foreign_allowed(file, header) {
-    if (header ~ /^klu\.h$/) return file == "src/linear/klu.c"
+    if (header ~ /^klu\.h$/) return file ~ /^src\/linear\/(klu|sparse_lu)\.c$/
     if (header ~ /^(SuiteSparseQR_C|cholmod)\.h$/) return file == "src/linear/qr.c"
     if (header ~ /^SuiteSparse_config\.h$/) return file ~ /^src\/linear\/(klu|qr)\.c$/
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)

@@ -130,4 +130,10 @@ baum_status every_element_build(every_element *parts);
 /* The same, frozen; fails the test on failure. */
 every_element every_element_make(every_fault *fault);
 
+/* Whether an integrator takes it: there are dampers and a mass that varies among its elements. */
+static inline bool every_element_suits(const baum_integrator *integrator)
+{
+  return integrator != baum_rattle();
+}
+
 #endif

@@ -91,7 +91,8 @@ static const baum_integrator *choose(int k)
   }
   const baum_integrator *integrator = baum_integrator_at(k % count);
   bool absent = !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
-  return absent || integrator == baum_kinematics() ? baum_rk4() : integrator;
+  bool suits = !absent && integrator != baum_kinematics() && every_element_suits(integrator);
+  return suits ? integrator : baum_rk4();
 }
 
 static void check_same(const job *got, const job *want)

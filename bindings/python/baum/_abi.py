@@ -416,6 +416,7 @@ class baum_stability(enum.IntEnum):
     BAUM_MARGINAL = 1
     BAUM_UNSTABLE = 2
     BAUM_VARIABLE_STEP = 3
+    BAUM_WITHOUT_GAINS = 4
 
 
 class baum_amplification(Structure):
@@ -424,6 +425,7 @@ class baum_amplification(Structure):
         ("stability", c_int),
         ("spectral_radius", c_double),
         ("z", (c_double * 2) * 2),
+        ("damping", c_double),
     ]
 
 
@@ -791,9 +793,19 @@ PROTOTYPES = {
     "baum_stability_at": (c_int, [
         c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
     ]),
+    "baum_stability_statement": (c_char_p, [c_void_p]),
     "baum_stability_limit": (c_int, [c_void_p, c_double, c_void_p]),
+    "baum_stability_intervals": (c_int, [
+        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
+    ]),
+    "baum_stability_best_on_ray": (c_int, [c_void_p, c_double, c_void_p]),
+    "baum_stability_best": (c_int, [c_void_p, c_void_p, c_void_p]),
     "baum_stability_deadbeat": (c_int, [c_void_p, c_void_p, c_void_p]),
     "baum_stability_nearest": (c_int, [c_void_p, c_double, c_double, c_void_p, c_void_p]),
+    "baum_stability_grid": (c_int, [c_void_p, c_void_p, c_void_p, c_int32, c_int32, c_void_p]),
+    "baum_stability_outline": (c_int, [
+        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
+    ]),
     "baum_euler": (c_void_p, []),
     "baum_semi_implicit_euler": (c_void_p, []),
     "baum_rk2": (c_void_p, []),
@@ -805,6 +817,7 @@ PROTOTYPES = {
     "baum_ab3": (c_void_p, []),
     "baum_ab4": (c_void_p, []),
     "baum_rattle": (c_void_p, []),
+    "baum_generalized_alpha": (c_void_p, []),
     "baum_cvode_adams": (c_void_p, []),
     "baum_cvode_bdf": (c_void_p, []),
     "baum_ida": (c_void_p, []),

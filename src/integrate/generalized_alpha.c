@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The generalized-alpha method (J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371-375) on the equations of index 3
+ * (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202), order 2, N the identity:
+ *
+ *   M v'_1 + J^T lambda_1 = g,  Phi(t_1, q_1) = 0                                 at t_1 = t + h
+ *   q_1 = q + h v + h^2 ((1/2 - beta) a + beta a_1)                               (nq)
+ *   v_1 = v + h ((1 - gamma) a + gamma a_1)                                       (nv)
+ *   (1 - alpha_m) a_1 + alpha_m a = (1 - alpha_f) v'_1 + alpha_f v'               (nv)
+ *
+ *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
+ *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
+ *
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as the constraints have: a disturbance of the
+ * multipliers falls to a tenth in ten steps. Oscillations that are resolved are hardly damped.
+ *
+ * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and begins so, else the
+ * multipliers would be of first order for some steps. For a step of another length the difference is scaled.
+ *
+ * Newton's method with the exact matrix, by dv = gamma / (beta h) dq and so on, in scaled multipliers: step_matrix.h.
+ */
+#include "integrate/generalized_alpha.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/step_matrix.h"
+
+/* Of rho = 0.8. */
+static const double ALPHA_M = 1.0 / 3.0;
+static const double ALPHA_F = 4.0 / 9.0;
+static const double GAMMA = 11.0 / 18.0;
+static const double BETA = 25.0 / 81.0;
+
+enum { ITERATIONS = 20 };
+
+/* A change of the positions by this share of what the accelerations do in a step is the last: multipliers and
+ * accelerations are then right to that share. It is not asked for less than some roundings of the positions. */
+static const double CONVERGED = 1e-9;
+static const double ROUNDINGS = 8.0 * DBL_EPSILON;
+
+/* Of a step, for the derivative of the acceleration by a difference: truncation is this share of terms of second order,
+ * rounding its inverse of one unit. */
+static const double SHIFT = 1e-3;
+
+/* Steps that differ by less than this share are the same. */
+static const double SAME_STEP = 1e-6;
+
+/* What a step leaves to the next. */
+typedef struct alpha_past {
+  double *rate;   /* (nv) v' */
+  double *a;      /* (nv) */
+  double *lambda; /* (nc) */
+} alpha_past;
+
+/* Memory of a run. */
+typedef struct alpha_run {
+  int nv;
+  int nc;
+  bool known;      /* `now` is that of the present state */
+  double step;     /* [s] with which its a was made */
+  double trial;    /* [s] with which that of `next` was */
+  alpha_past now;  /* at the present state */
+  alpha_past next; /* at the end of the last trial */
+  int64_t iterations;
+  baum_i_step_matrix *matrix;
+  double *memory;   /* all below and above */
+  double *y;        /* (2 nv + nc) q, v, lambda */
+  double *dy;       /* (2 nv + nc) v, v', unused */
+  double *residual; /* (2 nv + nc) */
+  double *x;        /* (nv + nc) */
+} alpha_run;
+
+/* ---- begin ---- */
+
+/* v' and lambda of (5); a by a difference along the motion, for steps of the grid whatever the first one is. */
+static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
+{
+  double h = problem->direction * problem->step;
+  baum_workspace *w = problem->workspace;
+  size_t nv = (size_t)run->nv;
+  baum_status status = baum_i_problem_acceleration(problem, state->t, state->q, state->v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memcpy(run->now.rate, w->a, nv * sizeof *w->a);
+  memcpy(run->now.lambda, w->lambda, (size_t)run->nc * sizeof *w->lambda);
+  double shift = SHIFT * h;
+  double *q = run->y;
+  double *v = run->y + nv;
+  for (size_t i = 0; i < nv; i++) {
+    q[i] = state->q[i] + shift * (state->v[i] + 0.5 * shift * run->now.rate[i]);
+    v[i] = state->v[i] + shift * run->now.rate[i];
+  }
+  status = baum_i_problem_acceleration(problem, state->t + shift, q, v);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (size_t i = 0; i < nv; i++) {
+    run->now.a[i] = run->now.rate[i] + (ALPHA_M - ALPHA_F) * (w->a[i] - run->now.rate[i]) / SHIFT;
+  }
+  run->step = h;
+  run->known = true;
+  return BAUM_OK;
+}
+
+/* ---- one step ---- */
+
+/* (1 - alpha_m) a_1 = (1 - alpha_f) v'_1 + alpha_f v' - alpha_m a */
+static double next_a(double rate_next, double rate, double a)
+{
+  return ((1.0 - ALPHA_F) * rate_next + ALPHA_F * rate - ALPHA_M * a) / (1.0 - ALPHA_M);
+}
+
+/* a of the present state for a step h. */
+static double present_a(const alpha_run *run, int i, double h)
+{
+  double ratio = h / run->step;
+  double a = run->now.a[i];
+  bool same = fabs(ratio - 1.0) <= SAME_STEP;
+  return same ? a : run->now.rate[i] + ratio * (a - run->now.rate[i]);
+}
+
+/* With v' and lambda as they are. */
+static void predict(alpha_run *run, const baum_i_state *state, double h)
+{
+  int nv = run->nv;
+  for (int i = 0; i < nv; i++) {
+    double rate = run->now.rate[i];
+    double a = present_a(run, i, h);
+    double a_next = next_a(rate, rate, a);
+    run->y[i] = state->q[i] + h * (state->v[i] + h * ((0.5 - BETA) * a + BETA * a_next));
+    run->y[nv + i] = state->v[i] + h * ((1.0 - GAMMA) * a + GAMMA * a_next);
+    run->dy[i] = run->y[nv + i];
+    run->dy[nv + i] = rate;
+  }
+  memcpy(run->y + 2 * (size_t)nv, run->now.lambda, (size_t)run->nc * sizeof *run->y);
+}
+
+/* A change x of all unknowns. */
+static void apply(alpha_run *run, const baum_i_step_ratios *ratios)
+{
+  int nv = run->nv;
+  for (int i = 0; i < nv; i++) {
+    run->y[i] += run->x[i];
+    run->y[nv + i] += ratios->by_v * run->x[i];
+    run->dy[i] = run->y[nv + i];
+    run->dy[nv + i] += ratios->by_a * run->x[i];
+  }
+  for (int i = 0; i < run->nc; i++) {
+    run->y[2 * nv + i] += run->x[nv + i] / ratios->scale;
+  }
+}
+
+/* One iteration of Newton's; the size of its change of the positions. */
+static baum_status improve(alpha_run *run, const baum_i_problem *problem, double t,
+                           const baum_i_step_ratios *ratios, double *size)
+{
+  static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
+  baum_workspace *w = problem->workspace;
+  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const double *rest = run->residual + run->nv;
+  for (int i = 0; i < run->nv + run->nc; i++) {
+    run->x[i] = -(i < run->nv ? ratios->scale : 1.0) * rest[i];
+  }
+  status = baum_i_step_matrix_factor(run->matrix, w, ratios, t, run->y, run->dy);
+  if (status == BAUM_ERR_SINGULAR) {
+    return baum_i_fail(status, "t = %.9g s: generalized_alpha: the matrix of the step is singular",
+                       t);
+  }
+  if (status == BAUM_OK) {
+    baum_i_step_matrix_solve(run->matrix, run->x);
+    apply(run, ratios);
+    run->iterations++;
+    *size = baum_i_scaled_size(w->mechanism, run->x);
+  }
+  return status;
+}
+
+/* Changes of positions that need no further one. */
+static double tolerance(const alpha_run *run, const baum_i_problem *problem,
+                        const baum_i_state *state, double h)
+{
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
+  return fmax(CONVERGED * BETA * h * h * acceleration, ROUNDINGS * baum_i_scaled_size(m, state->q));
+}
+
+static baum_status fail(double t, double size)
+{
+  return baum_i_fail(
+    BAUM_ERR_CONVERGENCE,
+    "t = %.9g s: generalized_alpha: the equations of the next step do not converge "
+    "(last change %.3g of the scale): the step is too large or the pose is near a "
+    "singular one",
+    t, size);
+}
+
+static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
+                           double h)
+{
+  const baum_i_step_ratios ratios = {
+    .by_v = GAMMA / (BETA * h),
+    .by_a = (1.0 - ALPHA_M) / ((1.0 - ALPHA_F) * BETA * h * h),
+    .scale = BETA * h * h,
+  };
+  double enough = tolerance(run, problem, state, h);
+  double size = INFINITY;
+  for (int k = 0; k < ITERATIONS; k++) {
+    double before = size;
+    baum_status status = improve(run, problem, state->t + h, &ratios, &size);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    if (size <= enough) {
+      return BAUM_OK;
+    }
+    /* The first may be larger than the prediction was wrong. */
+    if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {
+      break;
+    }
+  }
+  return fail(state->t, size);
+}
+
+static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
+                             double h, const double *a)
+{
+  (void)a;
+  alpha_run *run = self;
+  int nv = run->nv;
+  baum_status status = run->known ? BAUM_OK : begin(run, problem, state);
+  if (status == BAUM_OK) {
+    predict(run, state, h);
+    status = iterate(run, problem, state, h);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  run->trial = h;
+  for (int i = 0; i < nv; i++) {
+    run->next.rate[i] = run->dy[nv + i];
+    run->next.a[i] = next_a(run->next.rate[i], run->now.rate[i], present_a(run, i, h));
+    state->q[i] = run->y[i];
+    state->v[i] = run->y[nv + i];
+  }
+  memcpy(run->next.lambda, run->y + 2 * (size_t)nv, (size_t)run->nc * sizeof *run->y);
+  return BAUM_OK;
+}
+
+/* The past of a step off the grid is given up, as every method does it. */
+static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  alpha_run *run = self;
+  alpha_past kept = run->now;
+  run->now = run->next;
+  run->next = kept;
+  run->step = run->trial;
+  double off = fabs(run->trial - problem->direction * problem->step);
+  run->known = off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(state->t);
+}
+
+static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
+{
+  (void)problem;
+  (void)state;
+  alpha_run *run = self;
+  run->known = false;
+  return BAUM_OK;
+}
+
+/* ---- life ---- */
+
+static void destroy(void *self)
+{
+  alpha_run *run = self;
+  if (run) {
+    baum_i_step_matrix_destroy(run->matrix);
+    baum_i_free(run->memory);
+    baum_i_free(run);
+  }
+}
+
+static double *take(double **next, int count)
+{
+  double *taken = *next;
+  *next += count;
+  return taken;
+}
+
+static bool make_memory(alpha_run *run)
+{
+  int nv = run->nv;
+  int nc = run->nc;
+  size_t count = 11 * (size_t)nv + 6 * (size_t)nc;
+  run->memory = baum_i_alloc(count, sizeof *run->memory);
+  if (!run->memory) {
+    return false;
+  }
+  double *next = run->memory;
+  alpha_past *pasts[2] = {&run->now, &run->next};
+  for (int k = 0; k < 2; k++) {
+    pasts[k]->rate = take(&next, nv);
+    pasts[k]->a = take(&next, nv);
+    pasts[k]->lambda = take(&next, nc);
+  }
+  run->y = take(&next, 2 * nv + nc);
+  run->dy = take(&next, 2 * nv + nc);
+  run->residual = take(&next, 2 * nv + nc);
+  run->x = take(&next, nv + nc);
+  return true;
+}
+
+static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+{
+  (void)start;
+  *out = NULL;
+  alpha_run *run = baum_i_alloc(1, sizeof *run);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  run->nv = problem->workspace->mechanism->nv;
+  run->nc = problem->workspace->mechanism->nc;
+  baum_status status = make_memory(run) ? BAUM_OK : baum_i_fail_memory();
+  if (status == BAUM_OK) {
+    status = baum_i_step_matrix_create(problem->workspace, &run->matrix);
+  }
+  if (status != BAUM_OK) {
+    destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+static void count(const void *self, baum_i_statistics *out)
+{
+  const alpha_run *run = self;
+  baum_i_sparse_lu_work work = baum_i_step_matrix_work(run->matrix);
+  *out = (baum_i_statistics){.factorizations = work.factorizations,
+                             .full_factorizations = work.full_factorizations,
+                             .nonlinear_iterations = run->iterations};
+}
+
+const double *baum_i_generalized_alpha_multipliers(const void *run)
+{
+  const alpha_run *self = run;
+  return self->now.lambda;
+}
+
+static const baum_formulation FORMULATIONS[] = {
+  BAUM_FORMULATION_INDEX3,
+  BAUM_FORMULATION_DEFAULT,
+};
+
+static const baum_integrator GENERALIZED_ALPHA = {
+  .name = "generalized_alpha",
+  .order = 2,
+  .formulations = FORMULATIONS,
+  .gains = BAUM_GAINS_DEFAULT,
+  .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
+  .solves_residuals = true,
+  .create = create,
+  .destroy = destroy,
+  .step = take_step,
+  .accept = accept,
+  .restart = restart,
+  .statistics = count,
+};
+
+const baum_integrator *baum_generalized_alpha(void)
+{
+  return &GENERALIZED_ALPHA;
+}

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* General sparse LU by KLU of SuiteSparse, 32-bit indices, rows scaled by their largest entry.
+ *
+ * klu_refactor keeps the pivots and allocates nothing, but may return KLU_OK and be worthless, when pivots have become
+ * small since they were chosen: klu_rcond, the ratio of the smallest to the largest pivot, tells. What it says of
+ * pivots that have just been chosen is taken as it is.
+ */
+#include "linear/sparse_lu.h"
+
+#include <stdbool.h>
+
+#include <klu.h>
+
+#include "base/alloc.h"
+
+/* Pivots that have fallen to this share of what they were when chosen are chosen anew. */
+static const double FALLEN = 1e-4;
+
+struct baum_i_sparse_lu {
+  int32_t n;
+  int32_t *columns; /* KLU takes them without const, and leaves them as they are */
+  int32_t *rows;
+  klu_common common;
+  klu_symbolic *symbolic;
+  klu_numeric *numeric;
+  double chosen; /* rcond when the pivots were chosen */
+  baum_i_sparse_lu_work work;
+};
+
+void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu)
+{
+  if (!lu) {
+    return;
+  }
+  if (lu->numeric) {
+    (void)klu_free_numeric(&lu->numeric, &lu->common);
+  }
+  if (lu->symbolic) {
+    (void)klu_free_symbolic(&lu->symbolic, &lu->common);
+  }
+  baum_i_free(lu->columns);
+  baum_i_free(lu->rows);
+  baum_i_free(lu);
+}
+
+static bool set_up(baum_i_sparse_lu *lu, const int32_t *columns, const int32_t *rows)
+{
+  if (!klu_defaults(&lu->common)) {
+    return false;
+  }
+  lu->common.scale = 2; /* by the largest entry of each row */
+  lu->common.halt_if_singular = 1;
+  lu->columns = baum_i_copy(columns, (size_t)lu->n + 1, sizeof *columns);
+  lu->rows = baum_i_copy(rows, (size_t)columns[lu->n], sizeof *rows);
+  if (!lu->columns || !lu->rows) {
+    return false;
+  }
+  lu->symbolic = klu_analyze(lu->n, lu->columns, lu->rows, &lu->common);
+  return lu->symbolic != NULL;
+}
+
+baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int32_t *rows,
+                                    baum_i_sparse_lu **out)
+{
+  *out = NULL;
+  baum_i_sparse_lu *lu = baum_i_alloc(1, sizeof *lu);
+  if (!lu) {
+    return BAUM_ERR_MEMORY;
+  }
+  lu->n = n;
+  if (!set_up(lu, columns, rows)) {
+    baum_i_sparse_lu_destroy(lu);
+    return BAUM_ERR_MEMORY;
+  }
+  *out = lu;
+  return BAUM_OK;
+}
+
+static double measure(baum_i_sparse_lu *lu)
+{
+  lu->common.rcond = 0.0;
+  (void)klu_rcond(lu->symbolic, lu->numeric, &lu->common);
+  return lu->common.rcond;
+}
+
+static baum_status choose(baum_i_sparse_lu *lu, double *values)
+{
+  lu->work.full_factorizations++;
+  if (lu->numeric) {
+    (void)klu_free_numeric(&lu->numeric, &lu->common);
+  }
+  lu->numeric = klu_factor(lu->columns, lu->rows, values, lu->symbolic, &lu->common);
+  if (!lu->numeric) {
+    return lu->common.status == KLU_SINGULAR ? BAUM_ERR_SINGULAR : BAUM_ERR_MEMORY;
+  }
+  lu->chosen = measure(lu);
+  return BAUM_OK;
+}
+
+static bool keep(baum_i_sparse_lu *lu, double *values)
+{
+  return klu_refactor(lu->columns, lu->rows, values, lu->symbolic, lu->numeric, &lu->common) &&
+         lu->common.status == KLU_OK && measure(lu) >= FALLEN * lu->chosen;
+}
+
+baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values)
+{
+  lu->work.factorizations++;
+  return lu->numeric && keep(lu, values) ? BAUM_OK : choose(lu, values);
+}
+
+void baum_i_sparse_lu_solve(baum_i_sparse_lu *lu, double *x)
+{
+  (void)klu_solve(lu->symbolic, lu->numeric, lu->n, 1, x, &lu->common);
+}
+
+baum_i_sparse_lu_work baum_i_sparse_lu_get_work(const baum_i_sparse_lu *lu)
+{
+  return lu->work;
+}

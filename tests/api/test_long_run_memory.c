@@ -1,0 +1,111 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* RATTLE, which does not take the mechanism of test_allocation.c: steps and outputs allocate nothing, and every allocation
+ * may fail. */
+#define _GNU_SOURCE /* of heap.h */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "heap.h"
+#include "models.h"
+
+static baum_status go(baum_simulation *run, double from, double to)
+{
+  const baum_channel channels[2] = {{.quantity = BAUM_Q}, {.quantity = BAUM_A}};
+  double times[9];
+  double rows[9][18];
+  for (int k = 0; k < 9; k++) {
+    times[k] = from + (k + 1) * (to - from) / 9.0;
+  }
+  return baum_simulation_sample(run, times, 9, channels, 2, rows[0], NULL);
+}
+
+static baum_status create(const baum_mechanism *mechanism, baum_solver solver,
+                          baum_simulation **run)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rattle();
+  o.step = 1e-4;
+  o.solver = solver;
+  return baum_simulation_create(mechanism, &o, run);
+}
+
+static model make_crank(void)
+{
+  model m = {0};
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m),
+                   BAUM_OK);
+  return m;
+}
+
+/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then. */
+static void steps_and_outputs_allocate_nothing(void **state)
+{
+  static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU};
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  model m = make_crank();
+  for (int k = 0; k < 2; k++) {
+    baum_simulation *run = NULL;
+    assert_int_equal(create(m.mechanism, SOLVERS[k], &run), BAUM_OK);
+    assert_true(go(run, 0.0, 0.1) >= BAUM_OK);
+    heap_watch();
+    assert_int_equal(go(run, 0.1, 0.3), BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
+    assert_int_equal(heap_stop(), 0);
+    baum_simulation_destroy(run);
+  }
+  model_destroy(&m);
+}
+
+static baum_status simulate(const baum_mechanism *mechanism)
+{
+  baum_simulation *run = NULL;
+  baum_status status = create(mechanism, BAUM_SOLVER_AUTO, &run);
+  if (status != BAUM_OK) {
+    assert_null(run);
+    return status;
+  }
+  status = go(run, 0.0, 0.01);
+  baum_simulation_destroy(run);
+  return status == BAUM_WARNED ? BAUM_OK : status;
+}
+
+static void a_run_survives_every_failing_allocation(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  model m = make_crank();
+  assert_int_equal(simulate(m.mechanism), BAUM_OK);
+  long before = heap_blocks();
+  heap_watch();
+  assert_int_equal(simulate(m.mechanism), BAUM_OK);
+  long allocations = heap_stop();
+  for (long n = 0; n < allocations; n++) {
+    heap_fail(n, false);
+    baum_status status = simulate(m.mechanism);
+    (void)heap_stop();
+    if ((status != BAUM_OK && status != BAUM_ERR_MEMORY) || heap_blocks() != before) {
+      fail_msg("allocation %ld: %s: %s; %ld blocks are lost", n, baum_status_name(status),
+               baum_message(), heap_blocks() - before);
+    }
+  }
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(steps_and_outputs_allocate_nothing),
+    cmocka_unit_test(a_run_survives_every_failing_allocation),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

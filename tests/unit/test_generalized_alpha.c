@@ -1,0 +1,343 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Generalized-alpha: order of all unknowns, damping of what is not resolved, stiff forces, redundant rows, and steps of
+ * other lengths. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "integrate/generalized_alpha.h"
+#include "integrator_run.h"
+#include "models.h"
+#include "sentence.h"
+
+static void check(baum_status status)
+{
+  if (status < BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+}
+
+static baum_simulation_options options_with(const baum_integrator *integrator, double step)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.step = step;
+  return options;
+}
+
+static baum_simulation *start(const baum_mechanism *mechanism,
+                              const baum_simulation_options *options)
+{
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(mechanism, options, &run));
+  return run;
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters out;
+  check(baum_simulation_counters(run, &out, sizeof out));
+  return out;
+}
+
+static model make_crank(model_slider_crank with)
+{
+  model m = {0};
+  check(model_slider_crank_build(with, &m));
+  return m;
+}
+
+/* ---- one coordinate: x'' = -w^2 x - 2 d w x' ---- */
+
+typedef struct oscillator {
+  double w;
+  double d;
+} oscillator;
+
+static int unit_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)t;
+  (void)inputs;
+  const oscillator *o = user;
+  out[0] = -o->w * (o->w * q[0] + 2.0 * o->d * v[0]);
+  return 0;
+}
+
+/* From rest at x = 1. */
+static baum_mechanism *make_coordinate(baum_force_fn *force, void *user)
+{
+  static const double at[1] = {1.0};
+  static const double rest[1] = {0.0};
+  baum_mechanism *mechanism = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = 1;
+  def.q = at;
+  def.v = rest;
+  def.mass = unit_mass;
+  def.force = force;
+  def.user = user;
+  check(baum_mechanism_create(&mechanism));
+  check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
+  check(baum_mechanism_set_scale(mechanism, 1.0));
+  check(baum_mechanism_freeze(mechanism));
+  return mechanism;
+}
+
+static baum_mechanism *make_oscillating(oscillator *o)
+{
+  return make_coordinate(pull, o);
+}
+
+/* w h = 1e4, for which all three roots are -rho but for some 1e-4: sizes fall as k^2 rho^k. */
+static void what_is_too_fast_falls_by_rho_in_a_step(void **state)
+{
+  (void)state;
+  oscillator o = {.w = 1e6};
+  baum_mechanism *mechanism = make_oscillating(&o);
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
+  baum_simulation *run = start(mechanism, &options);
+  check(baum_simulation_step(run, 100));
+  double before = baum_simulation_q(run)[0];
+  check(baum_simulation_step(run, 1));
+  ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 0.02, 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost; the spring's slow motion is exact to order 2:
+ * x = exp(-w t / (2 d)) for d far above 1. */
+static void a_stiff_damper_needs_no_small_steps(void **state)
+{
+  (void)state;
+  oscillator o = {.w = 10.0, .d = 500.0};
+  baum_mechanism *mechanism = make_oscillating(&o);
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
+  baum_simulation *run = start(mechanism, &options);
+  check(baum_simulation_advance_to(run, 10.0));
+  double slow = o.w * (o.d - sqrt(o.d * o.d - 1.0));
+  ASSERT_NEAR(baum_simulation_q(run)[0], exp(-10.0 * slow), 1e-3, 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* ---- order ---- */
+
+/* Multiplier of the pendulum's rod, of length 1 and 1 kg, in its own units: against that of (5) at the exact motion. */
+static double errors_at(double step, double *velocity, double *multiplier)
+{
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_setup setup =
+    integrator_setup_make(mechanism, baum_generalized_alpha(), BAUM_FORMULATION_INDEX3);
+  setup.step = step;
+  integrator_run run;
+  double q[2];
+  double v[2];
+  assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+  assert_int_equal(integrator_run_to(&run, 1.6), BAUM_OK);
+  pendulum_motion(1.6, q, v);
+  double lambda = baum_i_generalized_alpha_multipliers(run.self)[0];
+  assert_int_equal(baum_i_acceleration(run.workspace, 1.6, q, v, 0.0, 0.0), BAUM_OK);
+  *multiplier = fabs(lambda - run.workspace->lambda[0]);
+  *velocity = hypot(run.v[0] - v[0], run.v[1] - v[1]);
+  double error = hypot(run.q[0] - q[0], run.q[1] - q[1]);
+  integrator_run_close(&run);
+  baum_mechanism_destroy(mechanism);
+  return error;
+}
+
+static void positions_velocities_and_multipliers_are_of_order_2(void **state)
+{
+  (void)state;
+  double coarse[3];
+  double fine[3];
+  coarse[0] = errors_at(4e-3, &coarse[1], &coarse[2]);
+  fine[0] = errors_at(5e-4, &fine[1], &fine[2]);
+  for (int k = 0; k < 3; k++) {
+    double order = log2(coarse[k] / fine[k]) / 3.0;
+    print_message("order %.3f of %s: errors %.3g and %.3g\n", order,
+                  k == 0 ? "q" : (k == 1 ? "v" : "lambda"), coarse[k], fine[k]);
+    ASSERT_NEAR(order, 2.0, 0.0, 0.2);
+  }
+}
+
+/* After five steps: where a begins as the acceleration itself, multipliers are of order 1 at first. */
+static void multipliers_are_of_order_2_from_the_start(void **state)
+{
+  (void)state;
+  double error[2];
+  for (int k = 0; k < 2; k++) {
+    double step = k == 0 ? 4e-3 : 5e-4;
+    baum_mechanism *mechanism = make_pendulum();
+    integrator_setup setup =
+      integrator_setup_make(mechanism, baum_generalized_alpha(), BAUM_FORMULATION_INDEX3);
+    setup.step = step;
+    integrator_run run;
+    double q[2];
+    double v[2];
+    assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
+    assert_int_equal(integrator_run_to(&run, 5.0 * step), BAUM_OK);
+    double lambda = baum_i_generalized_alpha_multipliers(run.self)[0];
+    pendulum_motion(5.0 * step, q, v);
+    assert_int_equal(baum_i_acceleration(run.workspace, 5.0 * step, q, v, 0.0, 0.0), BAUM_OK);
+    error[k] = fabs(lambda - run.workspace->lambda[0]);
+    integrator_run_close(&run);
+    baum_mechanism_destroy(mechanism);
+  }
+  double order = log2(error[0] / error[1]) / 3.0;
+  print_message("order %.3f of lambda after five steps: %.3g and %.3g\n", order, error[0],
+                error[1]);
+  assert_true(order > 1.8);
+}
+
+/* ---- runs ---- */
+
+static void positions_fulfil_the_constraints_to_rounding(void **state)
+{
+  (void)state;
+  model m = make_crank((model_slider_crank){0});
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
+  baum_simulation *run = start(m.mechanism, &options);
+  check(baum_simulation_step(run, 1000));
+  baum_counters c = counters_of(run);
+  assert_true(c.max_phi <= 1e-14);     /* roundings of 1 m and of turns */
+  assert_true(c.max_phi_rate > 1e-9);  /* of order h^2 */
+  assert_true(c.max_phi_rate <= 1e-2); /* of 45 m/s */
+  assert_int_equal(c.rejected, 0);
+  assert_int_equal(c.warnings, 0);
+  assert_true(c.nonlinear_iterations >= 1000 && c.nonlinear_iterations <= 4000);
+  assert_true(c.full_factorizations <= 20); /* pivots are kept */
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+static void end_of(const model *m, baum_simulation_options *options, double *q)
+{
+  baum_simulation *run = start(m->mechanism, options);
+  check(baum_simulation_advance_to(run, 0.03));
+  memcpy(q, baum_simulation_q(run), 9 * sizeof *q);
+  baum_simulation_destroy(run);
+}
+
+/* The matrix differs, the motion by the share at which iterations end only. */
+static void redundant_rows_alter_nothing(void **state)
+{
+  (void)state;
+  model plain = make_crank((model_slider_crank){0});
+  model doubled = make_crank((model_slider_crank){.doubled_guide = true});
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
+  double want[9];
+  double got[9];
+  end_of(&plain, &options, want);
+  end_of(&doubled, &options, got);
+  for (int i = 0; i < 9; i++) {
+    ASSERT_NEAR(got[i], want[i], 0.0, 1e-10);
+  }
+  model_destroy(&plain);
+  model_destroy(&doubled);
+}
+
+/* A third into every step; they alter nothing and are as exact. */
+static void samples_beside_the_grid_alter_nothing(void **state)
+{
+  (void)state;
+  enum { SAMPLES = 300 };
+  const baum_channel channel = {.quantity = BAUM_Q};
+  const double step = 1.0 / 64.0;
+  double times[SAMPLES];
+  double rows[SAMPLES];
+  oscillator o = {.w = 1.0};
+  baum_mechanism *mechanism = make_oscillating(&o);
+  baum_simulation_options options = options_with(baum_generalized_alpha(), step);
+  baum_simulation *sampled = start(mechanism, &options);
+  baum_simulation *plain = start(mechanism, &options);
+  double error[2] = {0.0, 0.0};
+  for (int i = 0; i < SAMPLES; i++) {
+    times[i] = step * (i + 1) / 3.0;
+  }
+  check(baum_simulation_sample(sampled, times, SAMPLES, &channel, 1, rows, NULL));
+  check(baum_simulation_advance_to(plain, times[SAMPLES - 1]));
+  assert_true(baum_simulation_q(sampled)[0] == baum_simulation_q(plain)[0]);
+  for (int i = 0; i < SAMPLES; i++) {
+    double *most = &error[i % 3 == 2];
+    *most = fmax(*most, fabs(rows[i] - cos(times[i])));
+  }
+  assert_true(error[1] > 0.0 && error[0] <= 1.1 * error[1]);
+  baum_simulation_destroy(sampled);
+  baum_simulation_destroy(plain);
+  baum_mechanism_destroy(mechanism);
+}
+
+/* Back and forth over the place where the force jumps, by thousands of metres. */
+static int jump(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = q[0] > 0.5 ? -1e8 : 1e8;
+  return 0;
+}
+
+static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_coordinate(jump, NULL);
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
+  baum_simulation *run = start(mechanism, &options);
+  ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_CONVERGENCE,
+              "t = 0 s: generalized_alpha|the step is too large");
+  assert_true(baum_simulation_time(run) == 0.0);
+  assert_true(baum_simulation_q(run)[0] == 1.0);
+  assert_true(baum_simulation_v(run)[0] == 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
+static void only_index_3_without_gains_is_offered(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_pendulum();
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-3);
+  baum_simulation *run = NULL;
+  options.formulation = BAUM_FORMULATION_PROJECTION;
+  ASSERT_SAYS(baum_simulation_create(mechanism, &options, &run), BAUM_ERR_UNSUPPORTED,
+              "generalized_alpha does not offer the formulation projection|offers index3");
+  options.formulation = BAUM_FORMULATION_DEFAULT;
+  options.gains = baum_gains_auto();
+  ASSERT_SAYS(baum_simulation_create(mechanism, &options, &run), BAUM_ERR_ARGUMENT,
+              "gains are given");
+  baum_mechanism_destroy(mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(what_is_too_fast_falls_by_rho_in_a_step),
+    cmocka_unit_test(a_stiff_damper_needs_no_small_steps),
+    cmocka_unit_test(positions_velocities_and_multipliers_are_of_order_2),
+    cmocka_unit_test(multipliers_are_of_order_2_from_the_start),
+    cmocka_unit_test(positions_fulfil_the_constraints_to_rounding),
+    cmocka_unit_test(redundant_rows_alter_nothing),
+    cmocka_unit_test(samples_beside_the_grid_alter_nothing),
+    cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
+    cmocka_unit_test(only_index_3_without_gains_is_offered),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
