@@ -153,7 +153,8 @@ static void warn_settings(baum_simulation *run)
       "constraints: give jacobian and gamma, or a larger rtol",
       run->options.rtol, noise);
   }
-  if (run->options.formulation == BAUM_FORMULATION_INDEX3) {
+  bool variable = !baum_i_problem_has_fixed_step(&run->problem);
+  if (run->options.formulation == BAUM_FORMULATION_INDEX3 && variable) {
     baum_i_run_warn(run,
                     "index 3 is for comparison: its velocities are outside of the error test and "
                     "the motion error is far above rtol");
@@ -176,8 +177,7 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
 /* Others solve for poses or for residuals. */
 static bool goes_by_accelerations(const baum_integrator *integrator)
 {
-  return !integrator->without_freedom &&
-         !baum_i_integrator_offers(integrator, BAUM_FORMULATION_INDEX3);
+  return !integrator->without_freedom && !integrator->solves_residuals;
 }
 
 /* At the start pose: which rows and bodies to leave out, and whether blocks suit what is left. */
