@@ -1,0 +1,99 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The matrix of a step: its solution is Newton's change of the residual, by differences, at every element there is. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "dynamics/step_matrix.h"
+#include "every_element.h"
+
+enum { SIZE = 2 * EVERY_NV + EVERY_NC, N = EVERY_NV + EVERY_NC };
+
+typedef struct point {
+  double y[SIZE];
+  double dy[SIZE];
+} point;
+
+/* Irregular numbers about 0, the positions about the drawn ones. */
+static void choose(baum_workspace *w, point *p)
+{
+  memset(p, 0, sizeof *p);
+  assert_int_equal(baum_workspace_drawn(w, p->y, NULL), BAUM_OK);
+  for (int i = 0; i < SIZE; i++) {
+    double x = sin(7.3 * i + 1.0);
+    p->y[i] = i < EVERY_NV ? p->y[i] + 0.01 * x : x;
+    p->dy[i] = cos(3.1 * i);
+  }
+}
+
+/* Along a direction d of (q, lambda scaled), with v and v' in their ratios. */
+static void move(const point *from, const double *d, double by, const baum_i_step_ratios *r,
+                 point *to)
+{
+  *to = *from;
+  for (int i = 0; i < EVERY_NV; i++) {
+    to->y[i] += by * d[i];
+    to->y[EVERY_NV + i] += by * r->by_v * d[i];
+    to->dy[EVERY_NV + i] += by * r->by_a * d[i];
+  }
+  for (int i = 0; i < EVERY_NC; i++) {
+    to->y[2 * EVERY_NV + i] += by * d[EVERY_NV + i] / r->scale;
+  }
+}
+
+static void residual_at(baum_workspace *w, const point *p, double scale, double out[N])
+{
+  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
+  double all[SIZE];
+  assert_int_equal(baum_i_residual(w, &dae, 0.1, p->y, p->dy, all), BAUM_OK);
+  for (int i = 0; i < N; i++) {
+    out[i] = (i < EVERY_NV ? scale : 1.0) * all[EVERY_NV + i];
+  }
+}
+
+static void a_change_of_the_residual_is_answered_by_what_made_it(void **state)
+{
+  (void)state;
+  const baum_i_step_ratios ratios = {.by_v = 20.0, .by_a = 300.0, .scale = 1.0 / 250.0};
+  every_element parts = every_element_make(NULL);
+  baum_workspace *w = NULL;
+  baum_i_step_matrix *matrix = NULL;
+  point p;
+  point ends[2];
+  double d[N];
+  double change[2][N];
+  assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);
+  assert_int_equal(baum_i_step_matrix_create(w, &matrix), BAUM_OK);
+  choose(w, &p);
+  for (int i = 0; i < N; i++) {
+    d[i] = cos(5.7 * i);
+  }
+  for (int k = 0; k < 2; k++) {
+    move(&p, d, k == 0 ? 1e-5 : -1e-5, &ratios, &ends[k]);
+    residual_at(w, &ends[k], ratios.scale, change[k]);
+  }
+  for (int i = 0; i < N; i++) {
+    change[0][i] = (change[0][i] - change[1][i]) / 2e-5;
+  }
+  assert_int_equal(baum_i_step_matrix_factor(matrix, w, &ratios, 0.1, p.y, p.dy), BAUM_OK);
+  baum_i_step_matrix_solve(matrix, change[0]);
+  for (int i = 0; i < N; i++) {
+    ASSERT_NEAR(change[0][i], d[i], 0.0,
+                1e-5); /* truncation 1e-10 times third derivatives, and the condition */
+  }
+  baum_i_step_matrix_destroy(matrix);
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_change_of_the_residual_is_answered_by_what_made_it),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
