@@ -39,8 +39,8 @@ static const double ROUNDING = 16.0 * DBL_EPSILON;
 
 static const double PI = 3.14159265358979323846;
 
-/* A double root is where a rounding of 1e-16 moves it: some 1e-8. */
-static const double ROOT_TOLERANCE = 1e-6;
+/* The radius of a double root is known to some 1e-16^(1/3) only, see schur_cohn.h. */
+static const double ROOT_TOLERANCE = 1e-4;
 
 /* Of a test on the circle, relative: below this Schur and Cohn's test is not asked. */
 static const double UNDECIDED = 1e-12;
@@ -141,41 +141,51 @@ static void newton_step(const baum_i_method *method, number mu, number *w)
   }
 }
 
-/* Where on the circle |1 + w| = radius the equation is best fulfilled. */
-static number find_direction(const baum_i_method *method, number mu, double radius)
+/* |p| on the circle of this radius, in direction k. */
+static double size_on_circle(const baum_i_method *method, number mu, double radius, int k)
 {
-  number best = {0.0, 0.0};
-  double least = HUGE_VAL;
-  for (int k = 0; k < DIRECTIONS; k++) {
-    double angle = 2.0 * PI * k / DIRECTIONS;
-    number w = {radius * cos(angle) - 1.0, radius * sin(angle)};
-    number slope;
-    number value = evaluate(method, mu, w, &slope);
-    double size = hypot(value.re, value.im);
-    if (size < least) {
-      least = size;
-      best = w;
-    }
-  }
-  return best;
+  double angle = 2.0 * PI * k / DIRECTIONS;
+  number slope;
+  number value =
+    evaluate(method, mu, (number){radius * cos(angle) - 1.0, radius * sin(angle)}, &slope);
+  return hypot(value.re, value.im);
 }
 
-/* w of the largest |z|. */
+/* The root that Newton's method reaches from there. */
+static number polish(const baum_i_method *method, number mu, double radius, int k)
+{
+  double angle = 2.0 * PI * k / DIRECTIONS;
+  number w = {radius * cos(angle) - 1.0, radius * sin(angle)};
+  for (int n = 0; n < NEWTON_STEPS; n++) {
+    newton_step(method, mu, &w);
+  }
+  return w;
+}
+
+/* w of the largest |z|: of the roots that are reached from where |p| is least on the circle of the
+ * largest |z|, the one that is on it; others may be near, but inside. */
 static number largest_root(const baum_i_method *method, number mu)
 {
   baum_i_polynomial p = characteristic(method, mu);
   double radius = baum_i_schur_cohn_radius(&p);
-  if (!(radius < HUGE_VAL)) {
-    return (number){HUGE_VAL, 0.0};
+  number best = {radius - 1.0, 0.0};
+  double least = radius < HUGE_VAL ? ROOT_TOLERANCE * radius : 0.0;
+  double size[DIRECTIONS];
+  for (int k = 0; k < DIRECTIONS && least > 0.0; k++) {
+    size[k] = size_on_circle(method, mu, radius, k);
   }
-  number on_circle = find_direction(method, mu, radius);
-  number w = on_circle;
-  for (int k = 0; k < NEWTON_STEPS; k++) {
-    newton_step(method, mu, &w);
+  for (int k = 0; k < DIRECTIONS && least > 0.0; k++) {
+    if (size[k] <= size[(k + 1) % DIRECTIONS] &&
+        size[k] <= size[(k + DIRECTIONS - 1) % DIRECTIONS]) {
+      number w = polish(method, mu, radius, k);
+      double off = fabs(hypot(1.0 + w.re, w.im) - radius);
+      if (off < least) {
+        least = off;
+        best = w;
+      }
+    }
   }
-  /* A smaller root is not what was looked for. */
-  bool found = fabs(hypot(1.0 + w.re, w.im) - radius) <= ROOT_TOLERANCE * radius;
-  return found ? w : on_circle;
+  return best;
 }
 
 static number increment(const baum_i_method *method, number mu)

@@ -98,7 +98,7 @@ double baum_i_chart_extent(const baum_i_method *method, double growth)
   }
   for (int k = ROWS; k > 0; k--) {
     if (reaches(method, most * k / ROWS, growth)) {
-      return most * (k + 1) / ROWS;
+      return most * (k + 3) / ROWS; /* there may be a top between the columns */
     }
   }
   return 0.0;

@@ -15,8 +15,8 @@ typedef struct baum_i_polynomial {
  * the nearer is a root to the circle; below some 1e-12 rounding decides. radius > 0. */
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
-/* The largest |z|, within 1e-9 of itself where no other root is as large, within some 1e-16^(1/m)
- * for a root of multiplicity m. Infinite when it is beyond double. c[degree] = 1. */
+/* The largest |z|, within 1e-9 of itself where no other root is as large, within some
+ * 1e-16^(1/(m+1)) for a root of multiplicity m: the test divides by how far the last one was passed. Infinite when it is beyond double. c[degree] = 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

@@ -17,6 +17,8 @@ enum {
   AB2 = ONE_STEP_COUNT,
   AB3,
   AB4,
+  DP5,
+  RK8,
   METHOD_COUNT
 };
 
@@ -29,6 +31,14 @@ static const baum_i_method methods[METHOD_COUNT] = {
   [AB2] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 2, {3.0 / 2.0, -1.0 / 2.0}},
   [AB3] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 3, {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0}},
   [AB4] = {BAUM_I_METHOD_ADAMS_BASHFORTH, 4, {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0}},
+  [DP5] = {BAUM_I_METHOD_ONE_STEP,
+           6,
+           {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 600.0}},
+  [RK8] = {BAUM_I_METHOD_ONE_STEP,
+           12,
+           {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0,
+            1.0 / 40320.0, 2.691692200169086e-06, 2.34134510820978e-07, 1.4947364854591546e-08,
+            3.613324578128244e-10}},
 };
 
 static inline baum_amplification amplification_at(int method, double alpha_h, double beta2_h2)

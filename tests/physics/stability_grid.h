@@ -1,0 +1,239 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Do mechanisms keep their constraints where baum_stability_at() says so? A mechanism starts with all
+ * rows violated, and a pair of gains is observed to be stable when the largest violation of the last
+ * quarter of a run is below that of the first. All pairs of a grid over the part of the plane of
+ * (alpha h, beta^2 h^2) that holds the predicted region, for every fixed-step integrator; one program
+ * per mechanism, so that they run side by side. Include after cmocka.h.
+ *
+ * The step: the motion itself keeps up a violation of (alpha h / beta^2 h^2) h^2 |gamma|, which
+ * must stay far below the start's. With h omega = 1e-5 it is 1e-10 of the length scale, times 20 in
+ * the corner of the grid, against 1e-6. Methods of higher order keep up less.
+ */
+#ifndef BAUM_TEST_STABILITY_GRID_H
+#define BAUM_TEST_STABILITY_GRID_H
+
+#include <string.h>
+
+#include "physics_run.h"
+
+enum { CELLS = 44, STEPS = 3000, CALM = 32, OUTLINE = 2000 };
+
+static const double OFF = 1e-6; /* of the length scale, and rad */
+/* Times the start's violation: 1e-3 of the scale, hardly still linear. */
+static const double GROWN = 1e3;
+/* Of the start's violation. A start with Phi' = 0 gives a mode of a one-step method a share of
+ * (1 - z1) / (z2 - z1), 1/100 or more here, so that no mode hides below this from the beginning. The
+ * modes that a method of several steps has besides may well hide: such runs never end as decayed. */
+static const double DECAYED = 1e-3;
+
+/* The grid reaches so much farther than the region. */
+static const double BEYOND = 1.1;
+
+/* Steps of 1e-5 over omega: 3.1, 2 and 150 rad/s at start. */
+static inline double step_of(physics_mechanism which)
+{
+  return which == PENDULUM ? 1e-5 / 3.1 : which == FOUR_BAR ? 1e-5 / 2.0 : 1e-5 / 150.0;
+}
+
+/* Every coordinate moved, no two alike, so that every row is violated. */
+static inline void violate(const watched_run *watched, const baum_mechanism *mechanism)
+{
+  double q[PHYSICS_NQ];
+  double v[PHYSICS_NQ];
+  double scale = (double)NAN;
+  check(baum_mechanism_get_scale(mechanism, &scale));
+  for (int i = 0; i < watched->nq; i++) {
+    double unit = watched->nq == PHYSICS_NQ && i % 3 == 2 ? 1.0 : scale;
+    q[i] = baum_simulation_q(watched->run)[i] + OFF * unit * cos(2.0 * i);
+    v[i] = baum_simulation_v(watched->run)[i];
+  }
+  check(baum_simulation_set_state(watched->run, 0.0, q, v));
+}
+
+/* A run from the violated start; the consistent one is found once by a run that assembles. */
+static inline watched_run start(const model *m, const watched_run *consistent,
+                                const baum_integrator *integrator, double step, baum_gains gains)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.formulation = BAUM_FORMULATION_BAUMGARTE;
+  options.gains = gains;
+  options.allow_unstable = true;
+  options.step = step;
+  options.start = BAUM_START_AS_GIVEN;
+  options.check_derivatives = false;
+  watched_run out = watch(m->mechanism, &options);
+  check(baum_simulation_set_state(out.run, 0.0, baum_simulation_q(consistent->run),
+                                  baum_simulation_v(consistent->run)));
+  violate(&out, m->mechanism);
+  return out;
+}
+
+static inline watched_run start_consistent(const model *m)
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_euler();
+  options.step = 1e-5;
+  return watch(m->mechanism, &options);
+}
+
+/* ---- observed ---- */
+
+/* Whether the last quarter's largest violation is below the first's. Runs that have grown or
+ * decayed beyond doubt end early: a violation that swings through zero is no doubt after CALM
+ * steps. */
+static inline bool watch_decay(const watched_run *watched, bool one_step)
+{
+  double phi[PHYSICS_NC];
+  double quarter[4] = {0.0};
+  watch_phi(watched, phi);
+  double first = largest_of(phi, watched->nc);
+  int calm = 0;
+  for (int k = 0; k < STEPS; k++) {
+    watch_phi(watched, phi);
+    double size = largest_of(phi, watched->nc);
+    quarter[4 * k / STEPS] = fmax(quarter[4 * k / STEPS], size);
+    calm = size < DECAYED * first ? calm + 1 : 0;
+    if (one_step && calm == CALM) {
+      return true;
+    }
+    if (!(size < GROWN * first) || baum_simulation_step(watched->run, 1) < BAUM_OK) {
+      return false;
+    }
+  }
+  return quarter[3] < quarter[0];
+}
+
+/* ---- predicted ---- */
+
+typedef struct window {
+  const baum_integrator *integrator;
+  double alpha_h;  /* largest; the grid begins one cell above 0 */
+  double beta2_h2; /* likewise */
+} window;
+
+static inline bool predict(const window *w, double alpha_h, double beta2_h2)
+{
+  baum_amplification z;
+  check(baum_stability_at(w->integrator, alpha_h, beta2_h2, &z, sizeof z));
+  return z.stability == BAUM_STABLE;
+}
+
+/* What the predicted region needs. */
+static inline window make_window(const baum_integrator *integrator)
+{
+  static double alpha_h[OUTLINE];
+  static double beta2_h2[OUTLINE];
+  int32_t count = 0;
+  window w = {integrator, 0.0, 0.0};
+  check(baum_stability_outline(integrator, 1.0, OUTLINE, alpha_h, beta2_h2, &count));
+  assert_true(count > 0 && count <= OUTLINE);
+  for (int32_t k = 0; k < count; k++) { /* NaN between parts is not the larger one */
+    w.alpha_h = fmax(w.alpha_h, BEYOND * alpha_h[k]);
+    w.beta2_h2 = fmax(w.beta2_h2, BEYOND * beta2_h2[k]);
+  }
+  return w;
+}
+
+static inline double alpha_at(const window *w, double i)
+{
+  return fmax(0.0, w->alpha_h * i / CELLS);
+}
+
+static inline double beta2_at(const window *w, double j)
+{
+  return fmax(0.0, w->beta2_h2 * j / CELLS);
+}
+
+/* Whether one of the neighbours of a point, or a point as good as itself, is on the other side: a
+ * cell may hold the boundary, and points on it are marginal. */
+static inline bool at_boundary(const window *w, int i, int j)
+{
+  static const double reach[] = {1.0, 1e-9};
+  bool here = predict(w, alpha_at(w, i), beta2_at(w, j));
+  bool other = false;
+  for (int k = 0; k < 18; k++) {
+    double di = (k % 3 - 1) * reach[k / 9];
+    double dj = (k / 3 % 3 - 1) * reach[k / 9];
+    other = other || predict(w, alpha_at(w, i + di), beta2_at(w, j + dj)) != here;
+  }
+  return other;
+}
+
+/* ---- both ---- */
+
+typedef struct tally {
+  int agree;
+  int differ_at_boundary;
+  int differ_elsewhere;
+  int stable;
+  int boundary;
+} tally;
+
+static inline void count(tally *t, const window *w, int i, int j, bool observed)
+{
+  bool predicted = predict(w, alpha_at(w, i), beta2_at(w, j));
+  bool boundary = at_boundary(w, i, j);
+  t->stable += predicted;
+  t->boundary += boundary;
+  t->agree += observed == predicted;
+  t->differ_at_boundary += observed != predicted && boundary;
+  if (observed != predicted && !boundary) {
+    t->differ_elsewhere++;
+    printf("astray: alpha h %.4f, beta^2 h^2 %.4f: predicted %d, observed %d\n", alpha_at(w, i),
+           beta2_at(w, j), predicted, observed);
+  }
+}
+
+static inline void compare_grid(const baum_integrator *integrator, physics_mechanism which)
+{
+  const window made = make_window(integrator);
+  const window *w = &made;
+  const bool one_step = strncmp(baum_integrator_name(integrator), "ab", 2) != 0;
+  model m = build_mechanism(which);
+  watched_run consistent = start_consistent(&m);
+  tally t = {0};
+  for (int k = 0; k < CELLS * CELLS; k++) {
+    int i = k % CELLS + 1;
+    int j = k / CELLS + 1;
+    baum_gains gains = baum_gains_scaled(alpha_at(w, i), beta2_at(w, j));
+    watched_run watched = start(&m, &consistent, w->integrator, step_of(which), gains);
+    count(&t, w, i, j, watch_decay(&watched, one_step));
+    unwatch(&watched);
+  }
+  printf("%-20s %-20s %4.2f x %5.2f: %6.2f %% of %d agree (%d stable), %d differ next to the "
+         "boundary (%d points), %d elsewhere\n",
+         baum_integrator_name(w->integrator), mechanism_name(which), w->alpha_h, w->beta2_h2,
+         100.0 * t.agree / (CELLS * CELLS), CELLS * CELLS, t.stable, t.differ_at_boundary,
+         t.boundary, t.differ_elsewhere);
+  (void)fflush(stdout);
+  unwatch(&consistent);
+  model_destroy(&m);
+  assert_int_equal(t.differ_elsewhere, 0);
+  assert_true(t.agree >= 97 * CELLS * CELLS / 100);
+  /* A window that misses the region, or its edge, would agree for nothing. */
+  assert_true(t.stable > CELLS * CELLS / 10 && t.stable < CELLS * CELLS * 9 / 10);
+}
+
+/* Every fixed-step integrator with gains; `TESTS` lists them for cmocka. */
+#define EVERY_INTEGRATOR(X)   \
+  X(baum_euler)               \
+  X(baum_semi_implicit_euler) \
+  X(baum_rk2)                 \
+  X(baum_rk3)                 \
+  X(baum_rk4)                 \
+  X(baum_rk8)                 \
+  X(baum_ab2)                 \
+  X(baum_ab3)                 \
+  X(baum_ab4)
+
+/* One test for each, called after the integrator. */
+#define DEFINE_GRID(integrator, mechanism)                         \
+  static void integrator##_is_stable_where_predicted(void **state) \
+  {                                                                \
+    (void)state;                                                   \
+    compare_grid(integrator(), mechanism);                         \
+  }
+#define LIST_GRID(integrator) cmocka_unit_test(integrator##_is_stable_where_predicted),
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Predicted against simulated stability of the four-bar. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "stability_grid.h"
+
+#define DEFINE(integrator) DEFINE_GRID(integrator, FOUR_BAR)
+EVERY_INTEGRATOR(DEFINE)
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {EVERY_INTEGRATOR(LIST_GRID)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
