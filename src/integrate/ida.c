@@ -75,9 +75,11 @@ static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
 
-static int evaluate(sunrealtype t, N_Vector y, N_Vector dy, N_Vector residual, void *user)
+/* IDA's time is that since the last start. */
+static int evaluate(sunrealtype tau, N_Vector y, N_Vector dy, N_Vector residual, void *user)
 {
   ida_run *run = user;
+  double t = run->sundials.origin + tau;
   baum_status status =
     baum_i_residual(run->sundials.problem->workspace, &run->dae, t, N_VGetArrayPointer(y),
                     N_VGetArrayPointer(dy), N_VGetArrayPointer(residual));
@@ -85,7 +87,7 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector dy, N_Vector residual, v
 }
 
 /* NOLINTNEXTLINE(readability-function-size): IDA's parameters. */
-static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Vector residual,
+static int linearize(sunrealtype tau, sunrealtype c, N_Vector y, N_Vector dy, N_Vector residual,
                      SUNMatrix matrix, void *user, N_Vector work1, N_Vector work2, N_Vector work3)
 {
   /* #lizard forgives: IDA's parameters */
@@ -95,6 +97,7 @@ static int linearize(sunrealtype t, sunrealtype c, N_Vector y, N_Vector dy, N_Ve
   (void)work2;
   (void)work3;
   ida_run *run = user;
+  double t = run->sundials.origin + tau;
   run->linearized = c;
   baum_status status = baum_i_sundials_klu_fill(&run->klu, &run->dae, c, t, N_VGetArrayPointer(y),
                                                 N_VGetArrayPointer(dy));
@@ -162,6 +165,7 @@ static void begin(ida_run *run, const baum_i_problem *problem, double t)
 {
   baum_i_sundials_begin(&run->sundials, problem, t);
   bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  run->sundials.origin = t;
   run->dae.index = residual_of(problem->formulation);
   run->newton.sundials = &run->sundials;
   run->newton.index = run->dae.index;
@@ -188,11 +192,17 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
                                double *v)
 {
   ida_run *run = self;
-  /* IDA refuses times before its last step, but extrapolates beyond. */
-  double end = t;
+  /* IDA refuses times before its last step, but extrapolates beyond; t may be off by its rounding. */
+  double end = 0.0;
+  double last = 0.0;
   (void)IDAGetCurrentTime(run->ida, &end);
-  bool beyond = (t - end) * problem->direction > 100.0 * DBL_EPSILON * fabs(end);
-  if (beyond || IDAGetDky(run->ida, t, 0, run->inside) != IDA_SUCCESS) {
+  (void)IDAGetLastStep(run->ida, &last);
+  double tau = t - run->sundials.origin;
+  double beyond = (tau - end) * problem->direction;
+  double before = -beyond - fabs(last);
+  bool outside = fmax(beyond, before) > 100.0 * DBL_EPSILON * fmax(fabs(t), fabs(end));
+  tau = beyond > 0.0 ? end : (before > 0.0 ? end - last : tau);
+  if (outside || IDAGetDky(run->ida, tau, 0, run->inside) != IDA_SUCCESS) {
     return baum_i_sundials_fail_outside(&run->sundials, t);
   }
   unload(problem, run->inside, q, v);
@@ -323,7 +333,7 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   if (status != BAUM_OK) {
     return status;
   }
-  int flag = IDAReInit(run->ida, state->t, run->y, run->dy);
+  int flag = IDAReInit(run->ida, 0.0, run->y, run->dy);
   if (flag == IDA_SUCCESS) {
     flag = give_first_step(run);
   }
@@ -341,12 +351,15 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
     return status;
   }
   baum_i_sundials_begin_step(&run->sundials, problem, state->t);
-  double t = state->t;
-  double target = baum_i_sundials_target(problem, t);
-  int flag = IDASolve(run->ida, target, &t, run->y, run->dy, IDA_ONE_STEP);
+  double before = 0.0;
+  double tau = 0.0;
+  (void)IDAGetCurrentTime(run->ida, &before);
+  double target = baum_i_sundials_target(problem, before);
+  int flag = IDASolve(run->ida, target, &tau, run->y, run->dy, IDA_ONE_STEP);
   if (flag < 0) {
     return fail(run, flag);
   }
+  double t = run->sundials.origin + tau;
   status = baum_i_sundials_check_progress(&run->sundials, t);
   if (status == BAUM_OK) {
     run->sundials.unfinished = false;
@@ -421,7 +434,7 @@ static int attach_klu(ida_run *run)
   return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
 }
 
-static int start_ida(ida_run *run, double t)
+static int start_ida(ida_run *run)
 {
   run->ida = IDACreate(run->sundials.context);
   if (!run->ida) {
@@ -432,7 +445,7 @@ static int start_ida(ida_run *run, double t)
     flag = IDASetUserData(run->ida, run);
   }
   if (flag == IDA_SUCCESS) {
-    flag = IDAInit(run->ida, evaluate, t, run->y, run->dy);
+    flag = IDAInit(run->ida, evaluate, 0.0, run->y, run->dy);
   }
   if (flag == IDA_SUCCESS) {
     flag = IDAWFtolerances(run->ida, weigh);
@@ -470,7 +483,7 @@ static baum_status set_up(ida_run *run, const baum_i_problem *problem, const bau
   if (status != BAUM_OK) {
     return status;
   }
-  int flag = start_ida(run, start->t);
+  int flag = start_ida(run);
   run->sundials.unfinished = flag != IDA_SUCCESS;
   return flag == IDA_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }

@@ -208,7 +208,8 @@ baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_s
                        sundials->t, sundials->integrator, flag, step, sundials->complaint);
   }
   return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", sundials->t,
-                     sundials->integrator, flags->meaning, step, sundials->complaint);
+                     sundials->integrator, flags->meaning, step,
+                     sundials->origin == 0.0 ? sundials->complaint : "");
 }
 
 baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t)

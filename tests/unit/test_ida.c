@@ -454,6 +454,40 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
+/* Nothing here depends on time, and IDA is told that since the start: a billion seconds, of which a double holds no more
+ * than tenths of microseconds, change no digit. Inside of the step t itself is rounded so. */
+static void a_late_start_costs_no_digits(void **state)
+{
+  (void)state;
+  const double late = 1e9;
+  baum_mechanism *mechanism = make_pendulum();
+  integrator_run runs[2];
+  for (int k = 0; k < 2; k++) {
+    integrator_setup setup = integrator_setup_make(mechanism, baum_ida(), BAUM_FORMULATION_GGL);
+    const double q[2] = {1.0, 0.0};
+    const double v[2] = {0.0, 0.0};
+    setup.rtol = 1e-9;
+    assert_int_equal(integrator_run_open(&runs[k], &setup), BAUM_OK);
+    assert_int_equal(integrator_run_restart(&runs[k], k * late, q, v, 1.0), BAUM_OK);
+    for (int i = 0; i < 300; i++) {
+      assert_int_equal(integrator_run_step(&runs[k]), BAUM_OK);
+    }
+  }
+  ASSERT_NEAR(runs[1].state.t - late, runs[0].state.t, 0.0, 1.2e-7);
+  assert_memory_equal(runs[0].state_q, runs[1].state_q, 2 * sizeof(double));
+  assert_memory_equal(runs[0].state_v, runs[1].state_v, 2 * sizeof(double));
+  for (int k = 0; k < 2; k++) {
+    double *q = runs[k].q;
+    double *v = runs[k].v;
+    baum_ida()->interpolate(runs[k].self, &runs[k].problem, runs[k].state.t, q, v);
+    for (int i = 0; i < 2; i++) {
+      ASSERT_NEAR(q[i], runs[k].state_q[i], 0.0, 1.2e-7 * 5.0); /* speeds are below 5 m/s */
+    }
+    integrator_run_close(&runs[k]);
+  }
+  baum_mechanism_destroy(mechanism);
+}
+
 /* Create evaluates the start; what fails there is told, and nothing is left behind. */
 static void a_start_that_cannot_be_evaluated_is_refused(void **state)
 {
@@ -488,6 +522,7 @@ int main(void)
     cmocka_unit_test(multipliers_are_tested_as_their_factor_says),
     cmocka_unit_test(a_start_off_the_constraints_jumps_onto_them),
     cmocka_unit_test(the_start_is_smooth),
+    cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
