@@ -28,11 +28,10 @@ typedef struct baum_i_sundials {
   bool unfinished;        /* since begin: a start or step that failed must be begun anew */
   bool stopped;           /* an evaluation of this call failed for good */
   baum_status evaluation; /* the last failing one here and now, or BAUM_OK */
-  double
-    origin; /* [s] SUNDIALS is told t - origin, so that a late start costs no digits; 0: it is told t */
-  double t;                           /* start of the step under way */
-  double evaluated_at;                /* start of the step in which that evaluation failed */
-  char sentence[BAUM_I_MESSAGE_SIZE]; /* of that evaluation */
+  double origin;          /* [s] SUNDIALS is told t - origin: a late start costs no digits */
+  double t;               /* start of the step under way */
+  double evaluated_at;    /* start of the step in which that evaluation failed */
+  char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
 } baum_i_sundials;
 
