@@ -123,6 +123,16 @@ static void rk4_finds_its_start_again(void **state)
   return_on_both(baum_rk4(), 5e-5, (double)NAN);
 }
 
+static void pairs_find_their_start_again(void **state)
+{
+  (void)state;
+  const baum_integrator *const pairs[] = {baum_dp5(), baum_rk8()};
+  for (int k = 0; k < 2; k++) {
+    return_on_both(pairs[k], 5e-5, (double)NAN);
+    return_on_both(pairs[k], (double)NAN, 1e-8);
+  }
+}
+
 static void adams_finds_its_start_again(void **state)
 {
   (void)state;
@@ -162,6 +172,7 @@ int main(void)
     cmocka_unit_test(explicit_euler_finds_its_start_again),
     cmocka_unit_test(semi_implicit_euler_finds_its_start_again),
     cmocka_unit_test(rk4_finds_its_start_again),
+    cmocka_unit_test(pairs_find_their_start_again),
     cmocka_unit_test(adams_finds_its_start_again),
     cmocka_unit_test(bdf_finds_its_start_again),
     cmocka_unit_test(ida_finds_its_start_again),
