@@ -62,11 +62,13 @@ BAUM_API const baum_integrator *baum_rattle(void);
 /** Generalized-alpha with spectral radius 0.8, order 2, fixed step, implicit: for stiff forces, and to
  *  compare with at index 3. INDEX3: Phi = 0 to rounding after every step, Phi' of second order. */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
-/** SUNDIALS CVODE, Adams-Moulton with fixed-point iteration, rtol. BAUMGARTE (auto),
- *  UNSTABILIZED. */
+/** SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED; CVODE projects only within
+ *  BDF. Iterates by fixed point, and with gains by Newton on what these make stiff, so that high gains
+ *  do not bind the steps; stiff forces do. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
-/** SUNDIALS CVODE, BDF with Newton iteration, rtol. BAUMGARTE (auto), UNSTABILIZED. Its Jacobian is
- *  dense and taken by differences: for up to about 100 coordinates. */
+/** SUNDIALS CVODE, BDF, rtol: for stiff forces. PROJECTION, BAUMGARTE (auto), UNSTABILIZED. Newton
+ *  iteration on the true Jacobian, which is sparse and has the derivatives of all joints and forces;
+ *  PROJECTION is made inside of each step, before its error is judged. */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
  *  UNSTABILIZED, INDEX2, and INDEX3, which is there for comparison: its error is far above its
