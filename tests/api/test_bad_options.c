@@ -271,6 +271,41 @@ static void gains_out_of_range_are_refused(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+static void pairs_take_either_a_step_or_a_tolerance(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  const baum_integrator *const pairs[] = {baum_dp5(), baum_rk8()};
+  for (int k = 0; k < 2; k++) {
+    char sentence[128];
+    baum_simulation_options o = good_options();
+    o.integrator = pairs[k];
+    (void)snprintf(sentence, sizeof sentence, "%s takes step|or rtol|and neither is given",
+                   baum_integrator_name(pairs[k]));
+    o.step = (double)NAN;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, sentence);
+    o.step = 1e-3;
+    o.rtol = 1e-6;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "takes step|or rtol|not both");
+    o.rtol = (double)NAN;
+    o.max_step = 0.1;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0.1|give step alone");
+    o.max_step = (double)NAN;
+    o.step = 0.0;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "step is 0 s, must be finite and > 0");
+    o.step = (double)NAN;
+    o.rtol = 1.0;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1, must be > 0 and < 1");
+    o.rtol = 1e-6;
+    o.max_step = 0.0;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "max_step is 0 s, must be > 0");
+    o.max_step = (double)NAN;
+    o.tolerance_v = 0.0;
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "tolerance_v is 0, must be > 0");
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 /* Multipliers are tested by IDA at index 1 alone. */
 static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void **state)
 {
@@ -280,9 +315,8 @@ static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void 
     baum_simulation_options o = good_options();
     o.integrator = baum_integrator_at(k);
     bool fixed = baum_integrator_has_fixed_step(o.integrator);
-    bool variable = baum_integrator_has_variable_step(o.integrator);
     o.step = fixed ? 1e-3 : (double)NAN;
-    o.rtol = variable && !fixed ? 1e-6 : (double)NAN;
+    o.rtol = fixed ? (double)NAN : 1e-6;
     o.tolerance_lambda = 10.0;
     for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
       o.formulation = (baum_formulation)f;
@@ -559,6 +593,7 @@ int main(void)
     cmocka_unit_test(integrators_that_are_not_built_in_refuse_by_name),
     cmocka_unit_test(gains_with_a_formulation_that_has_none_are_refused),
     cmocka_unit_test(gains_out_of_range_are_refused),
+    cmocka_unit_test(pairs_take_either_a_step_or_a_tolerance),
     cmocka_unit_test(tolerances_of_multipliers_are_refused_where_nothing_tests_them),
     cmocka_unit_test(unstable_gains_are_refused_and_the_nearest_good_pair_runs),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_warn),
