@@ -45,6 +45,30 @@ class Stability(unittest.TestCase):
         nearest = baum.stability_nearest("euler", 1, 2)
         self.assertLessEqual(baum.stability("euler", *nearest).spectral_radius, 0.9 + 1e-9)
 
+    def test_regions_are_arrays(self):
+        intervals = baum.stability_intervals("ab4")
+        self.assertEqual(intervals.shape, (1, 2))
+        self.assertAlmostEqual(intervals[0, 1], 0.3)
+        best = baum.stability_best("ab2")
+        self.assertAlmostEqual(best[0], 2 / 3)
+        self.assertAlmostEqual(baum.stability_best_on_ray("ab2"), best[0])
+        radius = baum.stability_grid("rk4", (0, 2), (0, 3), (4, 3))
+        self.assertEqual(radius.shape, (4, 3))
+        for row, column in ((0, 0), (1, 2), (3, 1)):
+            point = baum.stability("rk4", column, row)
+            self.assertAlmostEqual(radius[row, column], point.spectral_radius)
+            self.assertAlmostEqual(1 - point.damping, point.spectral_radius)
+        outline = baum.stability_outline("euler")
+        self.assertEqual(outline.shape[1], 2)
+        self.assertAlmostEqual(outline[:, 1].max(), 4)
+        self.assertEqual(tuple(outline[0]), tuple(outline[-1]))
+        self.assertEqual(baum.stability_outline("ab4", 0.5).shape, (0, 2))
+
+    def test_every_method_has_a_statement(self):
+        self.assertIn("0.618", baum.stability_statement("ida"))
+        for method in baum.integrators():
+            self.assertGreater(len(baum.stability_statement(method)), 40)
+
     def test_what_makes_no_sense_is_refused(self):
         with self.assertRaises(baum.Error) as caught:
             baum.stability_limit("ida")

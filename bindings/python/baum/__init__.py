@@ -19,8 +19,9 @@ from .elements import Body, Force, Input, Joint
 from .errors import Error, Retry, Status, Warning
 from .gains import Gains, auto, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
-    Amplification, Integrator, integrators, stability, stability_deadbeat, stability_limit,
-    stability_nearest,
+    Amplification, Integrator, integrators, stability, stability_best, stability_best_on_ray,
+    stability_deadbeat, stability_grid, stability_intervals, stability_limit, stability_nearest,
+    stability_outline, stability_statement,
 )
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, Run
@@ -42,6 +43,8 @@ __all__ = [
     "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
     "Sizes", "Status", "Warning", "Workspace", "a", "auto", "deadbeat", "energy", "fixed",
     "frequency", "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate",
-    "q", "scaled", "stability", "stability_deadbeat", "stability_limit", "stability_nearest",
+    "q", "scaled", "stability", "stability_best", "stability_best_on_ray",
+    "stability_deadbeat", "stability_grid", "stability_intervals", "stability_limit",
+    "stability_nearest", "stability_outline", "stability_statement",
     "taylor", "v",
 ]

@@ -4,6 +4,8 @@
 import ctypes
 from collections import namedtuple
 
+import numpy as np
+
 from . import _abi, _calls
 from ._lib import lib
 from ._values import number
@@ -64,9 +66,10 @@ def lookup(value):
         raise ValueError(f"no integrator {value!r}; there are: {', '.join(_ALL)}") from None
 
 
-class Amplification(namedtuple("Amplification", "stability spectral_radius roots")):
-    """What becomes of a violation: "stable", "marginal", "unstable" or "variable_step"; the largest
-    |z|; the two roots z. Numbers are NaN for a variable step."""
+class Amplification(namedtuple("Amplification", "stability spectral_radius roots damping")):
+    """What becomes of a violation: "stable", "marginal", "unstable", "variable_step" or
+    "without_gains"; the largest |z|; the largest root z of each of the two modes; what a step takes
+    off a violation, 1 - |z| with all its digits. Numbers are NaN without a region."""
 
     __slots__ = ()
 
@@ -83,7 +86,7 @@ def stability(integrator, alpha_h, beta2_h2):
         ctypes.sizeof(out),
     )
     roots = tuple(complex(*root) for root in out.z)
-    return Amplification(STABILITIES[out.stability], out.spectral_radius, roots)
+    return Amplification(STABILITIES[out.stability], out.spectral_radius, roots, out.damping)
 
 
 def stability_limit(integrator, damping_ratio=1.0):
@@ -93,8 +96,26 @@ def stability_limit(integrator, damping_ratio=1.0):
     )[0]
 
 
+def stability_intervals(integrator, damping_ratio=1.0):
+    """All intervals of alpha h for which alpha = damping_ratio x beta is stable: array (n, 2)."""
+    ratio = number(damping_ratio, "damping_ratio")
+    return _arrays(lib.baum_stability_intervals, integrator, ratio)
+
+
+def stability_best(integrator):
+    """The point (alpha h, (beta h)^2) of least spectral radius."""
+    return _numbers(lib.baum_stability_best, 2, integrator)
+
+
+def stability_best_on_ray(integrator, damping_ratio=1.0):
+    """The alpha h of least spectral radius for alpha = damping_ratio x beta; 0 when none is stable."""
+    return _numbers(
+        lib.baum_stability_best_on_ray, 1, integrator, number(damping_ratio, "damping_ratio")
+    )[0]
+
+
 def stability_deadbeat(integrator):
-    """The point (alpha h, (beta h)^2) of fastest decay."""
+    """The point (alpha h, (beta h)^2) where all roots are zero; one-step methods."""
     return _numbers(lib.baum_stability_deadbeat, 2, integrator)
 
 
@@ -107,6 +128,54 @@ def stability_nearest(integrator, alpha_h, beta2_h2):
         number(alpha_h, "alpha_h"),
         number(beta2_h2, "beta2_h2"),
     )
+
+
+def stability_grid(integrator, alpha_h, beta2_h2, shape=(100, 100)):
+    """Spectral radii over a rectangle: alpha_h and beta2_h2 are (first, last), both included.
+
+    Array of `shape` (rows of beta2_h2, columns of alpha_h).
+    """
+    rows, columns = shape
+    radius = np.empty((rows, columns))
+    _calls.make(
+        lib.baum_stability_grid,
+        lookup(integrator).address,
+        (ctypes.c_double * 2)(*alpha_h),
+        (ctypes.c_double * 2)(*beta2_h2),
+        columns,
+        rows,
+        radius.ctypes.data,
+    )
+    return radius
+
+
+def stability_outline(integrator, radius=1.0):
+    """Where the spectral radius is `radius`: array (n, 2) of (alpha h, (beta h)^2), closed curves
+    with a row of NaN between them, which is how Matplotlib draws them apart."""
+    return _arrays(lib.baum_stability_outline, integrator, number(radius, "radius"))
+
+
+def stability_statement(integrator):
+    """What gains do with a method in words, also with one that chooses its steps."""
+    return lib.baum_stability_statement(lookup(integrator).address).decode()
+
+
+def _arrays(function, integrator, value):
+    """Call a function that fills two arrays, first to ask how long they are."""
+    address = lookup(integrator).address
+    count = ctypes.c_int32()
+    _calls.make(function, address, value, 0, None, None, ctypes.byref(count))
+    out = np.empty((2, count.value))
+    _calls.make(
+        function,
+        address,
+        value,
+        count,
+        out[0].ctypes.data,
+        out[1].ctypes.data,
+        ctypes.byref(count),
+    )
+    return out.T.copy()
 
 
 def _numbers(function, count, integrator, *arguments):
