@@ -15,6 +15,7 @@
 
 #include "every_element.h"
 #include "heap.h"
+#include "step_mode.h"
 
 /* ---- what is run ---- */
 
@@ -45,17 +46,11 @@ static int make_channels(const every_element *parts, baum_channel channels[CHANN
   return width;
 }
 
-static baum_simulation_options options_for(const baum_integrator *integrator,
-                                           baum_formulation formulation)
+static baum_simulation_options options_for(step_mode mode, baum_formulation formulation)
 {
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = integrator;
+  double rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
+  baum_simulation_options o = step_mode_options(mode, 1e-3, rtol);
   o.formulation = formulation;
-  if (baum_integrator_has_fixed_step(integrator)) {
-    o.step = 1e-3;
-  } else {
-    o.rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
-  }
   return o;
 }
 
@@ -64,19 +59,18 @@ static bool reached_the_end(baum_status status)
   return status == BAUM_OK || status == BAUM_WARNED;
 }
 
-/* The k-th pair of integrator and formulation that this build offers; false when there are no
- * more. */
+/* The k-th pair of integrator, in a way to step, and formulation that this build offers; false when
+ * there are no more. */
 static bool find_pair(int k, baum_simulation_options *o)
 {
-  for (int32_t i = 0; baum_integrator_at(i) != NULL; i++) {
-    const baum_integrator *integrator = baum_integrator_at(i);
-    bool absent = !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
-    if (absent || !every_element_suits(integrator)) {
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    if (!every_element_suits(mode.integrator)) {
       continue;
     }
     for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
-      if (baum_integrator_offers(integrator, (baum_formulation)f) && k-- == 0) {
-        *o = options_for(integrator, (baum_formulation)f);
+      if (baum_integrator_offers(mode.integrator, (baum_formulation)f) && k-- == 0) {
+        *o = options_for(mode, (baum_formulation)f);
         return true;
       }
     }
@@ -476,7 +470,7 @@ static void runs_with_redundant_joints_and_any_solver_survive_likewise(void **st
     skip();
   }
   run_scenario s = {.parts = make_redundant(), .span = 0.001, .warned = true};
-  s.options = options_for(baum_euler(), BAUM_FORMULATION_PROJECTION);
+  s.options = options_for((step_mode){baum_euler(), true}, BAUM_FORMULATION_PROJECTION);
   for (int solver = BAUM_SOLVER_AUTO; solver <= BAUM_SOLVER_QR; solver++) {
     s.options.solver = (baum_solver)solver;
     s.options.check_derivatives = false;

@@ -107,13 +107,19 @@ static void compare_falls(const baum_integrator *integrator, baum_formulation fo
 {
   double product = 1.0;
   double least = (double)INFINITY;
+  int fits = 0;
   printf("fall of the error in each decade of rtol from 1e-4 to 1e-10\n");
   for (int which = 0; which < REFERENCE_COUNT; which++) {
+    /* No freedom: projected to rounding with any tolerance. */
+    if (which == DRIVEN_CRANK && formulation == BAUM_FORMULATION_PROJECTION) {
+      continue;
+    }
     double fall = observe_fall((physics_mechanism)which, integrator, formulation);
     product *= fall;
     least = fmin(least, fall);
+    fits++;
   }
-  double mean = pow(product, 1.0 / REFERENCE_COUNT);
+  double mean = pow(product, 1.0 / fits);
   printf("%-12s mean of the fitted %.2f, least %.2f\n", baum_integrator_name(integrator), mean,
          least);
   assert_true(mean >= least_mean);
@@ -155,9 +161,19 @@ static void the_error_of_ida_at_index_2_falls_with_its_tolerance(void **state)
   compare_falls(baum_ida(), BAUM_FORMULATION_INDEX2, LEAST_FALL_OF_IDA);
 }
 
+static void the_error_of_pairs_falls_with_their_tolerance(void **state)
+{
+  (void)state;
+  compare_falls(baum_dp5(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL);
+  compare_falls(baum_dp5(), BAUM_FORMULATION_PROJECTION, LEAST_FALL);
+  compare_falls(baum_rk8(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL);
+  compare_falls(baum_rk8(), BAUM_FORMULATION_PROJECTION, LEAST_FALL);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_error_of_pairs_falls_with_their_tolerance),
     cmocka_unit_test(the_error_of_adams_falls_with_its_tolerance),
     cmocka_unit_test(the_error_of_bdf_falls_with_its_tolerance),
     cmocka_unit_test(the_error_of_ida_at_index_1_falls_with_its_tolerance),

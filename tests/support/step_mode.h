@@ -41,7 +41,8 @@ static inline bool step_mode_is_adams(step_mode mode)
 /* Steps of its own choice and multistep methods begin anew where a motion is changed. */
 static inline bool step_mode_remembers(step_mode mode)
 {
-  return !mode.fixed || step_mode_is_adams(mode);
+  bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
+  return !mode.fixed || step_mode_is_adams(mode) || alpha;
 }
 
 /* Options of a mode: a step or a tolerance. */
