@@ -454,6 +454,31 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
+/* A second guide on the same line: two rows are redundant, and read lambda_i = mu_i = 0. The motion is the same to the
+ * error of either, about 100 rtol after a turn. */
+static void redundant_rows_make_no_difference(void **state)
+{
+  (void)state;
+  for (int f = 0; f < FORM_COUNT; f++) {
+    double q[2][RUN_SIZE_MAX];
+    for (int k = 0; k < 2; k++) {
+      model crank;
+      assert_int_equal(
+        model_slider_crank_build((model_slider_crank){.doubled_guide = k == 1}, &crank), BAUM_OK);
+      integrator_setup setup = integrator_setup_make(crank.mechanism, baum_ida(), FORMS[f]);
+      setup.gain = 300.0;
+      setup.rtol = 1e-8;
+      cost out = run_it(&setup, false, 0.04);
+      memcpy(q[k], out.q, sizeof q[k]);
+      model_destroy(&crank);
+    }
+    for (int i = 0; i < 9; i++) {
+      double off = FORMS[f] == BAUM_FORMULATION_INDEX3 ? 1e-3 : 1e-5;
+      ASSERT_NEAR(q[1][i], q[0][i], 0.0, off);
+    }
+  }
+}
+
 /* Nothing here depends on time, and IDA is told that since the start: a billion seconds, of which a double holds no more
  * than tenths of microseconds, change no digit. Inside of the step t itself is rounded so. */
 static void a_late_start_costs_no_digits(void **state)
@@ -522,6 +547,7 @@ int main(void)
     cmocka_unit_test(multipliers_are_tested_as_their_factor_says),
     cmocka_unit_test(a_start_off_the_constraints_jumps_onto_them),
     cmocka_unit_test(the_start_is_smooth),
+    cmocka_unit_test(redundant_rows_make_no_difference),
     cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(a_start_that_cannot_be_evaluated_is_refused),
   };
