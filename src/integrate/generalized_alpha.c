@@ -16,6 +16,9 @@
  * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and begins so, else the
  * multipliers would be of first order for some steps. For a step of another length the difference is scaled.
  *
+ * The first step after every beginning starts from the state projected onto the constraints: a violation would become
+ * velocities of its size over h, which no equation takes back at once.
+ *
  * Newton's method with the exact matrix, by dv = gamma / (beta h) dq and so on, in scaled multipliers: step_matrix.h.
  */
 #include "integrate/generalized_alpha.h"
@@ -60,6 +63,7 @@ typedef struct alpha_run {
   int nv;
   int nc;
   bool known;      /* `now` is that of the present state */
+  bool first;      /* and no step has been made since it was found */
   double step;     /* [s] with which its a was made */
   double trial;    /* [s] with which that of `next` was */
   alpha_past now;  /* at the present state */
@@ -103,7 +107,17 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   }
   run->step = h;
   run->known = true;
+  run->first = true;
   return BAUM_OK;
+}
+
+/* So that every trial from a state begins alike: the first steps project, whether they are kept or not. */
+static baum_status prepare(alpha_run *run, const baum_i_problem *problem, baum_i_state *state)
+{
+  bool begins = !run->known || run->first;
+  baum_status status =
+    begins ? baum_i_project(problem->workspace, state->t, state->q, state->v) : BAUM_OK;
+  return status == BAUM_OK && !run->known ? begin(run, problem, state) : status;
 }
 
 /* ---- one step ---- */
@@ -234,7 +248,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  baum_status status = run->known ? BAUM_OK : begin(run, problem, state);
+  baum_status status = prepare(run, problem, state);
   if (status == BAUM_OK) {
     predict(run, state, h);
     status = iterate(run, problem, state, h);
@@ -261,6 +275,7 @@ static void accept(void *self, const baum_i_problem *problem, const baum_i_state
   run->now = run->next;
   run->next = kept;
   run->step = run->trial;
+  run->first = false;
   double off = fabs(run->trial - problem->direction * problem->step);
   run->known = off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(state->t);
 }

@@ -252,6 +252,26 @@ static void redundant_rows_alter_nothing(void **state)
   model_destroy(&doubled);
 }
 
+/* A centimetre off the circle at the start, and with a velocity along the rod: gone after one step, and the
+ * motion goes on with what the projection has left. */
+static void a_start_off_the_constraints_is_projected(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = make_pendulum();
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
+  options.start = BAUM_START_AS_GIVEN;
+  baum_simulation *run = start(mechanism, &options);
+  const double q[2] = {1.01, 0.0};
+  const double v[2] = {0.3, 1.0};
+  check(baum_simulation_set_state(run, 0.0, q, v));
+  check(baum_simulation_step(run, 1));
+  assert_true(fabs(hypot(baum_simulation_q(run)[0], baum_simulation_q(run)[1]) - 1.0) <= 1e-14);
+  ASSERT_NEAR(baum_simulation_v(run)[1], 1.0 - 9.81e-4, 0.0, 1e-6); /* of order h^2 */
+  ASSERT_NEAR(baum_simulation_v(run)[0], -1e-4, 0.0, 1e-6);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(mechanism);
+}
+
 /* A third into every step; they alter nothing and are as exact. */
 static void samples_beside_the_grid_alter_nothing(void **state)
 {
@@ -295,6 +315,25 @@ static int jump(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
+static void samples_of_a_mechanism_alter_nothing_from_the_first_step_on(void **state)
+{
+  (void)state;
+  const baum_channel channel = {.quantity = BAUM_Q};
+  const double times[3] = {0.3e-4, 1.7e-4, 20e-4};
+  double rows[27];
+  model m = make_crank((model_slider_crank){0});
+  baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-4);
+  baum_simulation *sampled = start(m.mechanism, &options);
+  baum_simulation *plain = start(m.mechanism, &options);
+  check(baum_simulation_sample(sampled, times, 3, &channel, 1, rows, NULL));
+  check(baum_simulation_advance_to(plain, times[2]));
+  assert_memory_equal(baum_simulation_q(sampled), baum_simulation_q(plain), 9 * sizeof(double));
+  assert_memory_equal(baum_simulation_v(sampled), baum_simulation_v(plain), 9 * sizeof(double));
+  baum_simulation_destroy(sampled);
+  baum_simulation_destroy(plain);
+  model_destroy(&m);
+}
+
 static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
 {
   (void)state;
@@ -335,7 +374,9 @@ int main(void)
     cmocka_unit_test(multipliers_are_of_order_2_from_the_start),
     cmocka_unit_test(positions_fulfil_the_constraints_to_rounding),
     cmocka_unit_test(redundant_rows_alter_nothing),
+    cmocka_unit_test(a_start_off_the_constraints_is_projected),
     cmocka_unit_test(samples_beside_the_grid_alter_nothing),
+    cmocka_unit_test(samples_of_a_mechanism_alter_nothing_from_the_first_step_on),
     cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
     cmocka_unit_test(only_index_3_without_gains_is_offered),
   };
