@@ -13,6 +13,7 @@
 #include "assert_near.h"
 #include "every_element.h"
 #include "sentence.h"
+#include "step_mode.h"
 
 static const double STEP = 0.01;
 
@@ -22,16 +23,15 @@ typedef struct scene {
   baum_simulation *run;
 } scene;
 
+static baum_simulation_options options_in(step_mode mode)
+{
+  return step_mode_options(mode, STEP, 1e-8);
+}
+
+/* With a fixed step where there is one. */
 static baum_simulation_options options_for(const baum_integrator *integrator)
 {
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = integrator;
-  if (baum_integrator_has_fixed_step(integrator)) {
-    o.step = STEP;
-  } else {
-    o.rtol = 1e-8;
-  }
-  return o;
+  return options_in((step_mode){integrator, baum_integrator_has_fixed_step(integrator)});
 }
 
 static scene open_with(const baum_simulation_options *o)
@@ -44,6 +44,12 @@ static scene open_with(const baum_simulation_options *o)
 static scene open_scene(const baum_integrator *integrator)
 {
   baum_simulation_options o = options_for(integrator);
+  return open_with(&o);
+}
+
+static scene open_mode(step_mode mode)
+{
+  baum_simulation_options o = options_in(mode);
   return open_with(&o);
 }
 
@@ -60,17 +66,15 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Every integrator that this build can run where freedom is left, and all elements: the list ends with
- * kinematics. */
-static const baum_integrator *integrator_at(int32_t k)
+/* Every integrator, in its ways to step, that this build can run with the mechanism here. */
+static step_mode mode_at(int k)
 {
-  int32_t i = 0;
-  while (!every_element_suits(baum_integrator_at(i)) || k-- > 0) {
+  int i = 0;
+  while (step_mode_at(i).integrator &&
+         (!every_element_suits(step_mode_at(i).integrator) || k-- > 0)) {
     i++;
   }
-  const baum_integrator *integrator = baum_integrator_at(i);
-  bool absent = integrator && !baum_integrator_has_fixed_step(integrator) && !baum_has("sundials");
-  return absent || integrator == baum_kinematics() ? NULL : integrator;
+  return step_mode_at(i);
 }
 
 /* Bit for bit. */
@@ -112,9 +116,9 @@ static void times_do_not_drift_however_many_steps(void **state)
 static void steps_in_one_call_or_many_are_the_same(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     assert_true(baum_simulation_step(a.run, 12) >= BAUM_OK);
     for (int i = 0; i < 12; i++) {
       assert_true(baum_simulation_step(b.run, 1) >= BAUM_OK);
@@ -158,8 +162,8 @@ static void a_target_off_the_grid_takes_one_short_step_and_begins_a_grid(void **
 static void the_present_time_as_target_does_nothing(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene s = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene s = open_mode(mode_at(k));
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, 0.025) >= BAUM_OK);
     int64_t steps = counters_of(s.run).steps;
@@ -173,8 +177,8 @@ static void the_present_time_as_target_does_nothing(void **state)
 static void out_and_back_ends_near_the_start(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    baum_simulation_options o = options_for(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    baum_simulation_options o = options_in(mode_at(k));
     o.step = isnan(o.step) ? o.step : 1e-4;
     scene s = open_with(&o);
     double start[EVERY_NV];
@@ -196,12 +200,12 @@ static void out_and_back_ends_near_the_start(void **state)
 static void targets_do_not_alter_the_steps_of_a_variable_step_method(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    if (baum_integrator_has_fixed_step(integrator_at(k))) {
+  for (int k = 0; mode_at(k).integrator; k++) {
+    if (mode_at(k).fixed) {
       continue;
     }
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     assert_true(baum_simulation_advance_to(a.run, 0.2) >= BAUM_OK);
     for (int i = 1; i <= 100; i++) {
       assert_true(baum_simulation_advance_to(b.run, 0.002 * i) >= BAUM_OK);
@@ -230,8 +234,8 @@ static void max_steps_ends_a_call_and_the_next_goes_on(void **state)
 static void a_run_can_be_put_back_to_where_it_was(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene s = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene s = open_mode(mode_at(k));
     double q[EVERY_NV];
     double v[EVERY_NV];
     assert_true(baum_simulation_advance_to(s.run, 0.05) >= BAUM_OK);
@@ -248,9 +252,9 @@ static void a_run_can_be_put_back_to_where_it_was(void **state)
 static void a_state_can_be_set_and_the_run_goes_on_from_there(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     double q[EVERY_NV];
     double v[EVERY_NV];
     memcpy(q, baum_simulation_q(a.run), sizeof q);
@@ -280,9 +284,9 @@ static void samples_off_the_grid_do_not_alter_the_motion(void **state)
   const baum_channel channel = {.quantity = BAUM_Q};
   double rows[TIMES * EVERY_NV];
   int64_t done = 0;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     assert_true(baum_simulation_advance_to(a.run, 0.1) >= BAUM_OK);
     assert_true(baum_simulation_sample(b.run, off, TIMES, &channel, 1, rows, &done) >= BAUM_OK);
     assert_int_equal(done, TIMES);
@@ -302,9 +306,9 @@ static void a_sample_is_what_an_advance_to_its_time_finds(void **state)
   const double times[3] = {0.0134, 0.0345, 0.06};
   const baum_channel channel = {.quantity = BAUM_Q};
   double rows[3 * EVERY_NV];
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     assert_true(baum_simulation_sample(a.run, times, 3, &channel, 1, rows, NULL) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(b.run, times[0]) >= BAUM_OK);
     assert_memory_equal(rows, baum_simulation_q(b.run), EVERY_NV * sizeof(double));
@@ -319,8 +323,8 @@ static void samples_backward_and_at_the_present_time_are_fine(void **state)
   const double times[4] = {0.0, 0.0, -0.015, -0.02};
   const baum_channel channel = {.quantity = BAUM_ENERGY};
   double rows[8];
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene s = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene s = open_mode(mode_at(k));
     assert_true(baum_simulation_sample(s.run, times, 4, &channel, 1, rows, NULL) >= BAUM_OK);
     assert_true(baum_simulation_time(s.run) == -0.02);
     assert_memory_equal(rows, rows + 2, 2 * sizeof *rows);
@@ -425,9 +429,9 @@ static void progress_can_cancel_and_the_next_call_goes_on(void **state)
 static void cancelling_before_a_call_stops_that_call_only(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene a = open_scene(integrator_at(k));
-    scene b = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene a = open_mode(mode_at(k));
+    scene b = open_mode(mode_at(k));
     baum_simulation_cancel(a.run);
     ASSERT_SAYS(baum_simulation_advance_to(a.run, 0.1), BAUM_STOP_CANCELLED, "t = 0 s: cancelled");
     assert_true(baum_simulation_time(a.run) == 0.0);
@@ -466,11 +470,11 @@ static void warnings_are_announced_once_and_stay_listed(void **state)
 static void a_run_explains_itself(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    if (!baum_integrator_offers(integrator_at(k), BAUM_FORMULATION_BAUMGARTE)) {
+  for (int k = 0; mode_at(k).integrator; k++) {
+    if (!baum_integrator_offers(mode_at(k).integrator, BAUM_FORMULATION_BAUMGARTE)) {
       continue;
     }
-    baum_simulation_options o = options_for(integrator_at(k));
+    baum_simulation_options o = options_in(mode_at(k));
     o.formulation = BAUM_FORMULATION_BAUMGARTE;
     o.gains = baum_gains_fixed(4.5, 5.5);
     scene s = open_with(&o);
@@ -488,11 +492,11 @@ static void a_run_explains_itself(void **state)
 static void counters_fit_what_was_done(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    if (!baum_integrator_offers(integrator_at(k), BAUM_FORMULATION_BAUMGARTE)) {
+  for (int k = 0; mode_at(k).integrator; k++) {
+    if (!baum_integrator_offers(mode_at(k).integrator, BAUM_FORMULATION_BAUMGARTE)) {
       continue;
     }
-    baum_simulation_options o = options_for(integrator_at(k));
+    baum_simulation_options o = options_in(mode_at(k));
     o.formulation = BAUM_FORMULATION_BAUMGARTE;
     o.gains = baum_gains_fixed(4.5, 5.5);
     scene s = open_with(&o);
@@ -502,7 +506,7 @@ static void counters_fit_what_was_done(void **state)
     assert_true(baum_simulation_advance_to(s.run, 0.1) >= BAUM_OK);
     baum_counters c = counters_of(s.run);
     assert_int_equal(c.struct_size, sizeof c);
-    assert_true(c.steps >= 10);
+    assert_true(c.steps >= (mode_at(k).fixed ? 10 : 1));
     assert_true(c.evaluations - before.evaluations >= c.steps);
     assert_true(c.factorizations >= c.full_factorizations);
     assert_true(c.wall > 0.0);
@@ -524,12 +528,11 @@ static void evaluations_of_a_fixed_step_method_are_its_stages(void **state)
   const struct {
     const baum_integrator *integrator;
     int64_t stages;
-  } rows[] = {{baum_euler(), 1},
-              {baum_semi_implicit_euler(), 1},
-              {baum_rk2(), 2},
-              {baum_rk3(), 3},
-              {baum_rk4(), 4}};
-  for (int k = 0; k < 5; k++) {
+  } rows[] = {{baum_euler(), 1}, {baum_semi_implicit_euler(), 1},
+              {baum_rk2(), 2},   {baum_rk3(), 3},
+              {baum_rk4(), 4},   {baum_dp5(), 6},
+              {baum_rk8(), 12}};
+  for (int k = 0; k < 7; k++) {
     scene s = open_scene(rows[k].integrator);
     int64_t before = counters_of(s.run).evaluations;
     assert_int_equal(baum_simulation_step(s.run, 20), BAUM_OK);
@@ -541,14 +544,14 @@ static void evaluations_of_a_fixed_step_method_are_its_stages(void **state)
 static void turning_round_restarts_multistep_methods_only(void **state)
 {
   (void)state;
-  for (int32_t k = 0; integrator_at(k) != NULL; k++) {
-    scene s = open_scene(integrator_at(k));
+  for (int k = 0; mode_at(k).integrator; k++) {
+    scene s = open_mode(mode_at(k));
     assert_true(baum_simulation_advance_to(s.run, 0.03) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, 0.01) >= BAUM_OK);
     assert_true(baum_simulation_advance_to(s.run, 0.0) >= BAUM_OK);
-    const char *name = baum_integrator_name(integrator_at(k));
-    bool multistep = !baum_integrator_has_fixed_step(integrator_at(k)) ||
-                     strncmp(name, "ab", 2) == 0 || strcmp(name, "generalized_alpha") == 0;
+    const char *name = baum_integrator_name(mode_at(k).integrator);
+    bool multistep =
+      !mode_at(k).fixed || strncmp(name, "ab", 2) == 0 || strcmp(name, "generalized_alpha") == 0;
     assert_int_equal(counters_of(s.run).restarts, multistep ? 1 : 0);
     close_scene(&s);
   }
