@@ -81,6 +81,11 @@ class Stability(unittest.TestCase):
     def test_integrators_describe_themselves(self):
         methods = baum.integrators()
         self.assertEqual((methods["rk4"].order, methods["rk4"].fixed_step), (4, True))
+        kinds = {n: (methods[n].fixed_step, methods[n].variable_step) for n in methods}
+        self.assertEqual(kinds["rk4"], (True, False))
+        self.assertEqual(kinds["rk8"], (True, True))
+        self.assertEqual(kinds["ida"], (False, True))
+        self.assertEqual(kinds["kinematics"], (False, False))
         self.assertFalse(methods["ida"].fixed_step)
         self.assertIn("index3", methods["ida"].formulations)
         self.assertNotIn("index3", methods["euler"].formulations)

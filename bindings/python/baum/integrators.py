@@ -21,14 +21,15 @@ STABILITIES = {value: name for name, value in names(_abi.baum_stability, "BAUM_"
 
 
 class Integrator:
-    """A method: name, order (0 when it varies), whether it takes `step` or `rtol`, and its
-    formulations. "kinematics" takes none of these: see Simulation."""
+    """A method: name, order (0 when it varies), whether it takes `step`, whether `rtol` (a run is
+    given one of them), and its formulations. "kinematics" takes none of these: see Simulation."""
 
     def __init__(self, address):
         self.address = address
         self.name = lib.baum_integrator_name(address).decode()
         self.order = lib.baum_integrator_order(address)
         self.fixed_step = lib.baum_integrator_has_fixed_step(address)
+        self.variable_step = lib.baum_integrator_has_variable_step(address)
         self.formulations = tuple(
             name
             for name, value in FORMULATIONS.items()

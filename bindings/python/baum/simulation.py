@@ -196,8 +196,8 @@ class Simulation:
 
     def set_input(self, input, value):
         """Set an input from now on, given as a handle or by name; it is held until it is set again.
-        Variable-step methods begin anew, which costs them small steps: a loop that sets inputs
-        often goes best with a fixed step."""
+        Variable-step methods begin anew, which costs multistep ones small steps: a loop that sets
+        inputs often goes best with a fixed step, or with "rk8"."""
         input = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, input.id, number(value, input.name))
 
