@@ -19,7 +19,7 @@ static const method methods[] = {
   {baum_euler, BAUM_FORMULATION_PROJECTION, {1e-4, 1e-5, 2.5e-6}, 0.5},
   {baum_semi_implicit_euler, BAUM_FORMULATION_BAUMGARTE, {1e-4, 1e-5, 2.5e-6}, 5e-4},
   {baum_semi_implicit_euler, BAUM_FORMULATION_PROJECTION, {1e-4, 1e-5, 2.5e-6}, 0.5},
-  {baum_rk4, BAUM_FORMULATION_BAUMGARTE, {1e-3, 1e-4, 2.5e-5}, 2e-7},
+  {baum_rk4, BAUM_FORMULATION_BAUMGARTE, {1e-3, 1e-4, 2.5e-5}, 5e-6},
   {baum_rk4, BAUM_FORMULATION_PROJECTION, {1e-3, 1e-4, 2.5e-5}, 5e-7},
   {baum_cvode_adams, BAUM_FORMULATION_BAUMGARTE, {1e-6, 1e-8, 1e-10}, 1e-4},
   {baum_cvode_bdf, BAUM_FORMULATION_BAUMGARTE, {1e-6, 1e-8, 1e-10}, 5e-4},

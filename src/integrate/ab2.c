@@ -23,7 +23,7 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab2",
   .order = 2,
   .formulations = baum_i_adams_formulations,
-  .gains = BAUM_GAINS_AUTO,
+  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 2,
              .coefficients = {3.0 / 2.0, -1.0 / 2.0}},

@@ -26,7 +26,7 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab3",
   .order = 3,
   .formulations = baum_i_adams_formulations,
-  .gains = BAUM_GAINS_AUTO,
+  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 3,
              .coefficients = {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0}},

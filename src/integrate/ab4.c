@@ -28,7 +28,7 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab4",
   .order = 4,
   .formulations = baum_i_adams_formulations,
-  .gains = BAUM_GAINS_AUTO,
+  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 4,
              .coefficients = {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0}},

@@ -70,6 +70,19 @@ void baum_i_run_accept(baum_simulation *run, double energy);
 /* Time, positions and velocities from one state to another. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
+/* ---- choose_gains.c, pilot.c ---- */
+
+/* [1/s] Fastest angular rate of the trial state, whose accelerations are in the workspace; 0 where nothing
+ * moves nor would under gravity. */
+double baum_i_run_start_rate(const baum_simulation *run);
+
+/* Mean rate [1/s] over a short run from the trial state, whose accelerations are in the workspace. It uses
+ * run->ahead and run->state, and leaves another state in the workspace. swing: [1/s] a rate that steps are made for at least. */
+double baum_i_run_pilot(baum_simulation *run, double swing);
+
+/* Gains, and what they ask of the step, into the problem. */
+baum_status baum_i_run_choose_gains(baum_simulation *run);
+
 /* ---- monitor.c ---- */
 
 void baum_i_run_warn(baum_simulation *run, const char *format, ...) BAUM_I_PRINTF(2, 3);

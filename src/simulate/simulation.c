@@ -31,49 +31,7 @@ static baum_status make_states(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* ---- gains ---- */
-
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: below it nothing is known to move. */
-static const double ROUNDING_RATE = 1e-7;
-
-static baum_status choose_gains(baum_simulation *run, double rate)
-{
-  const baum_simulation_options *o = &run->options;
-  if (o->formulation != BAUM_FORMULATION_BAUMGARTE) {
-    return BAUM_OK;
-  }
-  const baum_i_gain_context context = {
-    .method = &run->integrator->method,
-    .integrator = run->integrator->name,
-    .step = o->step,
-    .rate = rate,
-    .rule_default = run->integrator->gains,
-    .allow_unstable = o->allow_unstable,
-  };
-  baum_status status = baum_i_gains_choose(&o->gains, &context, &run->gains);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  run->problem.alpha = run->gains.alpha;
-  run->problem.beta = run->gains.beta;
-  if (run->gains.doubtful) {
-    baum_i_run_warn(run, "%s", run->gains.why);
-  }
-  return BAUM_OK;
-}
-
-/* Fastest angular rate at the start. At rest in an equilibrium the accelerations are rounding only:
- * then gravity tells how fast the mechanism would swing, and without it nothing does. */
-static double start_rate(const baum_simulation *run)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  double rate = baum_i_state_rate(m, run->trial.v, run->workspace->a);
-  double swing = sqrt(hypot(m->gravity[0], m->gravity[1]) / m->length);
-  if (rate < 1e-3 * swing) {
-    return swing;
-  }
-  return rate > ROUNDING_RATE ? rate : 0.0;
-}
+/* ---- equations ---- */
 
 /* The equations at the start: fastest rate, then gains.
  * A start that cannot be solved is refused here. */
@@ -98,9 +56,9 @@ static baum_status choose_problem(baum_simulation *run)
   if (status != BAUM_OK) {
     return status;
   }
-  double rate = start_rate(run);
+  double rate = baum_i_run_start_rate(run);
   p->rate = rate > 0.0 ? rate : 1.0;
-  return choose_gains(run, rate);
+  return baum_i_run_choose_gains(run);
 }
 
 /* ---- warnings that are known at the start ---- */

@@ -6,14 +6,20 @@
  *   taylor     alpha = 1 / h,  beta = sqrt(2) / h               (10, 11): A = 1, B = 2
  *   frequency  beta = 2 pi f,  alpha = zeta beta                s^2 + 2 zeta omega s + omega^2
  *   deadbeat   scaled, with the dead-beat point of the method
- *   auto       alpha = beta = 2 x rate, h alpha <= 0.3          cost and order are kept up to there
+ *   best       scaled, with the point of least spectral radius
+ *   auto       alpha = beta = c x rate, h alpha <= 0.3          cost and order are kept up to there
  *
  * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was
  * meant.
  *
- * Variable steps: an error control keeps explicit methods inside their region. BDF of order 5 is
- * A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the cosine of the angle of s, is
- * at least cos 51.84 = 0.618.
+ * auto: c = 0.2 where freedom is left. There the violation pulls at the motion, which it must not do
+ * faster than the motion itself turns: of 12 decades of constant gains those of 0.1 to 0.3 times the
+ * mean rate are the best or cannot be told from it (docs/theory/stabilization.md). Where drivers take
+ * all freedom, the violation is the whole error, and c = 2 is as far as explicit methods pay nothing.
+ *
+ * Variable steps: the step of an explicit method is capped where (alpha h, beta^2 h^2) leaves its
+ * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
+ * cosine of the angle of s, is at least cos 51.84 = 0.618.
  */
 #include "stabilization/gains.h"
 
@@ -21,27 +27,24 @@
 #include <stdio.h>
 
 #include "base/message.h"
+#include "stabilization/gain_text.h"
 
 static const double PI = 3.14159265358979323846;
 
-static const double AUTO_FACTOR = 2.0;   /* of the fastest rate */
+/* auto, of the rate: with freedom, and without for explicit methods and for those that choose their step with the
+ * stiffness of the stabilization in their matrix */
+static const double AUTO_FACTOR = 0.2;
+static const double AUTO_DRIVEN = 2.0;
+static const double AUTO_DRIVEN_STIFF = 25.0;
 static const double AUTO_CAP = 0.3;      /* alpha h up to which nothing is lost */
 static const double AUTO_AT_REST = 0.01; /* alpha h when nothing moves */
 static const double REST = 1e-9;         /* rate h below this is rounding, not motion */
-static const double BDF_DAMPING_RATIO = 0.618;
+static const double DEAD = 1e-6;         /* spectral radius of a dead-beat point, at most */
+static const double WITHIN_REGION = 0.9; /* of the largest step that is stable */
+static const double OVERDAMPED = 1e9;    /* alpha / beta where beta is 0 */
 
-enum { RADIUS_SIZE = 32, REGION_SIZE = 96, NOTE_SIZE = 56, CLAUSE_SIZE = 136 };
-
-/* Gains in both scales, and what is worth saying about them. */
-typedef struct draft {
-  double alpha;
-  double beta;
-  double alpha_h; /* NaN without a step, like the next */
-  double beta2_h2;
-  char note[NOTE_SIZE];
-} draft;
-
-typedef void apply_rule(const double value[2], const baum_i_gain_context *context, draft *out);
+typedef void apply_rule(const double value[2], const baum_i_gain_context *context,
+                        baum_i_gain_draft *out);
 
 typedef struct rule_type {
   const char *name;
@@ -59,7 +62,8 @@ static bool has_step(const baum_i_gain_context *context)
 
 /* ---- Rules ---------------------------------------------------------------- */
 
-static void from_rates(double alpha, double beta, const baum_i_gain_context *context, draft *out)
+static void from_rates(double alpha, double beta, const baum_i_gain_context *context,
+                       baum_i_gain_draft *out)
 {
   double h = has_step(context) ? context->step : (double)NAN;
   out->alpha = alpha;
@@ -69,7 +73,7 @@ static void from_rates(double alpha, double beta, const baum_i_gain_context *con
 }
 
 static void from_scaled(double alpha_h, double beta2_h2, const baum_i_gain_context *context,
-                        draft *out)
+                        baum_i_gain_draft *out)
 {
   out->alpha = alpha_h / context->step;
   out->beta = sqrt(beta2_h2) / context->step;
@@ -77,70 +81,93 @@ static void from_scaled(double alpha_h, double beta2_h2, const baum_i_gain_conte
   out->beta2_h2 = beta2_h2;
 }
 
-static void apply_fixed(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_fixed(const double value[2], const baum_i_gain_context *context,
+                        baum_i_gain_draft *out)
 {
   from_rates(value[0], value[1], context, out);
 }
 
-static void apply_scaled(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_scaled(const double value[2], const baum_i_gain_context *context,
+                         baum_i_gain_draft *out)
 {
   from_scaled(value[0], value[1], context, out);
 }
 
-static void apply_taylor(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_taylor(const double value[2], const baum_i_gain_context *context,
+                         baum_i_gain_draft *out)
 {
   (void)value;
   from_scaled(1.0, 2.0, context, out);
 }
 
-static void apply_frequency(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_frequency(const double value[2], const baum_i_gain_context *context,
+                            baum_i_gain_draft *out)
 {
   double omega = 2.0 * PI * value[0];
   from_rates(value[1] * omega, omega, context, out);
 }
 
-static void apply_deadbeat(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_best(const double value[2], const baum_i_gain_context *context,
+                       baum_i_gain_draft *out)
 {
   (void)value;
   double alpha_h;
   double beta2_h2;
-  baum_i_stability_deadbeat(context->method, &alpha_h, &beta2_h2);
+  baum_i_stability_best(context->method, &alpha_h, &beta2_h2);
   from_scaled(alpha_h, beta2_h2, context, out);
 }
 
-/* Half of the limit keeps well inside also where 0.3 would not. */
-static double auto_with_step(const baum_i_gain_context *context, char note[NOTE_SIZE])
+static double auto_factor(const baum_i_gain_context *context)
 {
-  double h = context->step;
-  double wanted = AUTO_FACTOR * context->rate;
-  double cap = fmin(AUTO_CAP, 0.5 * baum_i_stability_limit(context->method, 1.0));
-  if (context->rate * h < REST) {
-    (void)snprintf(note, NOTE_SIZE, " (nothing moves at start: alpha h = %g)", AUTO_AT_REST);
-    return AUTO_AT_REST / h;
+  if (!context->driven) {
+    return AUTO_FACTOR;
   }
-  if (wanted * h > cap) {
-    (void)snprintf(note, NOTE_SIZE, " (capped; 2 x the fastest rate is %.6g 1/s)", wanted);
-    return cap / h;
-  }
-  (void)snprintf(note, NOTE_SIZE, " (2 x the fastest rate)");
-  return wanted;
+  return context->method->kind == BAUM_I_METHOD_VARIABLE_STEP ? AUTO_DRIVEN_STIFF : AUTO_DRIVEN;
 }
 
-static double auto_without_step(const baum_i_gain_context *context, char note[NOTE_SIZE])
+static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *context,
+                       const char *capped)
+{
+  (void)snprintf(out->note, sizeof out->note, " (%s%g x %.6g 1/s, %s%s)", capped,
+                 auto_factor(context), context->rate, context->rate_is,
+                 context->driven ? "; no freedom is left" : "");
+}
+
+/* Half of the limit keeps well inside also where 0.3 would not. */
+static double auto_with_step(const baum_i_gain_context *context, double wanted,
+                             baum_i_gain_draft *out)
+{
+  double h = context->step;
+  double cap = fmin(AUTO_CAP, 0.5 * baum_i_stability_limit(context->method, 1.0));
+  if (context->rate * h < REST) {
+    (void)snprintf(out->note, sizeof out->note, " (nothing moves at start: alpha h = %g)",
+                   AUTO_AT_REST);
+    return AUTO_AT_REST / h;
+  }
+  bool capped = wanted * h > cap;
+  print_note(out, context, capped ? "capped; " : "");
+  return capped ? cap / h : wanted;
+}
+
+static double auto_without_step(const baum_i_gain_context *context, double wanted,
+                                baum_i_gain_draft *out)
 {
   if (context->rate > 0.0) {
-    (void)snprintf(note, NOTE_SIZE, " (2 x the fastest rate)");
-    return AUTO_FACTOR * context->rate;
+    print_note(out, context, "");
+    return wanted;
   }
-  (void)snprintf(note, NOTE_SIZE, " (nothing moves at start: 1 1/s for want of a rate)");
+  (void)snprintf(out->note, sizeof out->note,
+                 " (nothing moves at start: 1 1/s for want of a rate)");
   return 1.0;
 }
 
-static void apply_auto(const double value[2], const baum_i_gain_context *context, draft *out)
+static void apply_auto(const double value[2], const baum_i_gain_context *context,
+                       baum_i_gain_draft *out)
 {
   (void)value;
-  double alpha =
-    has_step(context) ? auto_with_step(context, out->note) : auto_without_step(context, out->note);
+  double wanted = auto_factor(context) * context->rate;
+  double alpha = has_step(context) ? auto_with_step(context, wanted, out)
+                                   : auto_without_step(context, wanted, out);
   from_rates(alpha, alpha, context, out);
 }
 
@@ -151,8 +178,9 @@ static const rule_type rules[] = {
   [BAUM_GAINS_TAYLOR] = {"taylor", apply_taylor, true, false, {NULL, NULL}, {NULL, NULL}},
   [BAUM_GAINS_FREQUENCY] =
     {"frequency", apply_frequency, false, true, {"frequency", "damping ratio"}, {"Hz", "[-]"}},
-  [BAUM_GAINS_DEADBEAT] = {"deadbeat", apply_deadbeat, true, false, {NULL, NULL}, {NULL, NULL}},
+  [BAUM_GAINS_DEADBEAT] = {"deadbeat", apply_best, true, false, {NULL, NULL}, {NULL, NULL}},
   [BAUM_GAINS_AUTO] = {"auto", apply_auto, false, false, {NULL, NULL}, {NULL, NULL}},
+  [BAUM_GAINS_BEST_DAMPING] = {"best_damping", apply_best, true, false, {NULL, NULL}, {NULL, NULL}},
 };
 enum { RULE_COUNT = sizeof rules / sizeof rules[0] };
 
@@ -174,7 +202,7 @@ static const rule_type *find_rule(int32_t number)
   }
   (void)baum_i_fail(BAUM_ERR_ARGUMENT,
                     "gains: rule %d is unknown; make gains with baum_gains_fixed(), _scaled(), "
-                    "_taylor(), _frequency(), _deadbeat() or _auto()",
+                    "_taylor(), _frequency(), _deadbeat(), _auto() or _best_damping()",
                     (int)number);
   return NULL;
 }
@@ -203,14 +231,13 @@ static baum_status check_needs(const rule_type *rule, const baum_i_gain_context 
   }
   if (rule->apply == apply_auto && !(context->rate >= 0.0 && isfinite(context->rate))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "gains auto: the fastest rate of the start state is %g 1/s, must be finite "
-                       "and >= 0",
+                       "gains auto: the rate of the motion is %g 1/s, must be finite and >= 0",
                        context->rate);
   }
   return BAUM_OK;
 }
 
-static baum_status check_draft(const rule_type *rule, const draft *gains)
+static baum_status check_draft(const rule_type *rule, const baum_i_gain_draft *gains)
 {
   if (isfinite(gains->alpha) && isfinite(gains->beta)) {
     return BAUM_OK;
@@ -220,101 +247,10 @@ static baum_status check_draft(const rule_type *rule, const draft *gains)
                      rule->name, gains->alpha, gains->beta);
 }
 
-/* ---- Sentences ------------------------------------------------------------ */
-
-/* A radius that is not mistaken for 1. */
-static void print_radius(double radius, char text[RADIUS_SIZE])
-{
-  double growth = radius - 1.0;
-  if (fabs(growth) > 1e-12 && fabs(growth) < 1e-4) {
-    (void)snprintf(text, RADIUS_SIZE, "1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth));
-  } else {
-    (void)snprintf(text, RADIUS_SIZE, "%.6g", radius);
-  }
-}
-
-static void print_region(const baum_i_method *method, char text[REGION_SIZE])
-{
-  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
-    (void)snprintf(text, REGION_SIZE, "0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h");
-  } else if (method->degree == 1) {
-    (void)snprintf(text, REGION_SIZE, "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4");
-  } else {
-    (void)snprintf(text, REGION_SIZE, "alpha = beta up to alpha h = %.6g",
-                   baum_i_stability_limit(method, 1.0));
-  }
-}
-
-static baum_status refuse(const baum_i_gain_context *context, const draft *gains, double radius)
-{
-  char radius_text[RADIUS_SIZE];
-  char region[REGION_SIZE];
-  double good[2];
-  double h = context->step;
-  print_radius(radius, radius_text);
-  print_region(context->method, region);
-  baum_i_stability_nearest(context->method, gains->alpha_h, gains->beta2_h2, &good[0], &good[1]);
-  return baum_i_fail(BAUM_ERR_UNSTABLE,
-                     "gains alpha = %.6g 1/s, beta = %.6g 1/s with %s and h = %.6g s: "
-                     "(alpha h, beta^2 h^2) = (%.6g, %.6g) has spectral radius %s > 1, violations "
-                     "grow; stable with this integrator is %s; nearest good pair: (%.4g, %.4g), "
-                     "that is alpha = %.4g 1/s, beta = %.4g 1/s",
-                     gains->alpha, gains->beta, context->integrator, h, gains->alpha_h,
-                     gains->beta2_h2, radius_text, region, good[0], good[1], good[0] / h,
-                     sqrt(good[1]) / h);
-}
-
-static const char *const class_text[] = {
-  [BAUM_STABLE] = "stable",
-  [BAUM_MARGINAL] = "marginal: some violations stay",
-  [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
-};
-
-static void print_fixed_step(const draft *gains, const baum_amplification *amplification,
-                             char text[CLAUSE_SIZE])
-{
-  char radius[RADIUS_SIZE];
-  print_radius(amplification->spectral_radius, radius);
-  (void)snprintf(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
-                 gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
-}
-
-/* True when the clause warns. */
-static bool print_variable_step(const draft *gains, char text[CLAUSE_SIZE])
-{
-  if (gains->beta == 0.0 && gains->alpha > 0.0) {
-    (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step; warning: beta = 0 leaves violations of position");
-    return true;
-  }
-  if (gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
-    (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step; warning: alpha / beta = %.3g < %g, BDF and IDA may not damp",
-                   gains->alpha / gains->beta, BDF_DAMPING_RATIO);
-    return true;
-  }
-  (void)snprintf(text, CLAUSE_SIZE, "variable step");
-  return false;
-}
-
-static void explain(const rule_type *rule, const draft *gains, baum_i_gain_choice *choice)
-{
-  char clause[CLAUSE_SIZE];
-  if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
-    choice->doubtful = print_variable_step(gains, clause);
-  } else {
-    choice->doubtful = choice->amplification.stability != BAUM_STABLE;
-    print_fixed_step(gains, &choice->amplification, clause);
-  }
-  (void)snprintf(choice->why, sizeof choice->why,
-                 "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s", rule->name, gains->alpha,
-                 gains->beta, gains->note, clause);
-}
-
 /* ---- Choice --------------------------------------------------------------- */
 
 static baum_status make_draft(const rule_type *rule, const double value[2],
-                              const baum_i_gain_context *context, draft *out)
+                              const baum_i_gain_context *context, baum_i_gain_draft *out)
 {
   baum_status status = check_numbers(rule, value);
   if (status == BAUM_OK) {
@@ -327,9 +263,35 @@ static baum_status make_draft(const rule_type *rule, const double value[2],
   return status;
 }
 
-static void amplify(const baum_i_gain_context *context, const draft *gains, baum_amplification *out)
+static bool is_without_step(const baum_i_gain_context *context)
 {
-  static const baum_i_method variable_step = {BAUM_I_METHOD_VARIABLE_STEP, 0, {0.0}};
+  return context->method->kind == BAUM_I_METHOD_ONE_STEP && !has_step(context);
+}
+
+/* Largest step with which an explicit method that chooses its own stays in its region. */
+static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
+{
+  if (!is_without_step(context) || !(gains->alpha > 0.0)) {
+    return INFINITY;
+  }
+  double ratio = gains->beta > 0.0 ? gains->alpha / gains->beta : OVERDAMPED;
+  return WITHIN_REGION * baum_i_stability_limit(context->method, ratio) / gains->alpha;
+}
+
+/* A rule that aims at a point which the method does not have. */
+static baum_status check_deadbeat(const baum_i_gain_context *context,
+                                  const baum_i_gain_draft *gains, double radius)
+{
+  if (radius <= DEAD) {
+    return BAUM_OK;
+  }
+  return baum_i_gain_refuse_deadbeat(context, gains->alpha_h, gains->beta2_h2, radius);
+}
+
+static void amplify(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
+                    baum_amplification *out)
+{
+  static const baum_i_method variable_step = {.kind = BAUM_I_METHOD_VARIABLE_STEP};
   const baum_i_method *method = has_step(context) ? context->method : &variable_step;
   out->struct_size = sizeof *out;
   baum_i_amplification(method, gains->alpha_h, gains->beta2_h2, out);
@@ -343,18 +305,25 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
   if (rule == NULL || check_step(context) != BAUM_OK) {
     return BAUM_ERR_ARGUMENT;
   }
-  draft numbers = {.note = ""};
+  baum_i_gain_draft numbers = {.note = ""};
   baum_status status = make_draft(rule, gains->value, context, &numbers);
   if (status != BAUM_OK) {
     return status;
   }
   baum_i_gain_choice choice = {.alpha = numbers.alpha, .beta = numbers.beta};
   amplify(context, &numbers, &choice.amplification);
-  if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
-    return refuse(context, &numbers, choice.amplification.spectral_radius);
-  }
   choice.rule = (baum_gain_rule)(rule - rules);
-  explain(rule, &numbers, &choice);
+  choice.max_step = largest_step(context, &numbers);
+  if (choice.rule == BAUM_GAINS_DEADBEAT) {
+    status = check_deadbeat(context, &numbers, choice.amplification.spectral_radius);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
+    return baum_i_gain_refuse(context, &numbers, choice.amplification.spectral_radius);
+  }
+  baum_i_gain_explain(rule->name, context, &numbers, &choice);
   *out = choice;
   return BAUM_OK;
 }
@@ -394,4 +363,9 @@ baum_gains baum_gains_deadbeat(void)
 baum_gains baum_gains_auto(void)
 {
   return make(BAUM_GAINS_AUTO, 0.0, 0.0);
+}
+
+baum_gains baum_gains_best_damping(void)
+{
+  return make(BAUM_GAINS_BEST_DAMPING, 0.0, 0.0);
 }

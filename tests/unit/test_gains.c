@@ -14,15 +14,16 @@
 
 static const double H = 1e-3;
 
-static const char *const names[ONE_STEP_COUNT] = {"euler", "semi_implicit_euler", "rk2", "rk3",
-                                                  "rk4"};
+static const char *const names[METHOD_COUNT] = {
+  "euler", "semi_implicit_euler", "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "dp5", "rk8"};
 
 static baum_i_gain_context fixed_step(int method)
 {
   return (baum_i_gain_context){.method = &methods[method],
                                .integrator = names[method],
                                .step = H,
-                               .rate = 4.0,
+                               .rate = 40.0,
+                               .rate_is = "a rate",
                                .rule_default =
                                  method < RK2 ? BAUM_GAINS_DEADBEAT : BAUM_GAINS_AUTO};
 }
@@ -34,7 +35,8 @@ static baum_i_gain_context variable_step(void)
   return (baum_i_gain_context){.method = &variable_method,
                                .integrator = "cvode_bdf",
                                .step = (double)NAN,
-                               .rate = 4.0,
+                               .rate = 40.0,
+                               .rate_is = "a rate",
                                .rule_default = BAUM_GAINS_AUTO};
 }
 
@@ -80,8 +82,9 @@ static void constructors_keep_rule_and_numbers(void **state)
   (void)state;
   const baum_gains made[] = {baum_gains_fixed(3.0, 4.0), baum_gains_scaled(3.0, 4.0),
                              baum_gains_taylor(),        baum_gains_frequency(3.0, 4.0),
-                             baum_gains_deadbeat(),      baum_gains_auto()};
-  for (int k = 0; k < 6; k++) {
+                             baum_gains_deadbeat(),      baum_gains_auto(),
+                             baum_gains_best_damping()};
+  for (int k = 0; k < 7; k++) {
     assert_int_equal(made[k].rule, k + 1);
     bool numbers = k == 0 || k == 1 || k == 3;
     assert_true(made[k].value[0] == (numbers ? 3.0 : 0.0));
@@ -144,6 +147,41 @@ static void deadbeat_takes_the_point_of_the_method(void **state)
   }
 }
 
+static void best_damping_is_nowhere_worse_than_its_neighbours(void **state)
+{
+  (void)state;
+  static const double off[4][2] = {{0.01, 0.0}, {-0.01, 0.0}, {0.0, 0.01}, {0.0, -0.01}};
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    baum_i_gain_choice c = chosen(baum_gains_best_damping(), fixed_step(m));
+    assert_int_equal(c.rule, BAUM_GAINS_BEST_DAMPING);
+    assert_int_equal(c.amplification.stability, BAUM_STABLE);
+    double A = c.alpha * H;
+    double B = (c.beta * H) * (c.beta * H);
+    for (int k = 0; k < 4; k++) {
+      double beside = amplification_at(m, A + off[k][0], B + off[k][1]).spectral_radius;
+      /* AB2's best points are a line along B: equal but for rounding. */
+      assert_true(beside > c.amplification.spectral_radius - 1e-9);
+    }
+  }
+}
+
+static void deadbeat_is_refused_where_there_is_none_with_the_best_point(void **state)
+{
+  (void)state;
+  for (int m = AB2; m <= AB4; m++) {
+    char best[256];
+    baum_i_gain_choice c = chosen(baum_gains_best_damping(), fixed_step(m));
+    (void)snprintf(best, sizeof best,
+                   "its best point is (alpha h, beta^2 h^2) = (%.4g, %.4g) with spectral radius "
+                   "%.4g, that is alpha = %.4g 1/s, beta = %.4g 1/s: take best_damping",
+                   c.alpha * H, (c.beta * H) * (c.beta * H), c.amplification.spectral_radius,
+                   c.alpha, c.beta);
+    refused(baum_gains_deadbeat(), fixed_step(m), BAUM_ERR_UNSUPPORTED,
+            "has no dead-beat point, for it remembers violations of earlier steps", best);
+    has(baum_message(), names[m]);
+  }
+}
+
 static void the_default_is_what_the_integrator_says(void **state)
 {
   (void)state;
@@ -165,27 +203,43 @@ static void no_gains_at_all_are_marginal_and_allowed(void **state)
 
 /* ---- Auto ----------------------------------------------------------------- */
 
-static void auto_is_twice_the_rate(void **state)
+static void auto_is_a_share_of_the_rate(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_auto(), fixed_step(RK4));
   assert_true(c.alpha == 8.0 && c.beta == 8.0);
-  has(c.why, "alpha = 8 1/s, beta = 8 1/s (2 x the fastest rate); ");
+  has(c.why, "alpha = 8 1/s, beta = 8 1/s (0.2 x 40 1/s, a rate); ");
   c = chosen(baum_gains_auto(), variable_step());
   assert_true(c.alpha == 8.0 && c.beta == 8.0);
-  has(c.why, "(2 x the fastest rate); variable step");
+  has(c.why, "(0.2 x 40 1/s, a rate); variable step");
+}
+
+static void auto_is_more_where_drivers_take_all_freedom(void **state)
+{
+  (void)state;
+  baum_i_gain_context context = fixed_step(RK4);
+  context.driven = true;
+  baum_i_gain_choice c = chosen(baum_gains_auto(), context);
+  assert_true(c.alpha == 80.0 && c.beta == 80.0);
+  has(c.why, "(2 x 40 1/s, a rate; no freedom is left); ");
+  context = variable_step();
+  context.driven = true;
+  c = chosen(baum_gains_auto(), context);
+  assert_true(c.alpha == 1000.0 && c.beta == 1000.0);
+  has(c.why, "(25 x 40 1/s, a rate; no freedom is left); variable step");
 }
 
 static void auto_is_capped_and_always_stable(void **state)
 {
   (void)state;
-  for (int m = 0; m < ONE_STEP_COUNT; m++) {
+  for (int m = 0; m < METHOD_COUNT; m++) {
     for (double rate = 1e-5; rate < 1e9; rate *= 10.0) {
       baum_i_gain_context context = fixed_step(m);
       context.rate = rate;
+      double cap = fmin(0.3, 0.5 * baum_i_stability_limit(&methods[m], 1.0));
       baum_i_gain_choice c = chosen(baum_gains_auto(), context);
       assert_int_equal(c.amplification.stability, BAUM_STABLE);
-      ASSERT_NEAR(c.alpha, fmin(2.0 * rate, 0.3 / H), 1e-14, 0.0);
+      ASSERT_NEAR(c.alpha, fmin(0.2 * rate, cap / H), 1e-14, 0.0);
       assert_true(c.alpha == c.beta);
     }
   }
@@ -201,7 +255,7 @@ static void auto_keeps_inside_a_small_region(void **state)
   context.rate = 1e6;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
   ASSERT_NEAR(c.alpha * H, 0.2, 1e-12, 0.0);
-  has(c.why, "(capped; 2 x the fastest rate is 2e+06 1/s)");
+  has(c.why, "(capped; 0.2 x 1e+06 1/s, a rate)");
 }
 
 static void auto_falls_back_when_nothing_moves(void **state)
@@ -234,6 +288,68 @@ static void auto_refuses_a_rate_that_is_no_number(void **state)
   }
 }
 
+/* ---- Near the edge -------------------------------------------------------- */
+
+static void stable_pairs_near_the_edge_are_warned_of(void **state)
+{
+  (void)state;
+  static const double near[][3] = {{EULER, 1.99, 1.99 * 1.99}, /* alpha = beta up to 2 */
+                                   {EULER, 1e-3, 1.9e-3},      /* 2 alpha h is the edge */
+                                   {RK2, 1.97, 1.97 * 1.97},   {RK4, 2.77, 2.77 * 2.77},
+                                   {AB2, 0.99, 0.99 * 0.99},   {AB3, 0.54, 0.54 * 0.54},
+                                   {AB4, 0.298, 0.298 * 0.298}};
+  for (size_t k = 0; k < sizeof near / sizeof near[0]; k++) {
+    baum_i_gain_choice c =
+      chosen(baum_gains_scaled(near[k][1], near[k][2]), fixed_step((int)near[k][0]));
+    assert_int_equal(c.amplification.stability, BAUM_STABLE);
+    assert_true(c.doubtful);
+    has(c.why, "stable; warning: near the edge of the region, a step leaves ");
+  }
+}
+
+/* Small gains damp little because they are small, which is no reason to warn. */
+static void small_or_usual_gains_are_not_warned_of(void **state)
+{
+  (void)state;
+  static const double ratios[] = {0.8, 1.0, 2.0}; /* alpha / beta */
+  for (int m = 0; m < METHOD_COUNT; m++) {
+    for (int k = 0; k < 3; k++) {
+      double limit = baum_i_stability_limit(&methods[m], ratios[k]);
+      for (double A = 1e-10; A < 0.8 * limit; A *= 1.3) {
+        double b = A / ratios[k];
+        assert_false(chosen(baum_gains_scaled(A, b * b), fixed_step(m)).doubtful);
+      }
+    }
+    assert_false(chosen(baum_gains_best_damping(), fixed_step(m)).doubtful);
+  }
+}
+
+/* ---- Explicit methods that choose their step ------------------------------- */
+
+static void their_step_is_kept_inside_of_the_region(void **state)
+{
+  (void)state;
+  static const double pairs[][2] = {{100.0, 100.0}, {50.0, 500.0}, {400.0, 20.0}, {7.0, 0.0}};
+  baum_i_gain_context rk4 = fixed_step(RK4);
+  rk4.step = (double)NAN;
+  for (int k = 0; k < 4; k++) {
+    double alpha = pairs[k][0];
+    double beta = pairs[k][1];
+    double h = chosen(baum_gains_fixed(alpha, beta), rk4).max_step;
+    /* A little inside, and out of it at the other side of the limit: 0.9 of it are taken. */
+    double in = amplification_at(RK4, alpha * h, beta * h * beta * h).spectral_radius;
+    double out =
+      amplification_at(RK4, alpha * h / 0.89, beta * h * beta * h / (0.89 * 0.89)).spectral_radius;
+    assert_true(beta > 0.0 ? in < 1.0 : in <= 1.0);
+    assert_true(out > 1.0);
+  }
+  assert_true(isinf(chosen(baum_gains_fixed(0.0, 0.0), rk4).max_step));
+  assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), variable_step()).max_step));
+  assert_true(isinf(chosen(baum_gains_fixed(9.0, 9.0), fixed_step(RK4)).max_step));
+  has(chosen(baum_gains_fixed(100.0, 100.0), rk4).why,
+      "variable step, at most 0.02507 s, for beyond is where violations would grow");
+}
+
 /* ---- Variable steps --------------------------------------------------------- */
 
 static void rules_of_the_step_are_refused_without_one(void **state)
@@ -259,7 +375,7 @@ static void variable_steps_have_no_radius(void **state)
     baum_i_gain_choice c = chosen(baum_gains_fixed(1e6, 1e6), contexts[k]);
     assert_int_equal(c.amplification.stability, BAUM_VARIABLE_STEP);
     assert_true(isnan(c.amplification.spectral_radius));
-    assert_string_equal(c.why, "gains fixed: alpha = 1e+06 1/s, beta = 1e+06 1/s; variable step");
+    has(c.why, "gains fixed: alpha = 1e+06 1/s, beta = 1e+06 1/s; variable step");
   }
 }
 
@@ -311,7 +427,7 @@ static void numbers_that_overflow_are_refused(void **state)
 static void unknown_rules_are_refused(void **state)
 {
   (void)state;
-  static const int32_t unknown[] = {-1, 7, 1000000, INT32_MIN};
+  static const int32_t unknown[] = {-1, 8, 1000000, INT32_MIN};
   for (int k = 0; k < 4; k++) {
     baum_gains gains = {unknown[k], {0.0, 0.0}};
     refused(gains, fixed_step(EULER), BAUM_ERR_ARGUMENT, "is unknown", "baum_gains_fixed()");
@@ -345,6 +461,18 @@ static void unstable_gains_are_refused_with_numbers_and_a_way_out(void **state)
           "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4", "radius 1.1 > 1");
   refused(baum_gains_fixed(3000.0, 3000.0), fixed_step(RK4), BAUM_ERR_UNSTABLE,
           "alpha = beta up to alpha h = 2.78529", "radius 1.375 > 1");
+  refused(baum_gains_taylor(), fixed_step(AB2), BAUM_ERR_UNSTABLE,
+          "gains alpha = 1000 1/s, beta = 1414.21 1/s with ab2 and h = 0.001 s: (alpha h, beta^2 "
+          "h^2) = (1, 2) has spectral radius ",
+          "stable with this integrator is alpha = beta up to alpha h = 1 and alpha = 0.7071 beta "
+          "up to alpha h = ");
+  refused(baum_gains_taylor(), fixed_step(AB3), BAUM_ERR_UNSTABLE,
+          "with ab3 and h = 0.001 s: (alpha h, beta^2 h^2) = (1, 2) has spectral radius ",
+          "is alpha = beta up to alpha h = 0.545455 and ");
+  refused(baum_gains_fixed(1.0 / H, 1.0 / H), fixed_step(SEMI_IMPLICIT_EULER), BAUM_ERR_UNSTABLE,
+          "(alpha h, beta^2 h^2) = (1, 1) has spectral radius 1.61803 > 1, violations grow; stable "
+          "with this integrator is 0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h",
+          "nearest good pair: (");
   refused(baum_gains_scaled(1.0, 2.0000001), fixed_step(EULER), BAUM_ERR_UNSTABLE,
           "radius 1 + 5e-08 > 1", "nearest");
 }
@@ -352,7 +480,7 @@ static void unstable_gains_are_refused_with_numbers_and_a_way_out(void **state)
 static void the_pair_that_a_refusal_offers_is_accepted(void **state)
 {
   (void)state;
-  for (int m = 0; m < ONE_STEP_COUNT; m++) {
+  for (int m = 0; m < METHOD_COUNT; m++) {
     refused(baum_gains_fixed(5000.0, 4000.0), fixed_step(m), BAUM_ERR_UNSTABLE, "nearest",
             "that is");
     double alpha = 0.0;
@@ -397,13 +525,19 @@ int main(void)
     cmocka_unit_test(taylor_gains_follow_equations_10_and_11),
     cmocka_unit_test(a_frequency_is_beta_and_a_damping_ratio_alpha_over_beta),
     cmocka_unit_test(deadbeat_takes_the_point_of_the_method),
+    cmocka_unit_test(best_damping_is_nowhere_worse_than_its_neighbours),
+    cmocka_unit_test(deadbeat_is_refused_where_there_is_none_with_the_best_point),
     cmocka_unit_test(the_default_is_what_the_integrator_says),
     cmocka_unit_test(no_gains_at_all_are_marginal_and_allowed),
-    cmocka_unit_test(auto_is_twice_the_rate),
+    cmocka_unit_test(auto_is_a_share_of_the_rate),
+    cmocka_unit_test(auto_is_more_where_drivers_take_all_freedom),
     cmocka_unit_test(auto_is_capped_and_always_stable),
     cmocka_unit_test(auto_keeps_inside_a_small_region),
     cmocka_unit_test(auto_falls_back_when_nothing_moves),
     cmocka_unit_test(auto_refuses_a_rate_that_is_no_number),
+    cmocka_unit_test(stable_pairs_near_the_edge_are_warned_of),
+    cmocka_unit_test(small_or_usual_gains_are_not_warned_of),
+    cmocka_unit_test(their_step_is_kept_inside_of_the_region),
     cmocka_unit_test(rules_of_the_step_are_refused_without_one),
     cmocka_unit_test(variable_steps_have_no_radius),
     cmocka_unit_test(weak_damping_is_warned_of_with_variable_steps),

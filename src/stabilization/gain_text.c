@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sentences about gains.
+ *
+ * Near the edge: of (6) the slower mode decays by exp(-p), p = Re of A - sqrt(A^2 - B) per step. A method
+ * that is consistent does the same but for O(p^2), so small gains never come near this warning; one whose
+ * radius is above 0.95 and that damps less than a quarter of p is where its region ends.
+ */
+#include "stabilization/gain_text.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "base/message.h"
+
+static const double BDF_DAMPING_RATIO = 0.618;
+static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95: what a refusal offers has 0.9 */
+static const double EDGE_SHARE = 0.25;  /* of the damping that (6) promises */
+
+enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
+
+/* ---- numbers ---- */
+
+/* A radius that is not mistaken for 1. */
+static void print_radius(double radius, char text[RADIUS_SIZE])
+{
+  double growth = radius - 1.0;
+  if (fabs(growth) > 1e-12 && fabs(growth) < 1e-4) {
+    (void)snprintf(text, RADIUS_SIZE, "1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth));
+  } else {
+    (void)snprintf(text, RADIUS_SIZE, "%.6g", radius);
+  }
+}
+
+/* alpha h up to which the ray through a point is stable; NaN where it is no ray of its own. */
+static double limit_on_ray(const baum_i_method *method, const baum_i_gain_draft *gains)
+{
+  double ratio = gains->alpha_h / sqrt(gains->beta2_h2);
+  bool is_own = ratio > 0.0 && isfinite(ratio) && fabs(ratio - 1.0) > 1e-6;
+  return is_own ? baum_i_stability_limit(method, ratio) : (double)NAN;
+}
+
+static void print_region(const baum_i_method *method, const baum_i_gain_draft *gains,
+                         char text[REGION_SIZE])
+{
+  if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
+    (void)snprintf(text, REGION_SIZE, "0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h");
+    return;
+  }
+  if (method->kind == BAUM_I_METHOD_ONE_STEP && method->degree == 1) {
+    (void)snprintf(text, REGION_SIZE, "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4");
+    return;
+  }
+  double on_ray = limit_on_ray(method, gains);
+  int length = snprintf(text, REGION_SIZE, "alpha = beta up to alpha h = %.6g",
+                        baum_i_stability_limit(method, 1.0));
+  if (!isnan(on_ray)) {
+    (void)snprintf(text + length, REGION_SIZE - (size_t)length,
+                   " and alpha = %.4g beta up to alpha h = %.6g",
+                   gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
+  }
+}
+
+/* ---- refusals ---- */
+
+baum_status baum_i_gain_refuse(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
+                               double radius)
+{
+  char radius_text[RADIUS_SIZE];
+  char region[REGION_SIZE];
+  double good[2];
+  double h = context->step;
+  print_radius(radius, radius_text);
+  print_region(context->method, gains, region);
+  baum_i_stability_nearest(context->method, gains->alpha_h, gains->beta2_h2, &good[0], &good[1]);
+  return baum_i_fail(BAUM_ERR_UNSTABLE,
+                     "gains alpha = %.6g 1/s, beta = %.6g 1/s with %s and h = %.6g s: "
+                     "(alpha h, beta^2 h^2) = (%.6g, %.6g) has spectral radius %s > 1, violations "
+                     "grow; stable with this integrator is %s; nearest good pair: (%.4g, %.4g), "
+                     "that is alpha = %.4g 1/s, beta = %.4g 1/s",
+                     gains->alpha, gains->beta, context->integrator, h, gains->alpha_h,
+                     gains->beta2_h2, radius_text, region, good[0], good[1], good[0] / h,
+                     sqrt(good[1]) / h);
+}
+
+baum_status baum_i_gain_refuse_deadbeat(const baum_i_gain_context *context, double alpha_h,
+                                        double beta2_h2, double radius)
+{
+  bool remembers = context->method->kind == BAUM_I_METHOD_ADAMS_BASHFORTH;
+  double h = context->step;
+  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                     "gains deadbeat: %s has no dead-beat point, %s; its best point is (alpha h, "
+                     "beta^2 h^2) = (%.4g, %.4g) with spectral radius %.4g, that is alpha = %.4g "
+                     "1/s, beta = %.4g 1/s: take best_damping",
+                     context->integrator,
+                     remembers ? "for it remembers violations of earlier steps whatever the gains"
+                               : "for no gains bring both roots to zero",
+                     alpha_h, beta2_h2, radius, alpha_h / h, sqrt(beta2_h2) / h);
+}
+
+/* ---- why ---- */
+
+static const char *const class_text[] = {
+  [BAUM_STABLE] = "stable",
+  [BAUM_MARGINAL] = "marginal: some violations stay",
+  [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
+};
+
+/* Of the slower mode of (6), per step. */
+static double promised_damping(const baum_i_gain_draft *gains)
+{
+  double A = gains->alpha_h;
+  double under_root = A * A - gains->beta2_h2;
+  return under_root > 0.0 ? gains->beta2_h2 / (A + sqrt(under_root)) : A;
+}
+
+static bool is_near_edge(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
+{
+  double growth = baum_i_amplification_growth(context->method, gains->alpha_h, gains->beta2_h2);
+  return growth > EDGE_GROWTH && -log1p(growth) < EDGE_SHARE * promised_damping(gains);
+}
+
+/* True when the clause warns. */
+static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
+                             const baum_amplification *amplification, char text[CLAUSE_SIZE])
+{
+  char radius[RADIUS_SIZE];
+  bool stable = amplification->stability == BAUM_STABLE;
+  bool near_edge = stable && is_near_edge(context, gains);
+  print_radius(amplification->spectral_radius, radius);
+  int length =
+    snprintf(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
+             gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
+  if (near_edge) {
+    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length,
+                   "; warning: near the edge of the region, a step leaves %s of a violation and "
+                   "not %.3g",
+                   radius, exp(-promised_damping(gains)));
+  }
+  return !stable || near_edge;
+}
+
+/* True when the clause warns. */
+static bool print_variable_step(const baum_i_gain_draft *gains, double max_step,
+                                char text[CLAUSE_SIZE])
+{
+  if (gains->beta == 0.0 && gains->alpha > 0.0) {
+    (void)snprintf(text, CLAUSE_SIZE,
+                   "variable step; warning: beta = 0 leaves violations of position");
+    return true;
+  }
+  if (isfinite(max_step)) {
+    (void)snprintf(text, CLAUSE_SIZE,
+                   "variable step, at most %.4g s, for beyond is where violations would grow",
+                   max_step);
+    return false;
+  }
+  if (gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
+    (void)snprintf(text, CLAUSE_SIZE,
+                   "variable step; warning: alpha / beta = %.3g < %g, BDF and IDA may not damp",
+                   gains->alpha / gains->beta, BDF_DAMPING_RATIO);
+    return true;
+  }
+  (void)snprintf(text, CLAUSE_SIZE, "variable step");
+  return false;
+}
+
+void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
+                         const baum_i_gain_draft *gains, baum_i_gain_choice *choice)
+{
+  char clause[CLAUSE_SIZE];
+  if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
+    choice->doubtful = print_variable_step(gains, choice->max_step, clause);
+  } else {
+    choice->doubtful = print_fixed_step(context, gains, &choice->amplification, clause);
+  }
+  (void)snprintf(choice->why, sizeof choice->why,
+                 "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s", rule, gains->alpha,
+                 gains->beta, gains->note, clause);
+}
