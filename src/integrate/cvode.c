@@ -56,7 +56,7 @@ static const baum_i_sundials_flag FLAGS[] = {
 
 /* ---- callbacks ---- */
 
-static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
+static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
 {
   cvode_run *run = user;
   /* SUNDIALS 6.4's fixed-point solver takes every failure for one that a smaller step may cure. */
@@ -69,7 +69,7 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
   int nv = workspace->mechanism->nv;
   const double *q = N_VGetArrayPointer(y);
   double *dy = N_VGetArrayPointer(rate);
-  baum_status status = baum_i_problem_motion(problem, t, q, q + nq);
+  baum_status status = baum_i_problem_motion(problem, run->sundials.origin + tau, q, q + nq);
   if (status == BAUM_OK) {
     memcpy(dy, q + nq, (size_t)nq * sizeof *dy);
     memcpy(dy + nq, workspace->a, (size_t)nv * sizeof *dy);
@@ -79,7 +79,7 @@ static int evaluate(sunrealtype t, N_Vector y, N_Vector rate, void *user)
 
 /* The system of Newton's iteration, always anew: its derivatives cost about an evaluation.
  * NOLINTNEXTLINE(readability-function-size): CVODE's parameters. */
-static int build(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
+static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
                  sunbooleantype may_keep, sunbooleantype *is_new, sunrealtype gamma, void *user,
                  N_Vector work1, N_Vector work2, N_Vector work3)
 {
@@ -92,15 +92,17 @@ static int build(sunrealtype t, N_Vector y, N_Vector rate, SUNMatrix matrix,
   (void)work3;
   cvode_run *run = user;
   *is_new = SUNTRUE;
+  double t = run->sundials.origin + tau;
   baum_status status = baum_i_cvode_newton_fill(&run->newton, t, N_VGetArrayPointer(y), gamma);
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
-static int project(sunrealtype t, N_Vector y, N_Vector correction, sunrealtype tolerance,
+static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype tolerance,
                    N_Vector error, void *user)
 {
   (void)tolerance; /* the projection goes to rounding */
   cvode_run *run = user;
+  double t = run->sundials.origin + tau;
   return baum_i_cvode_project(&run->sundials, t, y, correction, error, run->work);
 }
 
@@ -114,6 +116,12 @@ static int weigh(N_Vector y, N_Vector weights, void *user)
 }
 
 /* ---- in and out ---- */
+
+static void begin(cvode_run *run, const baum_i_problem *problem, double t)
+{
+  baum_i_sundials_begin(&run->sundials, problem, t);
+  run->sundials.origin = t;
+}
 
 static void load(cvode_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
@@ -142,7 +150,12 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
                                double *v)
 {
   cvode_run *run = self;
-  if (CVodeGetDky(run->cvode, t, 0, run->inside) != CV_SUCCESS) {
+  double end = 0.0;
+  double last = 0.0;
+  (void)CVodeGetCurrentTime(run->cvode, &end);
+  (void)CVodeGetLastStep(run->cvode, &last);
+  double tau = baum_i_sundials_inside(&run->sundials, t, end, last);
+  if (isnan(tau) || CVodeGetDky(run->cvode, tau, 0, run->inside) != CV_SUCCESS) {
     return baum_i_sundials_fail_outside(&run->sundials, t);
   }
   unload(problem, run->inside, q, v);
@@ -173,9 +186,9 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   baum_i_statistics present;
   count(run, &present);
   run->before = present;
-  baum_i_sundials_begin(&run->sundials, problem, state->t);
+  begin(run, problem, state->t);
   load(run, problem, state);
-  int flag = CVodeReInit(run->cvode, state->t, run->y);
+  int flag = CVodeReInit(run->cvode, 0.0, run->y);
   run->sundials.unfinished = flag != CV_SUCCESS;
   return flag == CV_SUCCESS ? BAUM_OK : fail(run, flag);
 }
@@ -190,13 +203,16 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
     return status;
   }
   baum_i_sundials_begin_step(&run->sundials, problem, state->t);
-  double t = state->t;
-  double target = baum_i_sundials_target(problem, t);
-  int flag = CVode(run->cvode, target, run->y, &t, CV_ONE_STEP);
+  double before = 0.0;
+  double tau = 0.0;
+  (void)CVodeGetCurrentTime(run->cvode, &before);
+  double target = baum_i_sundials_target(problem, before);
+  int flag = CVode(run->cvode, target, run->y, &tau, CV_ONE_STEP);
   if (flag < 0) {
     return fail(run, flag);
   }
-  status = baum_i_sundials_check_progress(&run->sundials, t);
+  double t = run->sundials.origin + tau;
+  status = baum_i_sundials_check_progress(&run->sundials, before, tau);
   if (status == BAUM_OK) {
     run->sundials.unfinished = false;
     state->t = t;
@@ -249,7 +265,7 @@ static int attach_bdf(cvode_run *run, const baum_i_problem *problem)
   return projects ? CVodeSetProjFn(run->cvode, project) : CV_SUCCESS;
 }
 
-static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem, double t)
+static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem)
 {
   run->cvode = CVodeCreate(method, run->sundials.context);
   if (!run->cvode) {
@@ -260,7 +276,7 @@ static int start_cvode(cvode_run *run, int method, const baum_i_problem *problem
     flag = CVodeSetUserData(run->cvode, run);
   }
   if (flag == CV_SUCCESS) {
-    flag = CVodeInit(run->cvode, evaluate, t, run->y);
+    flag = CVodeInit(run->cvode, evaluate, 0.0, run->y);
   }
   if (flag == CV_SUCCESS) {
     flag = CVodeWFtolerances(run->cvode, weigh);
@@ -285,7 +301,7 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
   run->y = baum_i_sundials_vector(&run->sundials);
   run->inside = baum_i_sundials_vector(&run->sundials);
   run->work = baum_i_sundials_vector(&run->sundials);
-  baum_i_sundials_begin(&run->sundials, problem, start->t);
+  begin(run, problem, start->t);
   load(run, problem, start);
   if (method == CV_BDF) {
     status = baum_i_cvode_newton_open(&run->newton, &run->sundials);
@@ -293,7 +309,7 @@ static baum_status set_up(cvode_run *run, int method, const char *name,
       return status;
     }
   }
-  int flag = start_cvode(run, method, problem, start->t);
+  int flag = start_cvode(run, method, problem);
   run->sundials.unfinished = flag != CV_SUCCESS;
   return flag == CV_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
 }

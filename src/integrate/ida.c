@@ -26,7 +26,6 @@
 
 #include "integrate/ida.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -192,17 +191,13 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
                                double *v)
 {
   ida_run *run = self;
-  /* IDA refuses times before its last step, but extrapolates beyond; t may be off by its rounding. */
+  /* IDA refuses times before its last step, but extrapolates beyond. */
   double end = 0.0;
   double last = 0.0;
   (void)IDAGetCurrentTime(run->ida, &end);
   (void)IDAGetLastStep(run->ida, &last);
-  double tau = t - run->sundials.origin;
-  double beyond = (tau - end) * problem->direction;
-  double before = -beyond - fabs(last);
-  bool outside = fmax(beyond, before) > 100.0 * DBL_EPSILON * fmax(fabs(t), fabs(end));
-  tau = beyond > 0.0 ? end : (before > 0.0 ? end - last : tau);
-  if (outside || IDAGetDky(run->ida, tau, 0, run->inside) != IDA_SUCCESS) {
+  double tau = baum_i_sundials_inside(&run->sundials, t, end, last);
+  if (isnan(tau) || IDAGetDky(run->ida, tau, 0, run->inside) != IDA_SUCCESS) {
     return baum_i_sundials_fail_outside(&run->sundials, t);
   }
   unload(problem, run->inside, q, v);
@@ -360,7 +355,7 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
     return fail(run, flag);
   }
   double t = run->sundials.origin + tau;
-  status = baum_i_sundials_check_progress(&run->sundials, t);
+  status = baum_i_sundials_check_progress(&run->sundials, before, tau);
   if (status == BAUM_OK) {
     run->sundials.unfinished = false;
     state->t = t;

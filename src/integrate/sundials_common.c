@@ -6,6 +6,7 @@
 
 #include "integrate/sundials_common.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -212,9 +213,18 @@ baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_s
                      sundials->origin == 0.0 ? sundials->complaint : "");
 }
 
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t)
+/* First steps may be lost in the rounding of a late t as long as that is fine beside the motion. */
+static bool has_moved(const baum_i_sundials *sundials, double before, double after)
 {
-  if (t != sundials->t) {
+  double rounding = DBL_EPSILON * fabs(sundials->t) * sundials->problem->rate;
+  bool shows = sundials->origin + after != sundials->t;
+  return shows || (after != before && rounding <= 1e-4);
+}
+
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double before,
+                                           double after)
+{
+  if (has_moved(sundials, before, after)) {
     return BAUM_OK;
   }
   if (sundials->evaluation != BAUM_OK) {
@@ -223,7 +233,18 @@ baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, doub
   return baum_i_fail(BAUM_ERR_STEP,
                      "t = %.9g s: %s: the step became too small to change the time; the motion may "
                      "be singular here, or rtol = %g is too small",
-                     t, sundials->integrator, sundials->problem->rtol);
+                     sundials->t, sundials->integrator, sundials->problem->rtol);
+}
+
+double baum_i_sundials_inside(const baum_i_sundials *sundials, double t, double end, double last)
+{
+  double tau = t - sundials->origin;
+  double beyond = (tau - end) * sundials->problem->direction;
+  double before = -beyond - fabs(last);
+  if (fmax(beyond, before) > 100.0 * DBL_EPSILON * fmax(fabs(t), fabs(end))) {
+    return (double)NAN;
+  }
+  return beyond > 0.0 ? end : (before > 0.0 ? end - last : tau);
 }
 
 baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t)

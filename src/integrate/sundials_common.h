@@ -61,8 +61,13 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
                                  int flag, double step);
 
-/* After a step to t: BAUM_ERR_STEP when it did not move. */
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double t);
+/* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
+baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double before,
+                                           double after);
+
+/* The time of SUNDIALS that is t, put into its last step, which ends at `end`, where it is off by the rounding of t; NaN
+ * where it is outside. */
+double baum_i_sundials_inside(const baum_i_sundials *sundials, double t, double end, double last);
 
 /* For a time that is not inside the last step. */
 baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t);

@@ -256,6 +256,40 @@ static void a_projection_that_finds_no_pose_is_told(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+/* ---- late starts ---- */
+
+static void swing_from(baum_mechanism *mechanism, const baum_integrator *integrator, double start,
+                       double q[2])
+{
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = integrator;
+  options.rtol = 1e-10;
+  options.start_time = start;
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, &options, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, start + 3.0), BAUM_OK);
+  memcpy(q, baum_simulation_q(run), 2 * sizeof *q);
+  baum_simulation_destroy(run);
+}
+
+/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of these steps; nothing here depends on it. */
+static void a_late_start_costs_no_digits(void **state)
+{
+  (void)state;
+  need_sundials();
+  const baum_integrator *const all[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
+  for (int k = 0; k < 3; k++) {
+    baum_mechanism *mechanism = make_pendulum();
+    double early[2];
+    double late[2];
+    swing_from(mechanism, all[k], 0.0, early);
+    swing_from(mechanism, all[k], 1e9, late);
+    ASSERT_NEAR(late[0], early[0], 0.0, 1e-12);
+    ASSERT_NEAR(late[1], early[1], 0.0, 1e-12);
+    baum_mechanism_destroy(mechanism);
+  }
+}
+
 /* ---- what it says ---- */
 
 static void statistics_add_up(void **state)
@@ -369,6 +403,7 @@ int main(void)
     cmocka_unit_test(projected_steps_end_on_the_constraints),
     cmocka_unit_test(projection_is_as_good_as_gains),
     cmocka_unit_test(a_projection_that_finds_no_pose_is_told),
+    cmocka_unit_test(a_late_start_costs_no_digits),
     cmocka_unit_test(statistics_add_up),
     cmocka_unit_test(a_motion_that_ends_is_told_in_a_sentence_with_time_and_step),
     cmocka_unit_test(sundials_never_prints),
