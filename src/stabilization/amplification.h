@@ -21,7 +21,7 @@ typedef enum baum_i_method_kind {
 /* Of BAUM_I_METHOD_VARIABLE_STEP: what can be said without a region. */
 typedef enum baum_i_method_family {
   BAUM_I_FAMILY_EXPLICIT = 0, /* nothing stiff */
-  BAUM_I_FAMILY_ADAMS,        /* Adams-Moulton with fixed-point iteration */
+  BAUM_I_FAMILY_ADAMS,        /* Adams-Moulton, implicit in the constraints */
   BAUM_I_FAMILY_BDF           /* A(alpha)-stable up to order 5 */
 } baum_i_method_family;
 

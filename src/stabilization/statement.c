@@ -3,8 +3,9 @@
  *
  * Explicit with its own step: outside of the region of stability violations grow until the error
  * test sees them, so the step settles where h s is at the edge (Hairer, Wanner 1996, IV.2).
- * Adams-Moulton with fixed-point iteration: the iteration contracts while |h l_0 s| < 1 (l_0 <= 1),
- * and beyond order 2 the regions are bounded too, so that it is like an explicit method.
+ * Adams-Moulton, the constraints' stiffness solved implicitly: orders 1 and 2 are A-stable, orders 3,
+ * 4, 5, 6 stable on the real axis to -6, -3, -90/49, -45/38 (there z = -1), so that the error test has
+ * to lower the order or the step, as with explicit methods.
  * BDF of order k is A(a_k)-stable, a_5 = 51.84 degrees (Hairer, Wanner 1996, V.2); the roots of (17)
  * are alpha / beta = cos(their angle to the negative axis), and cos 51.84 = 0.618.
  */
@@ -14,9 +15,13 @@ static const char *of_variable_step(baum_i_method_family family)
 {
   switch (family) {
   case BAUM_I_FAMILY_ADAMS:
-    return "Adams-Moulton with fixed-point iteration, variable step: error test and convergence "
-           "keep the step inside of the method's bounded region, h sqrt(alpha^2 + beta^2) of about "
-           "1, so that violations decay for any gains and high gains cost steps.";
+    return "Adams-Moulton, variable step: orders 1 and 2 damp violations at any gains, higher "
+           "orders "
+           "in bounded regions (critical damping to alpha h = 6 at order 3, 3 at order 4); the "
+           "error "
+           "test keeps order and step inside, so that violations decay for any gains and high "
+           "gains "
+           "cost steps.";
   case BAUM_I_FAMILY_BDF:
     return "BDF, variable step: orders 1 to 5 are A(51.84 degrees)-stable, so that alpha / beta >= "
            "0.618 damps violations at any alpha h; below that orders 3 to 5 may not, until the "
