@@ -375,6 +375,12 @@ typedef struct baum_counters {
   double start_change;  /**< [-] largest displacement of the last assembly, of the scale. */
   double alpha;         /**< [1/s] in use. */
   double beta;          /**< [1/s] in use. */
+  double
+    spectral_radius; /**< [-] what a step of the gains in use leaves of a violation in the long run;
+                               NaN without BAUMGARTE or where steps vary. */
+  double
+    damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
+                       beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise. */
 } baum_counters;
 
 /** Read the counters.

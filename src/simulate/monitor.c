@@ -233,6 +233,15 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
+/* With its digits where a step takes little away. */
+static void tell_damping(const baum_simulation *run, baum_counters *c)
+{
+  bool stabilized = run->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
+  const baum_amplification *a = &run->gains.amplification;
+  c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
+  c->damping = stabilized ? -log1p(-a->damping) / run->options.step : (double)NAN;
+}
+
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                      size_t caller_size)
 {
@@ -254,6 +263,7 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   c->energy_change = kinetic + potential - simulation->start_energy;
   c->alpha = simulation->problem.alpha;
   c->beta = simulation->problem.beta;
+  tell_damping(simulation, c);
   c->struct_size = caller_size < sizeof *c ? caller_size : sizeof *c;
   memcpy(out, c, c->struct_size);
   return BAUM_OK;

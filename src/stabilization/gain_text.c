@@ -14,7 +14,7 @@
 
 static const double BDF_DAMPING_RATIO = 0.618;
 static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95: what a refusal offers has 0.9 */
-static const double EDGE_SHARE = 0.25;  /* of the damping that (6) promises */
+static const double EDGE_SHARE = 0.25;   /* of the damping that (6) promises */
 
 enum { RADIUS_SIZE = 32, REGION_SIZE = 160, CLAUSE_SIZE = 208 };
 

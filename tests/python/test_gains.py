@@ -16,6 +16,7 @@ class Gains(unittest.TestCase):
             "frequency(hertz=100, damping_ratio=0.2)",
             "deadbeat()",
             "auto()",
+            "best_damping()",
         ):
             gains = eval(f"baum.{text}")
             self.assertEqual(str(gains), text)

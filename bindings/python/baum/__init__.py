@@ -17,7 +17,7 @@ from . import _abi, _lib
 from .channels import Channel, a, energy, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
 from .errors import Error, Retry, Status, Warning
-from .gains import Gains, auto, deadbeat, fixed, frequency, scaled, taylor
+from .gains import Gains, auto, best_damping, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
     Amplification, Integrator, integrators, stability, stability_best, stability_best_on_ray,
     stability_deadbeat, stability_grid, stability_intervals, stability_limit, stability_nearest,
@@ -41,7 +41,7 @@ def has(feature):
 __all__ = [
     "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Input",
     "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
-    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "deadbeat", "energy", "fixed",
+    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy", "fixed",
     "frequency", "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate",
     "q", "scaled", "stability", "stability_best", "stability_best_on_ray",
     "stability_deadbeat", "stability_grid", "stability_intervals", "stability_limit",

@@ -529,6 +529,8 @@ class baum_counters(Structure):
         ("start_change", c_double),
         ("alpha", c_double),
         ("beta", c_double),
+        ("spectral_radius", c_double),
+        ("damping", c_double),
     ]
 
 

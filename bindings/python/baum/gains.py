@@ -48,11 +48,18 @@ def frequency(hertz, damping_ratio):
 
 
 def deadbeat():
-    """Fastest decay per step. Fixed step only; it costs methods of order above 1 their order."""
+    """Fastest decay per step. Fixed step only; it costs Runge-Kutta methods of order above 1 their
+    order, and methods of several steps have no such point."""
     return Gains("deadbeat")
 
 
+def best_damping():
+    """Least spectral radius: the dead-beat point where there is one. The rule for AB2 to AB4, which
+    keep their order with it. Fixed step only."""
+    return Gains("best_damping")
+
+
 def auto():
-    """alpha = beta = twice the fastest angular rate of the start state; keeps the order of the
-    method."""
+    """alpha = beta = 0.2 x the mean angular rate over the first radians of the motion; keeps the
+    order of the method. More where drivers take all freedom."""
     return Gains("auto")

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Gains of whole runs: the pilot run behind the rule `auto`, the cap of the step, what counters tell. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "models.h"
+
+enum { PILOT_EVALUATIONS = 23 }; /* 8 steps of 3, of which the start is known */
+
+static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
+                              double step, baum_gains gains)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = integrator;
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  o.gains = gains;
+  o.step = step;
+  o.rtol = isnan(step) ? 1e-6 : (double)NAN;
+  if (baum_simulation_create(m, &o, &run) < BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  return run;
+}
+
+static baum_counters count(baum_simulation *run)
+{
+  baum_counters c;
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  return c;
+}
+
+static double auto_alpha(const baum_mechanism *m, const baum_integrator *integrator)
+{
+  baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_auto());
+  double alpha = count(run).alpha;
+  baum_simulation_destroy(run);
+  return alpha;
+}
+
+/* Point of 1 kg on a rod of 1 m, at rest at an angle from the upward vertical. */
+static baum_mechanism *pendulum_at(double angle, const baum_user_force_def *force)
+{
+  baum_mechanism *m = NULL;
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  baum_body_id body;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  bob.position[0] = sin(angle);
+  bob.position[1] = cos(angle);
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = body;
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
+  if (force) {
+    baum_user_force_def on_bob = *force;
+    on_bob.bodies = &body;
+    on_bob.body_count = 1;
+    assert_int_equal(baum_mechanism_add_user_force(m, &on_bob, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* ---- the pilot run ---- */
+
+static void it_sees_more_than_the_start(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
+  /* The crank starts at rest under 0.033 N m; max(|v|/L, sqrt(|a|/L)) is 119 1/s at the start and 425 1/s in the
+   * mean over the first 6 rad of an exact motion. Eight steps tell the latter within a fifth. */
+  ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.2 * 425.0, 0.2, 0.0);
+  model_destroy(&m);
+}
+
+static void it_costs_23_evaluations_and_is_counted(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  baum_simulation *with = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_auto());
+  baum_simulation *without = begin(m.mechanism, baum_rk4(), 1e-3, baum_gains_fixed(1.0, 1.0));
+  assert_int_equal(count(with).evaluations - count(without).evaluations, PILOT_EVALUATIONS);
+  assert_int_equal(count(with).steps, 0);
+  assert_true(baum_simulation_time(with) == 0.0);
+  assert_memory_equal(baum_simulation_q(with), baum_simulation_q(without), 9 * sizeof(double));
+  assert_memory_equal(baum_simulation_v(with), baum_simulation_v(without), 9 * sizeof(double));
+  assert_non_null(strstr(baum_simulation_explain(with), "1/s, the mean rate over a pilot run)"));
+  baum_simulation_destroy(with);
+  baum_simulation_destroy(without);
+  model_destroy(&m);
+}
+
+static void it_gives_the_same_each_time(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_sundials_slider_crank(&m), BAUM_OK);
+  double first = auto_alpha(m.mechanism, baum_rk8());
+  assert_true(first > 0.0);
+  for (int k = 0; k < 3; k++) {
+    assert_true(auto_alpha(m.mechanism, baum_rk8()) == first);
+    assert_true(auto_alpha(m.mechanism, baum_dp5()) == first);
+  }
+  model_destroy(&m);
+}
+
+static void it_does_not_depend_on_units(void **state)
+{
+  (void)state;
+  model si;
+  model milli;
+  assert_int_equal(model_four_bar(&si), BAUM_OK);
+  assert_int_equal(model_four_bar_in(&MODEL_MILLI, &milli), BAUM_OK);
+  /* Rounding of data in other units, through 8 steps. */
+  ASSERT_NEAR(auto_alpha(milli.mechanism, baum_rk8()) * MODEL_MILLI.time,
+              auto_alpha(si.mechanism, baum_rk8()), 1e-9, 0.0);
+  model_destroy(&si);
+  model_destroy(&milli);
+}
+
+static void a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it(void **state)
+{
+  (void)state;
+  static const double angles[] = {1e-2, 1e-4, 1e-7, 0.0};
+  for (int k = 0; k < 4; k++) {
+    baum_mechanism *m = pendulum_at(angles[k], NULL);
+    double alpha = auto_alpha(m, baum_rk8());
+    assert_true(alpha >= 0.2 * sqrt(9.81) * (1.0 - 1e-12));
+    assert_true(alpha <= 0.2 * 1.5 * sqrt(9.81)); /* its mean rate is less from there */
+    baum_mechanism_destroy(m);
+  }
+}
+
+static int fail_later(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user)
+{
+  (void)q, (void)v, (void)inputs;
+  out[0] = out[1] = 0.0;
+  return t > *(const double *)user ? -1 : 0;
+}
+
+/* A force that fails where the pilot run comes first is none of the run's failures yet. */
+static void what_fails_later_does_not_fail_at_creation(void **state)
+{
+  (void)state;
+  static double limit = 0.3;
+  baum_user_force_def force = baum_user_force_def_default();
+  force.force = fail_later;
+  force.user = &limit;
+  baum_mechanism *m = pendulum_at(1.6, &force);
+  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_auto());
+  assert_true(count(run).alpha > 0.0);
+  assert_int_equal(count(run).warnings, 0);
+  assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, 0.35), BAUM_ERR_CALLBACK);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+static void drivers_that_take_all_freedom_allow_more(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
+  ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 2.0 * 150.0, 1e-3, 0.0);
+  if (baum_has("sundials")) {
+    ASSERT_NEAR(auto_alpha(m.mechanism, baum_cvode_bdf()), 25.0 * 150.0, 1e-3, 0.0);
+    ASSERT_NEAR(auto_alpha(m.mechanism, baum_ida()), 25.0 * 150.0, 1e-3, 0.0);
+  }
+  model_destroy(&m);
+}
+
+/* ---- steps ---- */
+
+static void steps_of_explicit_methods_stay_inside_of_the_region(void **state)
+{
+  (void)state;
+  static const double ALPHA = 1e4;
+  static const double END = 0.05;
+  baum_mechanism *m = pendulum_at(1.6, NULL);
+  for (int k = 0; k < 2; k++) {
+    const baum_integrator *integrator = k == 0 ? baum_dp5() : baum_rk8();
+    double limit = 0.0;
+    assert_int_equal(baum_stability_limit(integrator, 1.0, &limit), BAUM_OK);
+    baum_simulation *run = begin(m, integrator, (double)NAN, baum_gains_fixed(ALPHA, ALPHA));
+    assert_non_null(strstr(baum_simulation_explain(run), "variable step, at most "));
+    assert_int_equal(baum_simulation_advance_to(run, END), BAUM_OK);
+    assert_true((double)count(run).steps >= END * ALPHA / limit);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* ---- counters ---- */
+
+static void counters_tell_the_effective_damping(void **state)
+{
+  (void)state;
+  baum_mechanism *m = pendulum_at(1.6, NULL);
+  baum_simulation *run = begin(m, baum_rk4(), 1e-3, baum_gains_fixed(5.0, 5.0));
+  baum_counters c = count(run);
+  /* A double root -alpha: exp(-alpha h), but for (alpha h)^5 / 120. */
+  ASSERT_NEAR(c.spectral_radius, exp(-5e-3), 1e-13, 0.0);
+  ASSERT_NEAR(c.damping, 5.0, 1e-9, 0.0);
+  baum_simulation_destroy(run);
+  run = begin(m, baum_euler(), 1e-3, baum_gains_deadbeat());
+  c = count(run);
+  assert_true(c.spectral_radius == 0.0 && isinf(c.damping));
+  baum_simulation_destroy(run);
+  run = begin(m, baum_rk8(), (double)NAN, baum_gains_fixed(5.0, 5.0));
+  c = count(run);
+  assert_true(isnan(c.spectral_radius) && isnan(c.damping));
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(it_sees_more_than_the_start),
+    cmocka_unit_test(it_costs_23_evaluations_and_is_counted),
+    cmocka_unit_test(it_gives_the_same_each_time),
+    cmocka_unit_test(it_does_not_depend_on_units),
+    cmocka_unit_test(a_slow_start_is_left_behind_or_taken_for_what_gravity_makes_of_it),
+    cmocka_unit_test(what_fails_later_does_not_fail_at_creation),
+    cmocka_unit_test(drivers_that_take_all_freedom_allow_more),
+    cmocka_unit_test(steps_of_explicit_methods_stay_inside_of_the_region),
+    cmocka_unit_test(counters_tell_the_effective_damping),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
