@@ -63,6 +63,7 @@ static const baum_integrator ADAMS = {
   .formulations = ADAMS_FORMULATIONS,
   .why_no_projection = "CVODE projects only within BDF",
   .gains = BAUM_GAINS_AUTO,
+  .family = BAUM_I_FAMILY_ADAMS,
   .create = create_adams,
   .destroy = destroy,
 };
@@ -71,6 +72,7 @@ static const baum_integrator BDF = {
   .name = "cvode_bdf",
   .formulations = BDF_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
+  .family = BAUM_I_FAMILY_BDF,
   .create = create_bdf,
   .destroy = destroy,
 };
@@ -79,6 +81,7 @@ static const baum_integrator IDA = {
   .name = "ida",
   .formulations = IDA_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
+  .family = BAUM_I_FAMILY_BDF,
   .tests_multipliers = true,
   .solves_residuals = true,
   .create = create_ida,

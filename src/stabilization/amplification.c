@@ -169,21 +169,22 @@ static number largest_root(const baum_i_method *method, number mu)
   baum_i_polynomial p = characteristic(method, mu);
   double radius = baum_i_schur_cohn_radius(&p);
   number best = {radius - 1.0, 0.0};
-  double least = radius < HUGE_VAL ? ROOT_TOLERANCE * radius : 0.0;
-  double size[DIRECTIONS];
-  for (int k = 0; k < DIRECTIONS && least > 0.0; k++) {
-    size[k] = size_on_circle(method, mu, radius, k);
+  if (!(radius < HUGE_VAL)) {
+    return best;
   }
-  for (int k = 0; k < DIRECTIONS && least > 0.0; k++) {
-    if (size[k] <= size[(k + 1) % DIRECTIONS] &&
-        size[k] <= size[(k + DIRECTIONS - 1) % DIRECTIONS]) {
+  double least = ROOT_TOLERANCE * radius;
+  double before = size_on_circle(method, mu, radius, DIRECTIONS - 1);
+  double here = size_on_circle(method, mu, radius, 0);
+  for (int k = 0; k < DIRECTIONS; k++) {
+    double after = size_on_circle(method, mu, radius, k + 1);
+    if (here <= before && here <= after) {
       number w = polish(method, mu, radius, k);
       double off = fabs(hypot(1.0 + w.re, w.im) - radius);
-      if (off < least) {
-        least = off;
-        best = w;
-      }
+      best = off < least ? w : best;
+      least = fmin(off, least);
     }
+    before = here;
+    here = after;
   }
   return best;
 }

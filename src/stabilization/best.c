@@ -68,7 +68,8 @@ static bool find_zero(const baum_i_method *method, double best[2])
   bool found = false;
   for (int k = 0; k < STARTS * method->degree; k++) {
     double angle = PI * (0.5 + (k % STARTS + 0.5) / (2 * STARTS));
-    double size = 0.5 * (1 + k / STARTS) + 0.5;
+    int ring = k / STARTS;
+    double size = 1.0 + 0.5 * ring;
     double mu[2] = {size * cos(angle), size * sin(angle)};
     double rest = 1.0;
     for (int n = 0; n < NEWTON_STEPS; n++) {

@@ -25,8 +25,13 @@ typedef struct lattice {
   bool found;
 } lattice;
 
-static void try_crossing(lattice *l, const double inside[2], const double outside[2])
+/* Between a node and the one before it in direction d, of which one is good. */
+static void try_crossing(lattice *l, const double node[2], bool good, int d)
 {
+  double before[2] = {node[0], node[1]};
+  before[d] -= l->step[d];
+  const double *inside = good ? node : before;
+  const double *outside = good ? before : node;
   double at[2] = {inside[0], inside[1]};
   double point[2];
   baum_i_chart_edge(l->method, GOOD_GROWTH, BISECTIONS, outside, at);
@@ -56,16 +61,13 @@ static void cross_all(lattice *l)
     for (int j = -1; j <= l->cells + 1; j++) {
       double at[2];
       bool good = look(l, i, j, at);
-      const double left[2] = {at[0] - l->step[0], at[1]};
-      const double under[2] = {at[0], at[1] - l->step[1]};
       if (i >= 0 && good != column[j + 1]) {
-        try_crossing(l, good ? at : left, good ? left : at);
+        try_crossing(l, at, good, 0);
       }
       if (j >= 0 && good != below) {
-        try_crossing(l, good ? at : under, good ? under : at);
+        try_crossing(l, at, good, 1);
       }
-      below = good;
-      column[j + 1] = good;
+      below = column[j + 1] = good;
     }
   }
 }

@@ -116,8 +116,10 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 {
   ray r = make_ray(damping_ratio);
   lowest best = {0.0, 0.0};
-  for (double b = r.begin; b < r.end; b *= SCAN_RATIO) {
+  double b = r.begin;
+  while (b < r.end) {
     try_point(method, r.damping_ratio, b, &best);
+    b *= SCAN_RATIO;
   }
   double half = best.b * (SCAN_RATIO - 1.0);
   for (int k = 0; k < CLOSER; k++) {
