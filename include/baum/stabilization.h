@@ -43,7 +43,7 @@ typedef struct baum_gains {
 } baum_gains;
 
 /* Every rule: where it is stable, what violation it leaves, what it does to accuracy and cost. Figures: a
- * pendulum of 1 m released level, 1 s, h = 0.0025 s; more in docs/theory/stabilization.md. */
+ * pendulum of 1 m released level, 1 s, h = 0.0025 s; more in docs/theory/gain_rules.md. */
 
 /** Gains as numbers. Stable where the method's region has (alpha h, beta^2 h^2); with a variable step
  *  wherever alpha >= 0.618 beta. A violation decays as exp(-alpha t) when alpha = beta; what the steps
@@ -95,7 +95,7 @@ BAUM_API baum_gains baum_gains_deadbeat(void);
  *  and 1 1/s where the step varies, which suits machines with times of seconds only.
  *  Stable: alpha h is at most 0.3 and at most half of the method's limit. Leaves violations of about
  *  those of the error of a step; they decay over some radians, not at once. Order is kept; cost is that
- *  of no gains at all. See docs/theory/stabilization.md for how it compares with all other constants. */
+ *  of no gains at all. docs/theory/gain_rules.md compares it with all other constants. */
 BAUM_API baum_gains baum_gains_auto(void);
 
 /** The point of least spectral radius of the method: the dead-beat point where there is one, and

@@ -14,7 +14,7 @@
  *
  * auto: c = 0.2 where freedom is left. There the violation pulls at the motion, which it must not do
  * faster than the motion itself turns: of 12 decades of constant gains those of 0.1 to 0.3 times the
- * mean rate are the best or cannot be told from it (docs/theory/stabilization.md). Where drivers take
+ * mean rate are the best or cannot be told from it (docs/theory/gain_rules.md). Where drivers take
  * all freedom, the violation is the whole error, and c = 2 is as far as explicit methods pay nothing.
  *
  * Variable steps: the step of an explicit method is capped where (alpha h, beta^2 h^2) leaves its
