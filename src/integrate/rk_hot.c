@@ -40,14 +40,18 @@ static double square(int n, int count, const double *weights, const double *rate
 {
   double squares[LANES] = {0.0};
   for (int i = 0; i < n; i += LANES) {
-    double sum[LANES];
-    add_up(n, count, weights, rates + i, sum);
+    double part[LANES];
+    add_up(n, count, weights, rates + i, part);
     for (int k = 0; k < LANES; k++) {
-      double part = scale[i + k] * sum[k];
-      squares[k] += part * part;
+      part[k] *= scale[i + k];
+      squares[k] += part[k] * part[k];
     }
   }
-  return (squares[0] + squares[1]) + (squares[2] + squares[3]);
+  double sum = 0.0;
+  for (int k = 0; k < LANES; k++) {
+    sum += squares[k];
+  }
+  return sum;
 }
 
 const baum_i_rk_kernel BAUM_I_HOT(baum_i_rk_kernel) = {.combine = combine, .square = square};

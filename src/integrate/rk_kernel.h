@@ -4,7 +4,7 @@
 #ifndef BAUM_I_INTEGRATE_RK_KERNEL_H
 #define BAUM_I_INTEGRATE_RK_KERNEL_H
 
-enum { BAUM_I_RK_LANES = 4 };
+enum { BAUM_I_RK_LANES = 8 };
 
 typedef struct baum_i_rk_kernel {
   /* out = base + h sum_j weights_j K_j over the first `count` rates; out may be base. */
