@@ -34,9 +34,6 @@ typedef struct baum_i_method {
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
 } baum_i_method;
 
-/* alpha / beta from which on BDF of order 1 to 5 damps at any alpha h. */
-#define BAUM_I_BDF_DAMPING_RATIO 0.618
-
 /* Sentences on what gains do with a method, also one that chooses its steps. Static. */
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
                                     bool chooses_step);

@@ -27,7 +27,7 @@ static const double ZERO = 1e-10;  /* |R| of a zero, and |Im mu| of a real one *
 static const double EQUAL = 1e-12; /* of radii, where AB2 has a plateau */
 static const double CLOSE_IN = 0.6;
 static const double FARTHEST = 1e3; /* of the lattice for a region without end */
-enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 50 };
+enum { NEWTON_STEPS = 60, STARTS = 16, LATTICE = 48, FINE_LATTICE = 16, LEVELS = 30 };
 
 /* ---- Dead-beat ------------------------------------------------------------ */
 
