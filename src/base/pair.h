@@ -106,7 +106,7 @@ static inline baum_i_square baum_i_times_transposed(baum_i_square m, baum_i_squa
 }
 
 /* x y^T */
-static inline baum_i_square baum_i_outer(baum_i_pair x, baum_i_pair y)
+static inline baum_i_square baum_i_outer_product(baum_i_pair x, baum_i_pair y)
 {
   return (baum_i_square){{x * y[0], x * y[1]}};
 }

@@ -219,7 +219,7 @@ extern const baum_i_block_sides_kernel baum_i_block_sides_kernel_wide;
 typedef struct baum_i_block_kernel {
   /* Off-diagonal blocks. */
   void (*couple)(baum_i_block *block);
-  /* L D L^T, and the right side forward. */
+  /* L D L^T, and the right side forward; the motion is a0. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
   /* The right side backward, which gives lambda, also into the rows (nc) of pins; and the motion. */
   void (*substitute)(baum_i_block *block, double *lambda);

@@ -65,7 +65,7 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
     const double *w = weight + 2 * (size_t)pair->triple;
     baum_i_pair n = baum_i_load(arm + 2 * (size_t)pair->arm[0]);
     baum_i_pair k = baum_i_load(arm + 2 * (size_t)pair->arm[1]);
-    baum_i_square s = baum_i_add_diagonal(baum_i_outer(n, w[1] * k), sign * w[0]);
+    baum_i_square s = baum_i_add_diagonal(baum_i_outer_product(n, w[1] * k), sign * w[0]);
     baum_i_store_square(off + 4 * (size_t)pair->off, s);
   }
 }
@@ -189,6 +189,8 @@ static double weakest(const baum_i_block *b)
 
 static baum_i_pivots eliminate(baum_i_block *b)
 {
+  /* So early that it is in memory when multipliers are taken from it. */
+  memcpy(b->motion, b->from, (size_t)b->motion_size * sizeof *b->motion);
   const int32_t *start = b->order.start;
   const int32_t *later = b->order.later;
   const int32_t *target = b->target;
@@ -304,7 +306,6 @@ static void forward(const baum_i_block *b)
 
 static void substitute(baum_i_block *b, double *lambda)
 {
-  memcpy(b->motion, b->from, (size_t)b->motion_size * sizeof *b->motion);
   backward(b, lambda);
 }
 

@@ -33,7 +33,7 @@ static inline baum_i_square baum_i_couple_sides(const baum_i_columns *n, const d
 {
   baum_i_square s = {{{0.0, 0.0}, {0.0, 0.0}}};
   for (int c = 0; c < 3; c++) {
-    baum_i_square product = baum_i_outer(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
+    baum_i_square product = baum_i_outer_product(n->c[c], w[c < 2 ? 0 : 1] * k->c[c]);
     s.column[0] += product.column[0];
     s.column[1] += product.column[1];
   }

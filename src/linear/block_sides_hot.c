@@ -36,8 +36,8 @@ static void set_force(baum_i_block *block, const double *force)
   for (int i = 0; i < nv; i++) {
     free[i] = response[i] * force[i];
   }
-  for (int i = 0; i < block->dense_count; i++) {
-    set_dense_force(block, &block->dense[i], force);
+  for (int k = 0; k < block->dense_count; k++) {
+    set_dense_force(block, &block->dense[k], force);
   }
 }
 

@@ -12,6 +12,9 @@
 /* Bodies at a time; whole vectors. */
 enum { SOME = 32, LANES = 4 };
 
+typedef double vector __attribute__((vector_size(LANES * sizeof(double))));
+typedef int64_t flags __attribute__((vector_size(LANES * sizeof(int64_t))));
+
 typedef struct bodies {
   const baum_i_body_place *places; /* NULL: all are planar bodies, in the order of q */
   int first;
@@ -26,41 +29,47 @@ BAUM_I_INLINE baum_i_body_place place_of(const bodies *some, int k)
   return some->places[some->first + k];
 }
 
-/* Without its sign a number in bits is in the order of its size; infinity and NaN come last. */
-BAUM_I_INLINE uint64_t size_bits(double x)
+BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
 {
-  uint64_t bits;
-  memcpy(&bits, &x, sizeof bits);
-  return bits << 1;
+  baum_i_body_place place = place_of(some, k);
+  return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
 }
 
-/* Zero where a body has no angle; whether one is beyond own sincos. */
-BAUM_I_INLINE bool gather_angles(const bodies *some, const double *q, double *angle)
+/* Zero where a body has no angle. Stored a vector at a time, as they are read again at once: of single numbers
+ * the reader would have to wait until they are in memory. */
+BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
-  uint64_t largest = 0;
-  for (int k = 0; k < some->count; k++) {
-    baum_i_body_place place = place_of(some, k);
-    double x = place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
-    angle[k] = x;
-    largest = size_bits(x) > largest ? size_bits(x) : largest;
+  int i = 0;
+  for (; i + LANES <= some->count; i += LANES) {
+    const vector x = {angle_of(some, q, i), angle_of(some, q, i + 1), angle_of(some, q, i + 2),
+                      angle_of(some, q, i + 3)};
+    memcpy(angle + i, &x, sizeof x);
   }
-  for (int k = some->count; k % LANES != 0; k++) {
-    angle[k] = 0.0;
+  if (i < some->count) {
+    int last = some->count - 1;
+    const vector x = {angle_of(some, q, i), angle_of(some, q, i + 1 < last ? i + 1 : last),
+                      angle_of(some, q, i + 2 < last ? i + 2 : last), 0.0};
+    memcpy(angle + i, &x, sizeof x);
   }
-  return largest > size_bits(baum_i_sincos_limit);
 }
 
-static void set_sines(const double *restrict angle, int count, double *restrict sine,
+/* Whether no angle is beyond own sincos, of which sine and cosine mean nothing. */
+static bool set_sines(const double *restrict angle, int count, double *restrict sine,
                       double *restrict cosine)
 {
+  flags far = {0};
   for (int i = 0; i < count; i += LANES) {
     for (int k = i; k < i + LANES; k++) {
       baum_i_sincos(angle[k], &sine[k], &cosine[k]);
     }
+    vector x;
+    memcpy(&x, angle + i, sizeof x);
+    far |= x * x > baum_i_sincos_limit * baum_i_sincos_limit;
   }
+  return (far[0] | far[1] | far[2] | far[3]) == 0;
 }
 
-/* Far angles, infinite ones and NaN. */
+/* Far angles, and infinite ones. */
 static void mend_far(const double *angle, int count, double *sine, double *cosine)
 {
   for (int i = 0; i < count; i++) {
@@ -91,9 +100,8 @@ BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v
   double angle[SOME];
   double sine[SOME];
   double cosine[SOME];
-  bool far = gather_angles(some, q, angle);
-  set_sines(angle, some->count, sine, cosine);
-  if (far) {
+  gather_angles(some, q, angle);
+  if (!set_sines(angle, some->count, sine, cosine)) {
     mend_far(angle, some->count, sine, cosine);
   }
   for (int k = 0; k < some->count; k++) {

@@ -16,6 +16,7 @@
 #include <baum/planar_joints.h>
 
 #include "base/hot.h"
+#include "base/pair.h"
 #include "mechanism/mechanism.h"
 
 /* The fields that every planar joint and spring definition begins with. */
@@ -111,8 +112,7 @@ void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_spa
 
 BAUM_I_INLINE void baum_i_planar_add_three(const double *three, double *x)
 {
-  x[0] += three[0];
-  x[1] += three[1];
+  baum_i_store(x, baum_i_load(x) + (baum_i_pair){three[0], three[1]});
   x[2] += three[2];
 }
 

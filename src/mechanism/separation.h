@@ -11,6 +11,8 @@
 #ifndef BAUM_I_MECHANISM_SEPARATION_H
 #define BAUM_I_MECHANISM_SEPARATION_H
 
+#include <math.h>
+
 #include "mechanism/planar.h"
 
 typedef struct baum_i_separation {
@@ -26,6 +28,13 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
     .rate = {b->dr[0] - a->dr[0], b->dr[1] - a->dr[1]},
     .g_angle = {a->arm[1], -a->arm[0], -b->arm[1], b->arm[0]},
   };
+}
+
+/* |d|, by way of hypot() only where squares could overflow or vanish. */
+static inline double baum_i_separation_length(const baum_i_separation *s)
+{
+  double square = s->d[0] * s->d[0] + s->d[1] * s->d[1];
+  return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(s->d[0], s->d[1]);
 }
 
 /* G^T x (6) */

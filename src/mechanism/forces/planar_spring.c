@@ -81,7 +81,7 @@ static spring spring_at(const baum_i_force *force, const baum_i_point *point)
   baum_i_marker b = baum_i_marker_at(point, force->span.bodies[1], numbers + 2);
   spring s;
   s.line = baum_i_separation_of(&a, &b);
-  s.length = hypot(s.line.d[0], s.line.d[1]);
+  s.length = baum_i_separation_length(&s.line);
   if (s.length < DBL_MIN) {
     /* Of a denormal length the reciprocal is not finite. */
     return (spring){.line = s.line};
@@ -149,7 +149,7 @@ static baum_status add_one(const baum_i_force *element, baum_i_point *point, dou
   baum_i_marker a = baum_i_marker_at(point, element->span.bodies[0], numbers);
   baum_i_marker b = baum_i_marker_at(point, element->span.bodies[1], numbers + 2);
   baum_i_separation line = baum_i_separation_of(&a, &b);
-  double length = hypot(line.d[0], line.d[1]);
+  double length = baum_i_separation_length(&line);
   if (length < DBL_MIN) {
     return BAUM_OK;
   }
