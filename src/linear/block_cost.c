@@ -14,7 +14,7 @@ enum {
   SCATTER_SIDE = 15, /* motion -= W G^T lambda */
   SCATTER_PIN = 18,
   PIN_PAIR = 9,
-  FULL_PAIR = 30,
+  FULL_PAIR = 30, /* 16 with a pin */
   PIVOT = 14,    /* 6 of det D and its judgement, 8 of D^-1 r */
   COUPLING = 46, /* U 12, U X^T 12, U r 6, three updates 12, L 4 */
   BACKWARD = 8,  /* of a coupling */
