@@ -178,7 +178,7 @@ BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrato
                                                 double damping_ratio, double *alpha_h);
 
 /** The point of fastest decay of all, alpha h > 0: the dead-beat point where there is one; of several
- *  the one of least gains. Takes some milliseconds for Adams-Bashforth methods.
+ *  the one of least gains. Takes some ten milliseconds for Adams-Bashforth methods.
  *  @param[out] alpha_h,beta2_h2  receive the point
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
  */
