@@ -10,8 +10,8 @@
 
 static const baum_i_joint *driven_by(const baum_mechanism *mechanism, const void *def)
 {
-  const baum_i_driver_head *head = def;
-  return mechanism->joints[baum_i_joint_index(mechanism, head->joint)];
+  const baum_i_driver_head *head = def; /* which has been checked */
+  return mechanism->joints[head->joint.index1 - 1];
 }
 
 /* ---- definition ---- */
