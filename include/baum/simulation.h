@@ -169,6 +169,13 @@ typedef struct baum_simulation_options {
                                 E is the largest present |lambda_k| n_k, or, where that is
                                 larger, M_jj s_j^2 times the square of the rate which explain
                                 tells. Default: infinity, they are not tested. */
+  bool energy_account; /**< Keep the works of baum_simulation_energy_account(). Not for kinematics.
+                            Default: false. */
+  const double
+    *row_gains; /**< [-] (row_gain_count) > 0, factors f on the gains of each row: alpha f_i,
+                                beta f_i. Copied. Not with CVODE and IDA, whose matrices have one pair
+                                of gains. Default: NULL, all 1. */
+  int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -309,7 +316,11 @@ typedef enum baum_quantity {
                                     velocities of their bodies. */
   BAUM_JOINT_COORDINATE = 11,  /**< Coordinate and rate of a joint that has one (2). */
   BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_POSE: x'', y'' and angular acceleration. */
-  BAUM_DRIVE_EFFORT = 13       /**< Effort of the driver `joint` (1). */
+  BAUM_DRIVE_EFFORT = 13,      /**< Effort of the driver `joint` (1). */
+  BAUM_ENERGY_ACCOUNT = 14     /**< As in baum_energy_account [J] (12): kinetic, potential, loads,
+                                    springs, dampers, user_forces, bodies, drivers, violation,
+                                    projection, gains, residual. Only with the option
+                                    energy_account. */
 } baum_quantity;
 
 /** One group of columns. */
@@ -331,8 +342,8 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 /** Read channels at the present state.
  *  @param[in]  channels  (count)
  *  @param[out] row       (baum_channels_width())
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (BAUM_ENERGY_ACCOUNT without the option),
+ *              BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
@@ -390,6 +401,42 @@ typedef struct baum_counters {
  */
 BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                               size_t caller_size);
+
+/** Where the energy of a run has come from since its start, or since the last
+ *  baum_simulation_set_state(); inputs and drivers that are set go on. A work is positive where it
+ *  brings energy into the mechanism. The account closes as well as the motion has been integrated:
+ *  the residual is an error of the method, of its order in the step or of the size of its
+ *  tolerance. An evaluation that fails ends the account with a warning; works and residual are NaN
+ *  from there on. The motion is the same with and without an account.
+ *  Cost: two evaluations of (7) a step, and one more at its end; 3 and 4 with steps of dp5 and rk8,
+ *  each after a shorter step; 4 with variable steps; with BAUMGARTE each twice. */
+typedef struct baum_energy_account {
+  size_t struct_size; /**< Set by baum_simulation_energy_account(). */
+  double kinetic;     /**< [J] v^T M v / 2 at present. */
+  double potential;   /**< [J] of gravity, linear springs, constant loads and as users say. */
+  double start;       /**< [J] kinetic and potential at the start. */
+  double loads;       /**< [J] of loads with an input or a torque, or that follow their body. */
+  double springs;     /**< [J] of springs with a law of the user. */
+  double dampers;     /**< [J] of the damping of linear springs. */
+  double user_forces; /**< [J] of user forces, without the change of their potential. */
+  double bodies;      /**< [J] of the forces of user coordinates, without the change of their
+                           potential, and v^T M' v / 2 of theirs: 0 where these are Lagrange's. */
+  double drivers;     /**< [J] -nu^T lambda: of drivers and other rows that depend on time. */
+  double violation;   /**< [J] -Phi'^T lambda: of rows whose Phi' is not 0. */
+  double projection;  /**< [J] changes of kinetic and potential energy by projections. */
+  double gains; /**< [J] what the gains have done, a part of drivers and violation: not to be added. */
+  double residual;     /**< [J] kinetic + potential - start - all works but gains. */
+  int64_t evaluations; /**< [-] of (5) and (7) for the account, which counters leave out. */
+} baum_energy_account;
+
+/** Read the energy account at the present state.
+ *  @param[out] out          filled
+ *  @param      caller_size  sizeof *out
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (the option energy_account is false),
+ *              BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE
+ */
+BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
+                                                    baum_energy_account *out, size_t caller_size);
 
 /** Read a warning.
  *  @param      k     0 to counters.warnings - 1

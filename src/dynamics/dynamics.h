@@ -66,21 +66,22 @@ struct baum_workspace {
   bool jacobian_ready; /* the last evaluation has set all blocks of J */
   bool metric_ready;   /* W has been chosen */
 
-  double *mass;     /* block values */
-  double *jacobian; /* block values */
-  double *phi;      /* (nc) */
-  double *phi_rate; /* (nc) */
-  double *nu;       /* (nc) */
-  double *gamma;    /* (nc) */
-  double *force;    /* (nv) */
-  double *rhs;      /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
-  double *a;        /* (nv) last solution */
-  double *lambda;   /* (nc) last solution */
-  double *work_v;   /* (2 nv) */
-  double *work_c;   /* (2 nc) */
-  double *shift;    /* (nc) regularization of assembly */
-  double *inputs;   /* (input_count) present values */
-  double *metric;   /* (nv) diagonal of W, once metric_ready */
+  double *mass;            /* block values */
+  double *jacobian;        /* block values */
+  double *phi;             /* (nc) */
+  double *phi_rate;        /* (nc) */
+  double *nu;              /* (nc) */
+  double *gamma;           /* (nc) */
+  double *force;           /* (nv) */
+  double *rhs;             /* (nc) gamma - 2 alpha Phi' - beta^2 Phi */
+  double *a;               /* (nv) last solution */
+  double *lambda;          /* (nc) last solution */
+  double *work_v;          /* (2 nv) */
+  double *work_c;          /* (2 nc) */
+  double *shift;           /* (nc) regularization of assembly */
+  double *inputs;          /* (input_count) present values */
+  const double *row_gains; /* (nc) factors on the gains of rows, of the run; NULL: 1 */
+  double *metric;          /* (nv) diagonal of W, once metric_ready */
 
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
@@ -93,6 +94,8 @@ struct baum_workspace {
   double *jtm_q;   /* (joint_square_size) likewise with mu */
   double *force_q; /* (force_square_size) */
   double *force_v;
+
+  double *unprojected; /* (nq + nv) not owned: what the last projection began from; NULL: not kept */
 
   int64_t evaluations;   /* solutions and residuals */
   int64_t near_singular; /* solutions in which the matrix was close to singular */

@@ -135,8 +135,18 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
   return workspace->mechanism->nc == 0 ? BAUM_OK : project_velocities(workspace, t, q, v);
 }
 
+static void keep_unprojected(const baum_workspace *workspace, const double *q, const double *v)
+{
+  size_t n = (size_t)workspace->mechanism->nv; /* nq = nv so far */
+  memcpy(workspace->unprojected, q, n * sizeof *q);
+  memcpy(workspace->unprojected + n, v, n * sizeof *v);
+}
+
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v)
 {
+  if (workspace->unprojected) {
+    keep_unprojected(workspace, q, v);
+  }
   if (workspace->mechanism->nc == 0) {
     return BAUM_OK;
   }

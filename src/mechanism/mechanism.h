@@ -201,6 +201,16 @@ typedef struct baum_i_force_blocks {
   double *force_v;
 } baum_i_force_blocks;
 
+/* Powers [W] by class, for the energy account of a run. */
+typedef enum baum_i_power {
+  BAUM_I_POWER_LOADS,
+  BAUM_I_POWER_SPRINGS,
+  BAUM_I_POWER_DAMPERS,
+  BAUM_I_POWER_USER_FORCES,
+  BAUM_I_POWER_BODIES,
+  BAUM_I_POWERS
+} baum_i_power;
+
 struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
@@ -224,6 +234,9 @@ struct baum_i_body_type {
   /* NULL: all blocks are zero. a (nv). */
   baum_status (*linearize)(const baum_i_body_group *group, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
+  /* Adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and M' = 0. */
+  baum_status (*power)(const baum_i_body_group *group, baum_i_point *point,
+                       double power[BAUM_I_POWERS]);
   /* Compare given derivatives with differences; NULL: nothing given. */
   baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
@@ -293,6 +306,10 @@ struct baum_i_force_type {
   /* Blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_force_group *group, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
+  /* Adds g^T v without what comes of the potential, by class; or with it, and power_is_whole. */
+  baum_status (*power)(const baum_i_force_group *group, baum_i_point *point,
+                       double power[BAUM_I_POWERS]);
+  bool power_is_whole;
   baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
 
@@ -426,5 +443,12 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
                                               const baum_i_joint_blocks *blocks);
 baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
                                               const baum_i_force_blocks *blocks);
+/* ---- power.c, for the energy account ---- */
+
+/* Set by class; needs velocities. */
+baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
+/* By class, the potential of the types whose power is given whole: its change is to be added to their work. */
+baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
+                                                double potential[BAUM_I_POWERS]);
 
 #endif

@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "mechanism/definition.h"
-#include "simulate/run.h"
+#include "simulate/account.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
@@ -110,6 +110,9 @@ static baum_status try_step(baum_simulation *run, double t_next, bool observe)
   if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
     status = baum_i_project(run->workspace, t_next, trial->q, trial->v);
   }
+  if (status == BAUM_OK && run->account) {
+    baum_i_account_step(run);
+  }
   return explain_callback(run, status);
 }
 
@@ -117,6 +120,9 @@ static void keep_trial(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->trial, &run->state);
   run->counters.steps++;
+  if (run->account) {
+    baum_i_account_accept(run);
+  }
   if (run->integrator->accept) {
     run->integrator->accept(run->self, &run->problem, &run->state);
   }
@@ -200,6 +206,9 @@ static baum_status internal_step(baum_simulation *run)
   if (status == BAUM_OK) {
     status = check_finite(run, &run->trial);
   }
+  if (status == BAUM_OK && run->account) {
+    baum_i_account_step(run);
+  }
   if (status == BAUM_OK) {
     baum_i_run_copy(run, &run->trial, &run->ahead);
     run->counters.steps++;
@@ -264,6 +273,9 @@ static baum_status turn(baum_simulation *run, double t)
   if (direction == before) {
     return BAUM_OK;
   }
+  if (run->account) {
+    baum_i_account_read(run, &run->state);
+  }
   run->problem.direction = direction;
   if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;
@@ -272,6 +284,9 @@ static baum_status turn(baum_simulation *run, double t)
   if (status != BAUM_OK) {
     run->problem.direction = before;
     return status;
+  }
+  if (run->account) {
+    baum_i_account_go_on(run);
   }
   run->counters.restarts++;
   baum_i_run_copy(run, &run->state, &run->ahead);

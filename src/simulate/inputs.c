@@ -11,7 +11,7 @@
 
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "simulate/run.h"
+#include "simulate/account.h"
 
 /* A method that fails here begins anew at its next step, and from the same state. */
 static baum_status begin_anew(baum_simulation *run)
@@ -22,9 +22,20 @@ static baum_status begin_anew(baum_simulation *run)
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   baum_i_run_copy(run, &run->state, &run->ahead);
+  if (run->account) {
+    baum_i_account_go_on(run);
+  }
   baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
   run->counters.restarts += status == BAUM_OK;
   return baum_i_message_settle(status, &kept);
+}
+
+/* The work up to here, before anything changes. */
+static void read_account(baum_simulation *run)
+{
+  if (run->account) {
+    baum_i_account_read(run, &run->state);
+  }
 }
 
 /* ---- inputs ---- */
@@ -46,6 +57,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   if (value == before) {
     return BAUM_OK;
   }
+  read_account(simulation);
   *present = value;
   status = begin_anew(simulation);
   if (status != BAUM_OK) {
@@ -112,6 +124,7 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
   size_t size = (size_t)joint->type->parameter_count * sizeof *numbers;
   assert(size <= sizeof before);
   memcpy(before, numbers, size);
+  read_account(run);
   joint->type->replace_law(numbers, run->state.t, law);
   baum_status status = begin_anew(run);
   if (status != BAUM_OK) {

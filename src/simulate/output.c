@@ -7,12 +7,21 @@
 #include <string.h>
 
 #include "mechanism/planar.h"
-#include "simulate/run.h"
+#include "simulate/account.h"
 
 /* ---- quantities ---- */
 
 /* What the columns are of. */
-typedef enum object { OF_NOTHING, OF_Q, OF_V, OF_ROWS, OF_ENERGY, OF_BODY, OF_JOINT } object;
+typedef enum object {
+  OF_NOTHING,
+  OF_Q,
+  OF_V,
+  OF_ROWS,
+  OF_ENERGY,
+  OF_ACCOUNT,
+  OF_BODY,
+  OF_JOINT
+} object;
 
 /* How much has to be evaluated, each with what is before it. */
 typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
@@ -37,6 +46,7 @@ static const facts table[] = {
   [BAUM_JOINT_COORDINATE] = {OF_JOINT, DEPTH_FRAMES},
   [BAUM_BODY_ACCELERATION] = {OF_BODY, DEPTH_SOLUTION},
   [BAUM_DRIVE_EFFORT] = {OF_JOINT, DEPTH_SOLUTION},
+  [BAUM_ENERGY_ACCOUNT] = {OF_ACCOUNT, DEPTH_FRAMES},
 };
 
 static facts facts_of(baum_quantity quantity)
@@ -109,6 +119,7 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
   case OF_V: return m->nv;
   case OF_ROWS: return rows_width(m, c, k);
   case OF_ENERGY: return 2;
+  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH;
   case OF_BODY: return body_width(m, c, k);
   case OF_JOINT: return joint_width(m, c, k);
   case OF_NOTHING:
@@ -265,19 +276,23 @@ static int put_channel(const baum_workspace *w, const baum_i_state *state, const
   case OF_ROWS: return put_rows(m, c, vector_of(w, state, c->quantity), out);
   case OF_BODY: return put_body(w, state, c, out);
   case OF_JOINT: return put_joint(w, c, out);
+  case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled afterwards, as energies are: */
   case OF_ENERGY:
   case OF_NOTHING:
-  default: return 2; /* filled afterwards: it needs an evaluation of its own */
+  default: return 2; /* they need an evaluation of their own */
   }
 }
 
-static baum_status put_energies(baum_workspace *w, const baum_i_state *state,
+static baum_status put_energies(baum_simulation *run, const baum_i_state *state,
                                 const baum_channel *channels, int count, double *row)
 {
+  baum_workspace *w = run->workspace;
   baum_status status = BAUM_OK;
   for (int k = 0; k < count && status == BAUM_OK; k++) {
     if (channels[k].quantity == BAUM_ENERGY) {
       status = baum_i_energy(w, state->t, state->q, state->v, &row[0], &row[1]);
+    } else if (channels[k].quantity == BAUM_ENERGY_ACCOUNT) {
+      status = baum_i_account_put(run, state, row);
     }
     row += channel_width(w->mechanism, &channels[k], k);
   }
@@ -293,7 +308,7 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
   for (int k = 0; k < count && status == BAUM_OK; k++) {
     place += put_channel(w, state, &channels[k], place);
   }
-  return status == BAUM_OK ? put_energies(w, state, channels, count, row) : status;
+  return status == BAUM_OK ? put_energies(run, state, channels, count, row) : status;
 }
 
 baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,

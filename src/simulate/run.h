@@ -22,12 +22,17 @@ typedef struct baum_i_grid {
   int64_t k;
 } baum_i_grid;
 
+typedef struct baum_i_account baum_i_account;
+
 struct baum_simulation {
   baum_simulation_options options;
   const baum_integrator *integrator;
   baum_workspace *workspace;
   baum_i_problem problem;
   void *self; /* of the integrator; may be NULL for a fixed-step one */
+
+  double *row_gains;       /* (nc) own copy of the option, or NULL */
+  baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
 
   double *parameters;   /* own copy of the mechanism's once a driver is set, else NULL */
   double *memory;       /* all arrays below */

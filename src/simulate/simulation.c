@@ -6,8 +6,8 @@
 #include "base/alloc.h"
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
+#include "simulate/account.h"
 #include "simulate/options.h"
-#include "simulate/run.h"
 
 /* ---- memory ---- */
 
@@ -174,6 +174,9 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
   if (status == BAUM_OK) {
     status = choose_problem(run);
   }
+  if (status == BAUM_OK && o->energy_account) {
+    status = baum_i_account_create(run);
+  }
   if (status == BAUM_OK && run->integrator->create) {
     status = run->integrator->create(&run->problem, &run->trial, &run->self);
   }
@@ -255,9 +258,11 @@ void baum_simulation_destroy(baum_simulation *simulation)
   if (simulation->integrator->destroy) {
     simulation->integrator->destroy(simulation->self);
   }
+  baum_i_account_destroy(simulation->account);
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);
+  baum_i_free(simulation->row_gains);
   baum_i_free(simulation);
 }
 

@@ -5,7 +5,7 @@
 
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
-#include "simulate/run.h"
+#include "simulate/account.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A drawing further off is more likely to be mounted on a branch that its author did not
@@ -181,6 +181,9 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
+  if (run->account) {
+    baum_i_account_begin(run);
+  }
 }
 
 static baum_status check_entry(const char *call, char name, int i, double value, bool may_be_free)

@@ -230,6 +230,9 @@ const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, tolerance_q, NUMBERS),
   FIELD(baum_simulation_options, tolerance_v, NUMBERS),
   FIELD(baum_simulation_options, tolerance_lambda, NUMBERS),
+  FIELD(baum_simulation_options, energy_account, FLAG),
+  FIELD(baum_simulation_options, row_gains, FUNCTION),
+  FIELD(baum_simulation_options, row_gain_count, INTEGER),
 };
 
 /* ---- the table ---- */

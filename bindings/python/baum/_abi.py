@@ -477,6 +477,9 @@ class baum_simulation_options(Structure):
         ("tolerance_q", c_double),
         ("tolerance_v", c_double),
         ("tolerance_lambda", c_double),
+        ("energy_account", c_bool),
+        ("row_gains", c_void_p),
+        ("row_gain_count", c_int32),
     ]
 
 
@@ -494,6 +497,7 @@ class baum_quantity(enum.IntEnum):
     BAUM_JOINT_COORDINATE = 11
     BAUM_BODY_ACCELERATION = 12
     BAUM_DRIVE_EFFORT = 13
+    BAUM_ENERGY_ACCOUNT = 14
 
 
 class baum_channel(Structure):
@@ -531,6 +535,26 @@ class baum_counters(Structure):
         ("beta", c_double),
         ("spectral_radius", c_double),
         ("damping", c_double),
+    ]
+
+
+class baum_energy_account(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kinetic", c_double),
+        ("potential", c_double),
+        ("start", c_double),
+        ("loads", c_double),
+        ("springs", c_double),
+        ("dampers", c_double),
+        ("user_forces", c_double),
+        ("bodies", c_double),
+        ("drivers", c_double),
+        ("violation", c_double),
+        ("projection", c_double),
+        ("gains", c_double),
+        ("residual", c_double),
+        ("evaluations", c_int64),
     ]
 
 
@@ -852,6 +876,7 @@ PROTOTYPES = {
         c_void_p, c_void_p, c_int64, POINTER(baum_channel), c_int32, c_void_p, POINTER(c_int64),
     ]),
     "baum_simulation_counters": (c_int, [c_void_p, POINTER(baum_counters), c_size_t]),
+    "baum_simulation_energy_account": (c_int, [c_void_p, POINTER(baum_energy_account), c_size_t]),
     "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
     "baum_simulation_explain": (c_char_p, [c_void_p]),
     "baum_simulation_message": (c_char_p, [c_void_p]),
@@ -925,5 +950,6 @@ STRUCTS = [
     baum_simulation_options,
     baum_channel,
     baum_counters,
+    baum_energy_account,
     baum_spline_driver_def,
 ]

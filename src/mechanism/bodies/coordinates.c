@@ -214,6 +214,61 @@ static baum_status force_block(const baum_i_body *body, const baum_i_local *at,
   return baum_i_difference_columns(&field, variable, at, out);
 }
 
+/* v^T M v / 2, v held fixed. */
+static baum_status kinetic_field(const void *context, const baum_i_local *at, double *out)
+{
+  const baum_i_body *body = context;
+  int n = body->nv;
+  baum_i_local here = *at;
+  double *block = baum_i_take(&here, n * n);
+  baum_status status = mass_at(body, &here, block);
+  *out = 0.0;
+  for (int i = 0; i < n * n && status == BAUM_OK; i++) {
+    *out += 0.5 * at->v[i / n] * block[i] * at->v[i % n];
+  }
+  return status;
+}
+
+/* v^T M' v / 2 along the motion. */
+static baum_status kinetic_rate(const baum_i_body *body, const baum_i_local *at, double *out)
+{
+  double rate = baum_i_rate(at);
+  *out = 0.0;
+  if (def_of(body)->constant_mass || rate == 0.0) {
+    return BAUM_OK;
+  }
+  baum_i_field field = {.evaluate = kinetic_field, .context = body, .size = 1};
+  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(rate, 1.0)};
+  return baum_i_difference_first(&field, &ray, at, out);
+}
+
+static baum_status power_of(const baum_i_body *body, const baum_i_local *at, double *sum)
+{
+  baum_i_local here = *at;
+  double *value = baum_i_take(&here, body->nv);
+  double rate = 0.0;
+  baum_status status = force_at(body, &here, value);
+  for (int j = 0; j < body->nv && status == BAUM_OK; j++) {
+    *sum += value[j] * at->v[j];
+  }
+  if (status == BAUM_OK) {
+    status = kinetic_rate(body, &here, &rate);
+  }
+  *sum += rate;
+  return status;
+}
+
+static baum_status power(const baum_i_body_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    baum_i_local at = baum_i_gather(point, &group->bodies[i]->span);
+    status = power_of(group->bodies[i], &at, &sum[BAUM_I_POWER_BODIES]);
+  }
+  return status;
+}
+
 /* M a, a held fixed. */
 typedef struct inertia {
   const baum_i_body *body;
@@ -383,6 +438,7 @@ static const baum_i_body_type type = {
   .force = force,
   .potential = potential,
   .linearize = linearize,
+  .power = power,
   .check = check_derivatives,
 };
 

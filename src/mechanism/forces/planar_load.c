@@ -182,6 +182,19 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
   return BAUM_OK;
 }
 
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  for (int i = 0; i < group->count; i++) {
+    load l = load_at(group->forces[i], point);
+    if (!l.has_potential) {
+      sum[BAUM_I_POWER_LOADS] +=
+        l.force[0] * l.at.dr[0] + l.force[1] * l.at.dr[1] + l.torque * l.at.w;
+    }
+  }
+  return BAUM_OK;
+}
+
 /* g does not depend on v. */
 static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
@@ -209,6 +222,7 @@ static const baum_i_force_type type = {
   .force = force,
   .potential = potential,
   .linearize = linearize,
+  .power = power,
 };
 
 BAUM_I_DEFINE(force, planar_load, type)

@@ -184,6 +184,20 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
   return BAUM_OK;
 }
 
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    spring s = spring_at(group->forces[i], point);
+    baum_i_spring_law law = law_of(group->forces[i], point);
+    if (s.length > 0.0) {
+      status = baum_i_spring_power(&law, point, s.length, s.rate, sum);
+    }
+  }
+  return status;
+}
+
 static baum_status linearize_one(const baum_i_force *element, baum_i_point *point,
                                  const baum_i_force_blocks *blocks)
 {
@@ -239,6 +253,7 @@ static const baum_i_force_type type = {
   .force = force,
   .potential = potential,
   .linearize = linearize,
+  .power = power,
   .check = check_derivatives,
 };
 

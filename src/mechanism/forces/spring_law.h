@@ -52,6 +52,21 @@ static inline double baum_i_spring_potential(const baum_i_spring_law *spring, do
   return spring->law ? 0.0 : 0.5 * spring->numbers[BAUM_I_STIFFNESS] * stretch * stretch;
 }
 
+/* Adds the power of the tension at l' without that of V: of a user's law all of it. */
+static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
+                                              double length, double rate,
+                                              double sum[BAUM_I_POWERS])
+{
+  if (!spring->law) {
+    sum[BAUM_I_POWER_DAMPERS] -= spring->numbers[BAUM_I_DAMPING] * rate * rate;
+    return BAUM_OK;
+  }
+  baum_i_tension t;
+  baum_status status = baum_i_call_spring_law(spring, point, length, rate, &t);
+  sum[BAUM_I_POWER_SPRINGS] -= t.value * rate;
+  return status;
+}
+
 /* Compare the derivatives that a user's law gives with differences; scale is a relevant change of
  * length. Returns as the `check` of types. */
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,

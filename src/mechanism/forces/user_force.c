@@ -101,6 +101,22 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
   return status;
 }
 
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    const baum_i_force *element = group->forces[i];
+    baum_i_local at = baum_i_gather(point, &element->span);
+    double *value = baum_i_take(&at, at.nl);
+    status = force_at(element, &at, value);
+    for (int j = 0; j < at.nl && status == BAUM_OK; j++) {
+      sum[BAUM_I_POWER_USER_FORCES] += value[j] * at.v[j];
+    }
+  }
+  return status;
+}
+
 /* ---- derivatives ---- */
 
 static baum_status force_field(const void *context, const baum_i_local *at, double *out)
@@ -182,6 +198,8 @@ static const baum_i_force_type type = {
   .force = force,
   .potential = potential,
   .linearize = linearize,
+  .power = power,
+  .power_is_whole = true,
   .check = check_derivatives,
 };
 

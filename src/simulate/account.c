@@ -1,0 +1,470 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The energy account of a run.
+ *
+ * With T = v^T M v / 2, M v' + J^T lambda = g and J v = nu + Phi' (3),
+ *
+ *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
+ *
+ * of which the potential V takes its part of g. Powers are integrated over each step by Gauss' rule, at states inside
+ * of it with lambda of (5) or (7) there, whichever is integrated. (5) also serves the formulations of index 2 and 3:
+ * their motion keeps J v = nu, or Phi = 0, whose derivatives are its second line. What the gains do,
+ *
+ *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of (5),
+ *
+ * is a part of the work of drivers and violation. docs/theory/energy.md.
+ *
+ * States inside of a step are those of the method's own interpolant; with steps of one length and up to order 4 those
+ * of Hermite's polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5; and above order 4 the
+ * ends of shorter steps of the method from the same start.
+ *
+ * The account has a workspace of its own: no evaluation of it reaches the run's solver or its counters.
+ */
+#include "simulate/account.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
+
+struct baum_i_account {
+  baum_workspace *workspace;
+  baum_i_problem problem; /* the run's, with that workspace */
+  int nodes;
+  bool broken;       /* a work could not be evaluated */
+  baum_i_state from; /* start of the last step */
+  baum_i_state node;
+  double *unprojected; /* (nq + nv) the end of the last step, or a sample, before projection */
+  double *end_a;       /* (nv) acceleration there, fixed step */
+  double *lambda;      /* (nc) of (5) */
+  double before[BAUM_I_WORKS]; /* up to the last step */
+  double last[BAUM_I_WORKS];   /* of it */
+  double read[BAUM_I_WORKS];   /* up to the state that was asked for */
+};
+
+/* Gauss' rules over (-1, 1); row n - 1 for n nodes. */
+static const double PLACE[MOST_NODES][MOST_NODES] = {
+  {0.0},
+  {-0.5773502691896257, 0.5773502691896257},
+  {-0.7745966692414834, 0.0, 0.7745966692414834},
+  {-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526},
+};
+static const double WEIGHT[MOST_NODES][MOST_NODES] = {
+  {2.0},
+  {1.0, 1.0},
+  {0.5555555555555556, 0.8888888888888888, 0.5555555555555556},
+  {0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538},
+};
+
+/* A stretch of motion: from account->from to the state (q, v) at t. */
+typedef struct stretch {
+  double t;
+  const double *q;
+  const double *v;
+  const double *from_a; /* (nv) accelerations at its ends, for Hermite's polynomials */
+  const double *to_a;
+} stretch;
+
+/* ---- powers ---- */
+
+static double product(int n, const double *x, const double *y)
+{
+  double sum = 0.0;
+  for (int i = 0; i < n; i++) {
+    sum += x[i] * y[i];
+  }
+  return sum;
+}
+
+/* lambda of the equations that are integrated, in the workspace; that of (5) aside. */
+static baum_status solve(baum_i_account *account, const baum_i_state *at)
+{
+  baum_workspace *w = account->workspace;
+  baum_status status = baum_i_acceleration(w, at->t, at->q, at->v, 0.0, 0.0);
+  memcpy(account->lambda, w->lambda, (size_t)w->mechanism->nc * sizeof *w->lambda);
+  if (status == BAUM_OK && account->problem.formulation == BAUM_FORMULATION_BAUMGARTE) {
+    status = baum_i_problem_acceleration(&account->problem, at->t, at->q, at->v);
+  }
+  return status;
+}
+
+static baum_status power_at(baum_i_account *account, const baum_i_state *at,
+                            double power[BAUM_I_WORKS])
+{
+  baum_workspace *w = account->workspace;
+  int nc = w->mechanism->nc;
+  baum_status status = solve(account, at);
+  if (status == BAUM_OK) {
+    status = baum_i_mechanism_power(&w->point, power);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  power[BAUM_I_WORK_DRIVERS] = -product(nc, w->nu, w->lambda);
+  power[BAUM_I_WORK_VIOLATION] = -product(nc, w->phi_rate, w->lambda);
+  power[BAUM_I_WORK_PROJECTION] = 0.0;
+  power[BAUM_I_WORK_GAINS] = product(nc, w->nu, account->lambda) +
+                             product(nc, w->phi_rate, account->lambda) +
+                             power[BAUM_I_WORK_DRIVERS] + power[BAUM_I_WORK_VIOLATION];
+  return BAUM_OK;
+}
+
+/* ---- states inside a step ---- */
+
+/* Of degree 5 in q and of degree 3 in v, by values and rates at the ends; x of 0 to 1. */
+static void put_hermite(baum_i_account *account, const stretch *s, double x)
+{
+  const baum_i_state *from = &account->from;
+  const baum_i_state *node = &account->node;
+  double h = s->t - from->t;
+  double y = 1.0 - x;
+  double x3 = x * x * x;
+  double y3 = y * y * y;
+  const double q0 = y3 * (1.0 + 3.0 * x + 6.0 * x * x);
+  const double q1 = x3 * (1.0 + 3.0 * y + 6.0 * y * y);
+  const double v0 = h * y3 * x * (1.0 + 3.0 * x);
+  const double v1 = -h * x3 * y * (1.0 + 3.0 * y);
+  const double a0 = 0.5 * h * h * y3 * x * x;
+  const double a1 = 0.5 * h * h * x3 * y * y;
+  for (int i = 0; i < account->workspace->mechanism->nv; i++) {
+    node->q[i] = q0 * from->q[i] + q1 * s->q[i] + v0 * from->v[i] + v1 * s->v[i] +
+                 a0 * s->from_a[i] + a1 * s->to_a[i];
+    node->v[i] = y * y * (1.0 + 2.0 * x) * from->v[i] + x * x * (1.0 + 2.0 * y) * s->v[i] +
+                 h * x * y * (y * s->from_a[i] - x * s->to_a[i]);
+  }
+}
+
+/* The state at a share x of a stretch, into account->node. */
+static baum_status find_node(baum_simulation *run, const stretch *s, double x)
+{
+  baum_i_account *account = run->account;
+  baum_i_state *node = &account->node;
+  const baum_integrator *method = run->integrator;
+  double h = x * (s->t - account->from.t);
+  if (s->to_a) {
+    put_hermite(account, s, x);
+    node->t = account->from.t + h;
+    return BAUM_OK;
+  }
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
+    baum_i_run_copy(run, &account->from, node);
+    baum_status status = method->step(run->self, &account->problem, node, h, s->from_a);
+    node->t = account->from.t + h;
+    return status;
+  }
+  node->t = account->from.t + h;
+  return method->interpolate(run->self, &account->problem, node->t, node->q, node->v);
+}
+
+/* ---- works ---- */
+
+/* Adds factor times the potentials that are not in the powers. */
+static baum_status add_potentials(baum_i_account *account, double factor, double t, const double *q,
+                                  const double *v, double works[BAUM_I_WORKS])
+{
+  double potential[BAUM_I_POWERS];
+  baum_i_point_set(&account->workspace->point, t, q, v);
+  baum_status status = baum_i_mechanism_potential_of_whole(&account->workspace->point, potential);
+  for (int k = 0; k < BAUM_I_POWERS && status == BAUM_OK; k++) {
+    works[k] += factor * potential[k];
+  }
+  return status;
+}
+
+static baum_status integrate(baum_simulation *run, const stretch *s, double works[BAUM_I_WORKS])
+{
+  baum_i_account *account = run->account;
+  const baum_i_state *from = &account->from;
+  const double *place = PLACE[account->nodes - 1];
+  const double *weight = WEIGHT[account->nodes - 1];
+  double half = 0.5 * (s->t - from->t);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < account->nodes && status == BAUM_OK; k++) {
+    double power[BAUM_I_WORKS] = {0.0};
+    status = find_node(run, s, 0.5 + 0.5 * place[k]);
+    if (status == BAUM_OK) {
+      status = power_at(account, &account->node, power);
+    }
+    for (int i = 0; i < BAUM_I_WORKS; i++) {
+      works[i] += half * weight[k] * power[i];
+    }
+  }
+  if (status == BAUM_OK) {
+    status = add_potentials(account, -1.0, from->t, from->q, from->v, works);
+  }
+  return status == BAUM_OK ? add_potentials(account, 1.0, s->t, s->q, s->v, works) : status;
+}
+
+/* The energy that a projection from `unprojected` to a state has brought. */
+static baum_status add_projection(baum_i_account *account, const baum_i_state *state,
+                                  double works[BAUM_I_WORKS])
+{
+  baum_workspace *w = account->workspace;
+  const double *q = account->unprojected;
+  const double *v = q + w->mechanism->nq;
+  double before[2] = {0.0};
+  double after[2] = {0.0};
+  baum_status status = baum_i_energy(w, state->t, q, v, &before[0], &before[1]);
+  if (status == BAUM_OK) {
+    status = baum_i_energy(w, state->t, state->q, state->v, &after[0], &after[1]);
+  }
+  works[BAUM_I_WORK_PROJECTION] += after[0] - before[0] + (after[1] - before[1]);
+  return status;
+}
+
+/* From account->from to a state, projected if the formulation says so. */
+static baum_status work_to(baum_simulation *run, const baum_i_state *state,
+                           double works[BAUM_I_WORKS])
+{
+  baum_i_account *account = run->account;
+  baum_workspace *w = account->workspace;
+  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  bool projected = run->problem.formulation == BAUM_FORMULATION_PROJECTION;
+  stretch s = {.t = state->t, .q = state->q, .v = state->v, .from_a = run->acceleration};
+  baum_status status = BAUM_OK;
+  if (projected) {
+    s.q = account->unprojected;
+    s.v = account->unprojected + w->mechanism->nq;
+  }
+  if (fixed && run->integrator->order <= HERMITE_ORDER) {
+    status = baum_i_problem_acceleration(&account->problem, s.t, s.q, s.v);
+    memcpy(account->end_a, w->a, (size_t)w->mechanism->nv * sizeof *w->a);
+    s.to_a = account->end_a;
+  }
+  if (status == BAUM_OK) {
+    status = integrate(run, &s, works);
+  }
+  return status == BAUM_OK && projected ? add_projection(account, state, works) : status;
+}
+
+/* Equations as the run has them now. */
+static void follow(baum_simulation *run)
+{
+  baum_i_account *account = run->account;
+  account->problem.direction = run->problem.direction;
+  account->workspace->point.parameters = run->workspace->point.parameters;
+  account->workspace->point.inputs = run->workspace->point.inputs;
+  account->workspace->row_gains = run->workspace->row_gains;
+}
+
+static void try_work(baum_simulation *run, const baum_i_state *state, double works[BAUM_I_WORKS])
+{
+  baum_i_account *account = run->account;
+  if (account->broken) {
+    return;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  follow(run);
+  if (work_to(run, state, works) != BAUM_OK) {
+    account->broken = true;
+    baum_i_run_warn(run, "t = %.9g s: the energy account ends here: %.200s", account->from.t,
+                    baum_message());
+  }
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+}
+
+/* ---- in the course of a run ---- */
+
+static void add(const double *what, double *to)
+{
+  for (int i = 0; i < BAUM_I_WORKS; i++) {
+    to[i] += what[i];
+  }
+}
+
+void baum_i_account_begin(baum_simulation *run)
+{
+  baum_i_account *account = run->account;
+  account->broken = false;
+  memset(account->read, 0, sizeof account->read);
+  baum_i_account_go_on(run);
+}
+
+void baum_i_account_go_on(baum_simulation *run)
+{
+  baum_i_account *account = run->account;
+  memcpy(account->before, account->read, sizeof account->before);
+  memset(account->last, 0, sizeof account->last);
+  baum_i_run_copy(run, &run->state, &account->from);
+}
+
+void baum_i_account_step(baum_simulation *run)
+{
+  baum_i_account *account = run->account;
+  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  if (!fixed) {
+    baum_i_account_accept(run);
+  }
+  memset(account->last, 0, sizeof account->last);
+  baum_i_run_copy(run, fixed ? &run->state : &run->ahead, &account->from);
+  try_work(run, &run->trial, account->last);
+}
+
+void baum_i_account_accept(baum_simulation *run)
+{
+  add(run->account->last, run->account->before);
+  memset(run->account->last, 0, sizeof run->account->last);
+}
+
+/* A sample of a fixed step is its trial state, whose step does not count; one of a variable step may be inside the last
+ * step, to be integrated up to there. */
+void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
+{
+  baum_i_account *account = run->account;
+  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  memcpy(account->read, account->before, sizeof account->read);
+  if (fixed ? state == &run->trial : state->t == run->ahead.t) {
+    add(account->last, account->read);
+  } else if (!fixed && state->t != account->from.t) {
+    baum_status status = BAUM_OK;
+    if (run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
+      double *q = account->unprojected;
+      status = run->integrator->interpolate(run->self, &account->problem, state->t, q,
+                                            q + account->workspace->mechanism->nq);
+    }
+    account->broken = account->broken || status != BAUM_OK;
+    try_work(run, state, account->read);
+  }
+}
+
+baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, double *out)
+{
+  baum_i_account *account = run->account;
+  if (!account) {
+    return baum_i_fail(BAUM_ERR_STATE, "channel: the run keeps no energy account; set the option "
+                                       "energy_account");
+  }
+  baum_i_account_read(run, state);
+  baum_status status =
+    baum_i_energy(account->workspace, state->t, state->q, state->v, &out[0], &out[1]);
+  double works = 0.0;
+  for (int i = 0; i < BAUM_I_WORKS; i++) {
+    out[2 + i] = account->broken ? (double)NAN : account->read[i];
+    works += i == BAUM_I_WORK_GAINS ? 0.0 : out[2 + i];
+  }
+  out[2 + BAUM_I_WORKS] = out[0] + out[1] - run->start_energy - works;
+  return status;
+}
+
+/* ---- life ---- */
+
+/* Enough for the order of the method. */
+static int node_count(const baum_simulation *run)
+{
+  int order = run->integrator->order;
+  if (!baum_i_problem_has_fixed_step(&run->problem) || order > 6) {
+    return 4;
+  }
+  return order > 4 ? 3 : 2;
+}
+
+/* A workspace with the solver and the rows of the run's. */
+static baum_status make_workspace(baum_simulation *run)
+{
+  const baum_workspace *w = run->workspace;
+  baum_i_account *account = run->account;
+  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, &account->workspace);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_redundancy *mine = &account->workspace->redundancy;
+  mine->rank = w->redundancy.rank;
+  mine->rank_at_start = w->redundancy.rank_at_start;
+  mine->count = w->redundancy.count;
+  memcpy(mine->dropped, w->redundancy.dropped, (size_t)w->mechanism->nc);
+  account->workspace->blocks_only = w->blocks_only;
+  return baum_i_use_blocks(account->workspace);
+}
+
+static baum_status make_memory(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_account *account = run->account;
+  size_t nq = (size_t)m->nq;
+  size_t nv = (size_t)m->nv;
+  double *next = baum_i_alloc(3 * (nq + nv) + nv + (size_t)m->nc, sizeof *next);
+  if (!next) {
+    return baum_i_fail_memory();
+  }
+  account->from = (baum_i_state){.q = next, .v = next + nq};
+  account->node = (baum_i_state){.q = next + nq + nv, .v = next + 2 * nq + nv};
+  account->unprojected = next + 2 * (nq + nv);
+  account->end_a = account->unprojected + nq + nv;
+  account->lambda = account->end_a + nv;
+  return BAUM_OK;
+}
+
+baum_status baum_i_account_create(baum_simulation *run)
+{
+  if (run->integrator->without_freedom) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "simulation options: energy_account is true, but %s integrates nothing "
+                       "over which powers could be summed",
+                       run->integrator->name);
+  }
+  run->account = baum_i_alloc(1, sizeof *run->account);
+  if (!run->account) {
+    return baum_i_fail_memory();
+  }
+  baum_status status = make_memory(run);
+  if (status == BAUM_OK) {
+    status = make_workspace(run);
+  }
+  if (status == BAUM_OK) {
+    run->account->problem = run->problem;
+    run->account->problem.workspace = run->account->workspace;
+    run->account->nodes = node_count(run);
+    run->workspace->unprojected = run->account->unprojected;
+  }
+  return status;
+}
+
+void baum_i_account_destroy(baum_i_account *account)
+{
+  if (account) {
+    baum_workspace_destroy(account->workspace);
+    baum_i_free(account->from.q);
+    baum_i_free(account);
+  }
+}
+
+/* ---- public ---- */
+
+baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_energy_account *out,
+                                           size_t caller_size)
+{
+  const char *call = "baum_simulation_energy_account";
+  if (!simulation || !out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+  }
+  if (!simulation->account) {
+    return baum_i_fail(BAUM_ERR_STATE,
+                       "%s: the run keeps no account; set the option energy_account", call);
+  }
+  double columns[BAUM_I_ACCOUNT_WIDTH];
+  baum_status status = baum_i_account_put(simulation, &simulation->state, columns);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const double *works = columns + 2;
+  baum_energy_account account = {.kinetic = columns[0],
+                                 .potential = columns[1],
+                                 .start = simulation->start_energy,
+                                 .loads = works[BAUM_I_POWER_LOADS],
+                                 .springs = works[BAUM_I_POWER_SPRINGS],
+                                 .dampers = works[BAUM_I_POWER_DAMPERS],
+                                 .user_forces = works[BAUM_I_POWER_USER_FORCES],
+                                 .bodies = works[BAUM_I_POWER_BODIES],
+                                 .drivers = works[BAUM_I_WORK_DRIVERS],
+                                 .violation = works[BAUM_I_WORK_VIOLATION],
+                                 .projection = works[BAUM_I_WORK_PROJECTION],
+                                 .gains = works[BAUM_I_WORK_GAINS],
+                                 .residual = works[BAUM_I_WORKS],
+                                 .evaluations = simulation->account->workspace->evaluations};
+  account.struct_size = caller_size < sizeof account ? caller_size : sizeof account;
+  memcpy(out, &account, account.struct_size);
+  return BAUM_OK;
+}

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The energy account of a run: works by class, beside the motion and with equations of its own. */
+#ifndef BAUM_I_SIMULATE_ACCOUNT_H
+#define BAUM_I_SIMULATE_ACCOUNT_H
+
+#include "simulate/run.h"
+
+/* Works; those up to BAUM_I_POWERS are of the powers of mechanism.h. */
+enum {
+  BAUM_I_WORK_DRIVERS = BAUM_I_POWERS,
+  BAUM_I_WORK_VIOLATION,
+  BAUM_I_WORK_PROJECTION,
+  BAUM_I_WORK_GAINS, /* a part of two others, for information */
+  BAUM_I_WORKS
+};
+
+enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 }; /* kinetic, potential, works, residual */
+
+/* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+baum_status baum_i_account_create(baum_simulation *run);
+void baum_i_account_destroy(baum_i_account *account); /* NULL is fine */
+
+/* What follows is called where run->account is not NULL. */
+
+/* Begin anew at the present state: without works, or with those that were read last. */
+void baum_i_account_begin(baum_simulation *run);
+void baum_i_account_go_on(baum_simulation *run);
+
+/* Works of the step to the trial state, after its projection. What cannot be evaluated is warned of, and ends the
+ * account. */
+void baum_i_account_step(baum_simulation *run);
+/* That step counts; fixed step. With a variable one every step counts, when the next begins. */
+void baum_i_account_accept(baum_simulation *run);
+
+/* Works up to the present state or to a sample, for go_on() or the columns. */
+void baum_i_account_read(baum_simulation *run, const baum_i_state *state);
+
+/* Columns of the channel (BAUM_I_ACCOUNT_WIDTH). */
+baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, double *out);
+
+#endif
