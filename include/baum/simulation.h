@@ -424,7 +424,8 @@ typedef struct baum_energy_account {
   double drivers;     /**< [J] -nu^T lambda: of drivers and other rows that depend on time. */
   double violation;   /**< [J] -Phi'^T lambda: of rows whose Phi' is not 0. */
   double projection;  /**< [J] changes of kinetic and potential energy by projections. */
-  double gains; /**< [J] what the gains have done, a part of drivers and violation: not to be added. */
+  double
+    gains; /**< [J] what the gains have done, a part of drivers and violation: not to be added. */
   double residual;     /**< [J] kinetic + potential - start - all works but gains. */
   int64_t evaluations; /**< [-] of (5) and (7) for the account, which counters leave out. */
 } baum_energy_account;

@@ -78,6 +78,11 @@ static baum_status accelerate(baum_workspace *w, double t, const double *q, cons
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = w->gamma[i] - 2.0 * alpha * w->phi_rate[i] - beta * beta * w->phi[i];
   }
+  for (int i = 0; w->row_gains && i < w->mechanism->nc; i++) {
+    double f = w->row_gains[i];
+    w->rhs[i] -= 2.0 * alpha * (f - 1.0) * w->phi_rate[i];
+    w->rhs[i] -= beta * beta * (f * f - 1.0) * w->phi[i];
+  }
   return solve(w);
 }
 
@@ -85,8 +90,11 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
                                 double alpha, double beta)
 {
   if (w->path) {
-    const baum_i_right_side right = {
-      .bending = 1.0, .damping = 2.0 * alpha, .stiffness = beta * beta, .force = true};
+    const baum_i_right_side right = {.bending = 1.0,
+                                     .damping = 2.0 * alpha,
+                                     .stiffness = beta * beta,
+                                     .force = true,
+                                     .row_gains = w->row_gains};
     baum_status status = baum_i_block_path_solve(w, t, q, v, &right);
     w->solved_by = w->path;
     if (status != BAUM_ERR_SINGULAR) {

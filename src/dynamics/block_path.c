@@ -337,6 +337,36 @@ static void set_dropped_rates(baum_workspace *w, const double *v)
   }
 }
 
+static void add_row_gain(const baum_workspace *w, const baum_i_right_side *right, int node,
+                         int slot, int row)
+{
+  if (row < 0) {
+    return;
+  }
+  double f = right->row_gains[row];
+  double more =
+    (f - 1.0) * right->damping * w->phi_rate[row] + (f * f - 1.0) * right->stiffness * w->phi[row];
+  baum_i_block *block = w->path->block;
+  block->right[2 * (size_t)node + (size_t)slot] -= more;
+  block->nodes[node].lambda[slot] += more; /* J a0 - r */
+}
+
+/* Nodes have been set with the same gains for all. */
+static void add_row_gains(const baum_workspace *w, const baum_i_right_side *right)
+{
+  const baum_i_block *block = w->path->block;
+  for (int i = 0; i < block->pin_count; i++) {
+    const baum_i_pin_node *pin = &block->pins[i];
+    add_row_gain(w, right, pin->node, 0, pin->row);
+    add_row_gain(w, right, pin->node, 1, pin->row + 1);
+  }
+  for (int i = 0; i < block->full_count; i++) {
+    const baum_i_full_node *full = &block->fulls[i];
+    add_row_gain(w, right, full->node, 0, full->row[0]);
+    add_row_gain(w, right, full->node, 1, full->row[1]);
+  }
+}
+
 static void set_nodes(baum_workspace *w, const double *v, const baum_i_right_side *right)
 {
   const baum_i_block_path *path = w->path;
@@ -435,6 +465,9 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
   }
   w->jacobian_ready = w->path->block->pin_count == 0;
   set_nodes(w, v, right);
+  if (right->row_gains) {
+    add_row_gains(w, right);
+  }
   /* Positions are projected by several solutions, velocities by one. */
   status = solve(w->path, v && !right->force, w->lambda);
   if (status == BAUM_OK) {

@@ -52,6 +52,7 @@ typedef struct baum_i_right_side {
   double damping;
   double stiffness;
   bool force;
+  const double *row_gains; /* (nc) f: damping f Phi' and stiffness f^2 Phi; NULL: 1 */
 } baum_i_right_side;
 
 /* a, lambda, Phi, Phi' and gamma of the workspace; J only for joints that are not pins. v may be NULL

@@ -95,7 +95,8 @@ struct baum_workspace {
   double *force_q; /* (force_square_size) */
   double *force_v;
 
-  double *unprojected; /* (nq + nv) not owned: what the last projection began from; NULL: not kept */
+  double
+    *unprojected; /* (nq + nv) not owned: what the last projection began from; NULL: not kept */
 
   int64_t evaluations;   /* solutions and residuals */
   int64_t near_singular; /* solutions in which the matrix was close to singular */

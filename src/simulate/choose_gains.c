@@ -2,6 +2,8 @@
 /* Gains of a run, and the rate of the motion that the rule `auto` goes by. */
 #include <math.h>
 
+#include "base/alloc.h"
+#include "mechanism/definition.h"
 #include "simulate/run.h"
 
 /* [1/s] sqrt(|a| / scale) of accelerations that are rounding: below it nothing is known to move. */
@@ -53,6 +55,82 @@ static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
   }
 }
 
+/* ---- rows with gains of their own ---- */
+
+static baum_status check_factor(const baum_simulation *run, int row)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double f = run->options.row_gains[row];
+  if (f > 0.0 && isfinite(f)) {
+    return BAUM_OK;
+  }
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "simulation options: row_gains[%d], of %s, is %g, must be finite and > 0", row,
+                     label, f);
+}
+
+static baum_status copy_row_gains(baum_simulation *run)
+{
+  baum_simulation_options *o = &run->options;
+  int nc = run->workspace->mechanism->nc;
+  if (o->row_gain_count != nc) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: row_gain_count is %d, must be nc = %d of the mechanism",
+                       (int)o->row_gain_count, nc);
+  }
+  for (int i = 0; i < nc; i++) {
+    baum_status status = check_factor(run, i);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  run->row_gains = baum_i_copy(o->row_gains, (size_t)nc, sizeof *run->row_gains);
+  if (!run->row_gains && nc > 0) {
+    return baum_i_fail_memory();
+  }
+  o->row_gains = run->row_gains;
+  run->workspace->row_gains = run->row_gains;
+  return BAUM_OK;
+}
+
+/* The worst of all rows is what the run is told by. */
+static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
+{
+  baum_i_gain_choice *all = &run->gains;
+  if (own->amplification.spectral_radius > all->amplification.spectral_radius) {
+    all->amplification = own->amplification;
+  }
+  all->max_step = fmin(all->max_step, own->max_step);
+}
+
+/* Every factor that differs from that of the row before. */
+static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
+{
+  double last = 1.0;
+  for (int i = 0; i < run->workspace->mechanism->nc; i++) {
+    double f = run->row_gains[i];
+    if (f == last) {
+      continue;
+    }
+    last = f;
+    const baum_gains gains = baum_gains_fixed(f * run->gains.alpha, f * run->gains.beta);
+    baum_i_gain_choice own;
+    baum_status status = baum_i_gains_choose(&gains, context, &own);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    keep_worse(run, &own);
+    if (own.doubtful) {
+      baum_i_run_warn(run, "with the factor %g of row_gains: %s", f, own.why);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* ---- the choice ---- */
+
 static bool is_auto(const baum_simulation *run)
 {
   int32_t rule = run->options.gains.rule;
@@ -77,7 +155,13 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
   if (is_auto(run)) {
     measure_rate(run, &context);
   }
-  baum_status status = baum_i_gains_choose(&o->gains, &context, &run->gains);
+  baum_status status = o->row_gains ? copy_row_gains(run) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = baum_i_gains_choose(&o->gains, &context, &run->gains);
+  }
+  if (status == BAUM_OK && run->row_gains) {
+    status = judge_row_gains(run, &context);
+  }
   if (status != BAUM_OK) {
     return status;
   }

@@ -93,6 +93,9 @@ void baum_i_run_explain(baum_simulation *run)
   if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {
     say(run, "gains         alpha %.6g 1/s, beta %.6g 1/s\n              %s\n", run->problem.alpha,
         run->problem.beta, run->gains.why);
+    if (run->row_gains) {
+      say(run, "              times the factors of row_gains\n");
+    }
   }
   say_solver(run);
   say(run, "start         t = %.9g s, largest displacement at assembly %.3g of the scale",

@@ -226,9 +226,10 @@ static void predict(const baum_simulation *run, baum_counters *c)
   double alpha = run->problem.alpha;
   double beta = run->problem.beta;
   double h = run->options.step;
-  bool predicted =
-    run->integrator->predicts_violation && run->problem.formulation == BAUM_FORMULATION_BAUMGARTE &&
-    run->gains.amplification.stability == BAUM_STABLE && fmin(alpha, beta) * h >= STEADY_GAIN;
+  bool predicted = run->integrator->predicts_violation && !run->row_gains &&
+                   run->problem.formulation == BAUM_FORMULATION_BAUMGARTE &&
+                   run->gains.amplification.stability == BAUM_STABLE &&
+                   fmin(alpha, beta) * h >= STEADY_GAIN;
   c->predicted_phi = predicted ? alpha / (beta * beta) * h * run->largest_gamma : (double)NAN;
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }

@@ -198,6 +198,21 @@ static baum_status check_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
+static baum_status check_row_gains(const baum_simulation_options *o)
+{
+  if (o->row_gains && o->formulation != BAUM_FORMULATION_BAUMGARTE) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: row_gains are given, but only baumgarte has gains");
+  }
+  if (o->row_gains && o->integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "simulation options: row_gains are given, but the matrix of %s has the same "
+                       "gains for all rows; take an explicit method such as rk8",
+                       o->integrator->name);
+  }
+  return BAUM_OK;
+}
+
 /* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method takes for their error
  * does not fall with the step as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
@@ -245,5 +260,8 @@ baum_status baum_i_options_check(baum_simulation_options *options)
   if (status == BAUM_OK) {
     status = check_multipliers(options);
   }
-  return status == BAUM_OK ? check_gains(options) : status;
+  if (status == BAUM_OK) {
+    status = check_gains(options);
+  }
+  return status == BAUM_OK ? check_row_gains(options) : status;
 }

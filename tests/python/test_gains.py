@@ -5,6 +5,7 @@ import math
 import unittest
 
 import baum
+from mechanisms import slider_crank
 
 
 class Gains(unittest.TestCase):
@@ -27,6 +28,19 @@ class Gains(unittest.TestCase):
     def test_numbers_are_wanted(self):
         with self.assertRaisesRegex(TypeError, "gains fixed: beta: a number is wanted, not 'x'"):
             baum.fixed(1, "x")
+
+
+class RowGains(unittest.TestCase):
+    def test_factors_of_joints(self):
+        m = slider_crank()
+        with self.assertRaisesRegex(baum.Error, "alpha = 4000 1/s"):
+            m.simulation("rk4", step=1e-3, formulation="baumgarte", gains=baum.fixed(10, 10),
+                         row_gains={"B": 400})
+        run = m.simulation("rk4", step=1e-3, formulation="baumgarte", gains=baum.fixed(10, 10),
+                           row_gains={m["B"]: (2, 3)})
+        self.assertIn("times the factors of row_gains", run.explain)
+        self.assertAlmostEqual(run.counters.spectral_radius, math.exp(-0.01), 10)
+        self.assertAlmostEqual(run.counters.damping, 10, 6)
 
 
 class Stability(unittest.TestCase):

@@ -224,6 +224,139 @@ static void counters_tell_the_effective_damping(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* ---- rows with gains of their own ---- */
+
+/* Two points at rest at 1.1 m on rods of 1 m, without gravity. */
+static baum_mechanism *two_long_rods(void)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    baum_planar_particle_def bob = baum_planar_particle_def_default();
+    baum_planar_distance_def rod = baum_planar_distance_def_default();
+    bob.position[k] = 1.1;
+    assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &rod.body_b), BAUM_OK);
+    rod.body_a = BAUM_GROUND;
+    memset(rod.point_a, 0, sizeof rod.point_a);
+    memset(rod.point_b, 0, sizeof rod.point_b);
+    rod.length = 1.0;
+    assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static baum_simulation_options with_factors(const double *factors, int count, baum_solver solver)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_euler();
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  o.gains = baum_gains_fixed(10.0, 20.0);
+  o.step = 1e-3;
+  o.start = BAUM_START_AS_GIVEN;
+  o.solver = solver;
+  o.row_gains = factors;
+  o.row_gain_count = count;
+  return o;
+}
+
+static void a_factor_multiplies_the_gains_of_its_row(void **state)
+{
+  (void)state;
+  static const double factors[2] = {1.0, 3.0};
+  static const baum_solver solvers[3] = {BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU, BAUM_SOLVER_QR};
+  baum_mechanism *m = two_long_rods();
+  for (int k = 0; k < 3; k++) {
+    baum_simulation_options o = with_factors(factors, 2, solvers[k]);
+    baum_simulation *run = NULL;
+    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    /* a = -(beta f)^2 Phi along the rod, Phi = (1.1^2 - 1)/2 / 1 or 0.1 as rows are scaled: only the ratio
+     * of both is known, and that nothing else moves. */
+    assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
+    const double *v = baum_simulation_v(run);
+    assert_true(v[0] < 0.0);
+    ASSERT_NEAR(v[3] / v[0], 9.0, 1e-12, 0.0);
+    assert_true(v[1] == 0.0 && v[2] == 0.0);
+    /* Second step, a' = -2 alpha f Phi' - (beta f)^2 Phi: the ratio of the first parts is 27. */
+    double first[2] = {v[0], v[3]};
+    assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
+    v = baum_simulation_v(run);
+    /* q is as it was at the second evaluation but for h v, of 1e-3 x 0.04 or 0.36 of 0.1 m. */
+    for (int i = 0; i < 2; i++) {
+      double damped = v[3 * i] - 2.0 * first[i];
+      double want = -2.0 * 10.0 * factors[i] * 1e-3 * first[i];
+      double moved = 400.0 * factors[i] * factors[i] * 1e-3 * 1e-3 * fabs(first[i]);
+      ASSERT_NEAR(damped, want, 0.0, 1.3 * moved);
+    }
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* Pins, whose rows the solver by blocks sets by itself, and a guide, which it takes from J. */
+static void solvers_agree_on_factors(void **state)
+{
+  (void)state;
+  static const double factors[8] = {0.5, 0.5, 2.0, 2.0, 1.0, 3.0, 0.25, 0.75};
+  static const baum_solver solvers[2] = {BAUM_SOLVER_BLOCK, BAUM_SOLVER_KLU};
+  model m;
+  double ends[2][9];
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.rough = true}, &m), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    baum_simulation_options o = with_factors(factors, 8, solvers[k]);
+    o.step = 1e-4;
+    o.gains = baum_gains_fixed(500.0, 500.0);
+    baum_simulation *run = NULL;
+    assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+    assert_true(baum_simulation_step(run, 20) >= BAUM_OK);
+    memcpy(ends[k], baum_simulation_v(run), sizeof ends[k]);
+    baum_simulation_destroy(run);
+  }
+  for (int i = 0; i < 9; i++) {
+    ASSERT_NEAR(ends[0][i], ends[1][i], 1e-9, 1e-9); /* of up to 150 */
+  }
+  model_destroy(&m);
+}
+
+static void refused(const baum_mechanism *m, const baum_simulation_options *o, baum_status want,
+                    const char *part)
+{
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m, o, &run), want);
+  if (!strstr(baum_message(), part)) {
+    fail_msg("\"%s\" does not say \"%s\"", baum_message(), part);
+  }
+}
+
+static void factors_that_make_no_sense_are_refused(void **state)
+{
+  (void)state;
+  double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 */
+  baum_mechanism *m = two_long_rods();
+  baum_simulation_options o = with_factors(factors, 2, BAUM_SOLVER_AUTO);
+  refused(m, &o, BAUM_ERR_UNSTABLE, "gains alpha = 4000 1/s, beta = 8000 1/s with euler");
+  o.row_gain_count = 3;
+  refused(m, &o, BAUM_ERR_ARGUMENT, "row_gain_count is 3, must be nc = 2");
+  o.row_gain_count = 2;
+  factors[1] = -1.0;
+  refused(m, &o, BAUM_ERR_ARGUMENT, "row_gains[1], of joint");
+  factors[1] = (double)NAN;
+  refused(m, &o, BAUM_ERR_ARGUMENT, "must be finite and > 0");
+  factors[1] = 2.0;
+  o.gains = (baum_gains){0};
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  refused(m, &o, BAUM_ERR_ARGUMENT, "only baumgarte has gains");
+  if (baum_has("sundials")) {
+    o.formulation = BAUM_FORMULATION_BAUMGARTE;
+    o.integrator = baum_ida();
+    o.step = (double)NAN;
+    o.rtol = 1e-6;
+    refused(m, &o, BAUM_ERR_UNSUPPORTED, "the matrix of ida has the same gains for all rows");
+  }
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -236,6 +369,9 @@ int main(void)
     cmocka_unit_test(drivers_that_take_all_freedom_allow_more),
     cmocka_unit_test(steps_of_explicit_methods_stay_inside_of_the_region),
     cmocka_unit_test(counters_tell_the_effective_damping),
+    cmocka_unit_test(a_factor_multiplies_the_gains_of_its_row),
+    cmocka_unit_test(solvers_agree_on_factors),
+    cmocka_unit_test(factors_that_make_no_sense_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -93,11 +93,20 @@ def _progress(holder):
     return _abi.baum_progress_fn(call)
 
 
+def _row_gains(mechanism, factors):
+    """Factors of all rows from those of some joints."""
+    values = np.ones(mechanism.sizes[2])
+    for joint, factor in factors.items():
+        values[mechanism.rows(joint)] = factor
+    return values
+
+
 class Simulation:
     """One run.
 
     integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
     "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
+    row_gains: {joint or its name: factor on alpha and beta}, numbers or one per row of the joint;
     allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
     rtol, atol for the others, tolerance_q, tolerance_v, tolerance_lambda for factors on them, and
     max_step [s] where a force begins late; "kinematics", for
@@ -110,7 +119,7 @@ class Simulation:
     may use it, but for cancel().
     """
 
-    def __init__(self, mechanism, integrator=None, *, progress=None, **options):
+    def __init__(self, mechanism, integrator=None, *, progress=None, row_gains=None, **options):
         self.mechanism = mechanism
         self._own_progress = progress
         self._progress = [progress]
@@ -120,6 +129,10 @@ class Simulation:
         self._seconds_per_step = None
         struct = make_options(integrator, options)
         struct.progress = self._keep
+        if row_gains is not None:
+            factors = _row_gains(mechanism, row_gains)
+            struct.row_gains = factors.ctypes.data
+            struct.row_gain_count = len(factors)
         out = ctypes.c_void_p()
         _calls.interruptible(
             _calls.make,
