@@ -92,7 +92,7 @@ double baum_i_run_pilot(baum_simulation *run, double swing)
              .y = &run->ahead,
              .d = &run->state,
              .swing = swing,
-             .h = INFINITY,
+             .h = (double)INFINITY,
              .ready = true};
   for (int k = 0; k < STEPS && step(&p); k++) {
   }

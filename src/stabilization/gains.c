@@ -272,7 +272,7 @@ static bool is_without_step(const baum_i_gain_context *context)
 static double largest_step(const baum_i_gain_context *context, const baum_i_gain_draft *gains)
 {
   if (!is_without_step(context) || !(gains->alpha > 0.0)) {
-    return INFINITY;
+    return (double)INFINITY;
   }
   double ratio = gains->beta > 0.0 ? gains->alpha / gains->beta : OVERDAMPED;
   return WITHIN_REGION * baum_i_stability_limit(context->method, ratio) / gains->alpha;

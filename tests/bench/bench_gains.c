@@ -5,7 +5,7 @@
  *
  * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over perturbed
  * starts. Cost: evaluations of (7), each of which factors its matrix, and factorizations of the integrator's
- * own matrix; for `auto` those of its pilot run too, which are told apart as well. Error: largest over all coordinates and samples,
+ * own matrix; for `auto` those of its pilot run too. Error: largest over all coordinates and samples,
  * relative to the scales. `auto` is beaten in a cell where a constant
  *   costs no more and has less than a third of the error, or
  *   has no more error and costs less than 1 / 1.25.
@@ -41,8 +41,6 @@ typedef struct outcome {
   double cost;
   double error;
   double steps;
-  double pilot;    /* of the cost */
-  const char *why; /* it did not end */
   char message[160];
 } outcome;
 
@@ -80,7 +78,7 @@ static double own_factorizations(const baum_simulation *run)
   return (double)own.factorizations;
 }
 
-/* Adds logarithms to the sums in out. What creation cost `fixed` gains is no part of the motion. */
+/* Adds logarithms to the sums in out. */
 static baum_status run_once(const cell *at, const gain_start *start,
                             const baum_simulation_options *options, outcome *out)
 {

@@ -41,8 +41,9 @@ def has(feature):
 __all__ = [
     "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Input",
     "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
-    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy", "fixed",
-    "frequency", "has", "integrators", "lambda_", "library", "library_version", "phi", "phi_rate",
+    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy",
+    "fixed", "frequency", "has", "integrators", "lambda_", "library", "library_version",
+    "phi", "phi_rate",
     "q", "scaled", "stability", "stability_best", "stability_best_on_ray",
     "stability_deadbeat", "stability_grid", "stability_intervals", "stability_limit",
     "stability_nearest", "stability_outline", "stability_statement",
