@@ -32,6 +32,7 @@ typedef struct baum_i_method {
   baum_i_method_kind kind;
   int degree; /* of the polynomial R, or steps k */
   double coefficients[BAUM_I_METHOD_DEGREE + 1];
+  double best[2]; /* (A, B) of baum_i_stability_best() where the search for it is long; else 0 */
 } baum_i_method;
 
 /* Sentences on what gains do with a method, also one that chooses its steps. Static. */

@@ -162,6 +162,11 @@ void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double 
   if (baum_i_stability_deadbeat(method, alpha_h, beta2_h2)) {
     return;
   }
+  if (method->best[0] > 0.0) {
+    *alpha_h = method->best[0];
+    *beta2_h2 = method->best[1];
+    return;
+  }
   search best = {.method = method};
   double extent = fmin(baum_i_chart_extent(method, 0.0), FARTHEST);
   try_point(&best, 0.0, baum_i_stability_best_on_ray(method, 1.0)); /* often the best of all */

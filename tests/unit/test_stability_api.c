@@ -80,6 +80,26 @@ static void the_best_points_are_at_least_as_good_as_those_of_a_ray(void **state)
   }
 }
 
+/* What an integrator knows of itself is what a search without it finds. */
+static void known_best_points_are_found_too(void **state)
+{
+  (void)state;
+  int known = 0;
+  for (int k = 0; k < FACT_COUNT; k++) {
+    baum_i_method method = FACTS[k].integrator()->method;
+    double best[2] = {method.best[0], method.best[1]};
+    if (best[0] > 0.0) {
+      double found[2];
+      method.best[0] = 0.0;
+      baum_i_stability_best(&method, &found[0], &found[1]);
+      ASSERT_NEAR(best[0], found[0], 1e-9, 0.0); /* the search closes in to 1e-10 or so */
+      ASSERT_NEAR(best[1], found[1], 1e-9, 0.0);
+      known++;
+    }
+  }
+  assert_int_equal(known, 3);
+}
+
 static void a_grid_has_the_radii_of_its_points(void **state)
 {
   (void)state;
@@ -243,6 +263,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(limits_are_the_published_ones),
     cmocka_unit_test(the_best_points_are_at_least_as_good_as_those_of_a_ray),
+    cmocka_unit_test(known_best_points_are_found_too),
     cmocka_unit_test(a_grid_has_the_radii_of_its_points),
     cmocka_unit_test(outlines_are_counted_and_cut),
     cmocka_unit_test(every_integrator_has_a_statement),
