@@ -47,7 +47,8 @@ static const double UNDECIDED = 1e-12;
 
 enum { DIRECTIONS = 48, NEWTON_STEPS = 30 };
 
-static const baum_i_method explicit_euler = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 1.0}};
+static const baum_i_method explicit_euler = {
+  .kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, 1.0}};
 
 typedef struct number {
   double re;

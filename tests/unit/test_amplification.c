@@ -299,7 +299,8 @@ static void numbers_beyond_double_are_infinitely_unstable(void **state)
 static void a_variable_step_has_no_radius(void **state)
 {
   (void)state;
-  static const baum_i_method variable = {BAUM_I_METHOD_VARIABLE_STEP, 0, {0.0}};
+  static const baum_i_method variable = {
+    .kind = BAUM_I_METHOD_VARIABLE_STEP, .degree = 0, .coefficients = {0.0}};
   baum_amplification a = {.struct_size = 77};
   baum_i_amplification(&variable, 1.0, 1.0, &a);
   assert_int_equal(a.stability, BAUM_VARIABLE_STEP);

@@ -28,7 +28,8 @@ static baum_i_gain_context fixed_step(int method)
                                  method < RK2 ? BAUM_GAINS_DEADBEAT : BAUM_GAINS_AUTO};
 }
 
-static const baum_i_method variable_method = {BAUM_I_METHOD_VARIABLE_STEP, 0, {0.0}};
+static const baum_i_method variable_method = {
+  .kind = BAUM_I_METHOD_VARIABLE_STEP, .degree = 0, .coefficients = {0.0}};
 
 static baum_i_gain_context variable_step(void)
 {
@@ -249,7 +250,8 @@ static void auto_is_capped_and_always_stable(void **state)
 static void auto_keeps_inside_a_small_region(void **state)
 {
   (void)state;
-  static const baum_i_method small = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, 5.0}};
+  static const baum_i_method small = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, 5.0}};
   baum_i_gain_context context = fixed_step(EULER);
   context.method = &small;
   context.rate = 1e6;

@@ -17,7 +17,8 @@ static double alpha_h[POINTS];
 static double beta2_h2[POINTS];
 
 /* R - 1 = x (x + 2) (x + 3) / 6: critical damping is stable to 2 and again from 3 to where R = -1. */
-static const baum_i_method island = {BAUM_I_METHOD_ONE_STEP, 3, {1.0, 1.0, 5.0 / 6.0, 1.0 / 6.0}};
+static const baum_i_method island = {
+  .kind = BAUM_I_METHOD_ONE_STEP, .degree = 3, .coefficients = {1.0, 1.0, 5.0 / 6.0, 1.0 / 6.0}};
 
 static int outline(const baum_i_method *method, double radius)
 {
@@ -145,7 +146,8 @@ static void the_capacity_is_kept_and_the_count_is_that_of_all(void **state)
 static void what_is_nowhere_or_everywhere_has_no_outline(void **state)
 {
   (void)state;
-  static const baum_i_method always = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
+  static const baum_i_method always = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 0, .coefficients = {0.5}};
   assert_int_equal(outline(&methods[AB4], 0.8), 0);
   assert_int_equal(outline(&always, 1.0), 0);
 }
@@ -196,8 +198,10 @@ static void intervals_of_our_methods_begin_at_zero(void **state)
 static void a_ray_without_end_is_one_interval(void **state)
 {
   (void)state;
-  static const baum_i_method always = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
-  static const baum_i_method never = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, -1.0}};
+  static const baum_i_method always = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 0, .coefficients = {0.5}};
+  static const baum_i_method never = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, -1.0}};
   double from = 7.0;
   double to = 7.0;
   assert_int_equal(baum_i_stability_intervals(&always, 1.0, 1, &from, &to), 1);

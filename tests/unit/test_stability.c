@@ -79,8 +79,10 @@ static void everything_below_a_limit_is_stable_and_just_above_is_not(void **stat
 static void a_method_may_have_no_limit_or_no_stable_point(void **state)
 {
   (void)state;
-  static const baum_i_method always = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
-  static const baum_i_method never = {BAUM_I_METHOD_ONE_STEP, 1, {1.0, -1.0}};
+  static const baum_i_method always = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 0, .coefficients = {0.5}};
+  static const baum_i_method never = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, -1.0}};
   assert_true(isinf(baum_i_stability_limit(&always, 1.0)));
   assert_true(baum_i_stability_limit(&never, 1.0) == 0.0);
 }
@@ -263,8 +265,10 @@ static void a_point_however_far_has_a_nearest_good_one(void **state)
 static void the_search_ends_also_for_a_method_without_limit(void **state)
 {
   (void)state;
-  static const baum_i_method weak = {BAUM_I_METHOD_ONE_STEP, 0, {0.95}};
-  static const baum_i_method strong = {BAUM_I_METHOD_ONE_STEP, 0, {0.5}};
+  static const baum_i_method weak = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 0, .coefficients = {0.95}};
+  static const baum_i_method strong = {
+    .kind = BAUM_I_METHOD_ONE_STEP, .degree = 0, .coefficients = {0.5}};
   double A = 0.0;
   double B = 0.0;
   baum_i_stability_nearest(&weak, 1.0, 1.0, &A, &B);

@@ -11,6 +11,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "integrate/integrator.h"
 
 #define ASSERT_REFUSED(call, want, sentence)         \
   do {                                               \
