@@ -15,7 +15,10 @@
  *
  * States inside of a step are those of the method's own interpolant; with steps of one length and up to order 4 those
  * of Hermite's polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5; and above order 4 the
- * ends of shorter steps of the method from the same start.
+ * ends of shorter steps of the method from the same start. So are they where a projection moves far, as from a start off
+ * the constraints: the interpolants of the pairs end at the projected state, which the motion did not.
+ *
+ * IDA begins on the constraints of its formulation, wherever the start was; that move is a projection too.
  *
  * The account has a workspace of its own: no evaluation of it reaches the run's solver or its counters.
  */
@@ -28,11 +31,17 @@
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
+/* Projections that move further than so many tolerances are not the method's own errors. */
+static const double FAR = 10.0;
+
 struct baum_i_account {
   baum_workspace *workspace;
   baum_i_problem problem; /* the run's, with that workspace */
   int nodes;
   bool broken;       /* a work could not be evaluated */
+  bool fresh;        /* no step since the method began anew */
+  bool far;          /* the projection of the last step moved far */
+  void *stepper;     /* the method once more, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */
   baum_i_state node;
   double *unprojected; /* (nq + nv) the end of the last step, or a sample, before projection */
@@ -64,6 +73,7 @@ typedef struct stretch {
   const double *v;
   const double *from_a; /* (nv) accelerations at its ends, for Hermite's polynomials */
   const double *to_a;
+  void *stepper; /* for shorter steps, or NULL */
 } stretch;
 
 /* ---- powers ---- */
@@ -147,9 +157,9 @@ static baum_status find_node(baum_simulation *run, const stretch *s, double x)
     node->t = account->from.t + h;
     return BAUM_OK;
   }
-  if (baum_i_problem_has_fixed_step(&run->problem)) {
+  if (s->stepper) {
     baum_i_run_copy(run, &account->from, node);
-    baum_status status = method->step(run->self, &account->problem, node, h, s->from_a);
+    baum_status status = method->step(s->stepper, &account->problem, node, h, s->from_a);
     node->t = account->from.t + h;
     return status;
   }
@@ -196,20 +206,75 @@ static baum_status integrate(baum_simulation *run, const stretch *s, double work
   return status == BAUM_OK ? add_potentials(account, 1.0, s->t, s->q, s->v, works) : status;
 }
 
-/* The energy that a projection from `unprojected` to a state has brought. */
-static baum_status add_projection(baum_i_account *account, const baum_i_state *state,
-                                  double works[BAUM_I_WORKS])
+/* The energy that a projection from one state to another has brought. */
+static baum_status add_projection(baum_i_account *account, double t, const double *from,
+                                  const double *q, const double *v, double works[BAUM_I_WORKS])
 {
   baum_workspace *w = account->workspace;
-  const double *q = account->unprojected;
-  const double *v = q + w->mechanism->nq;
   double before[2] = {0.0};
   double after[2] = {0.0};
-  baum_status status = baum_i_energy(w, state->t, q, v, &before[0], &before[1]);
+  baum_status status = baum_i_energy(w, t, from, from + w->mechanism->nq, &before[0], &before[1]);
   if (status == BAUM_OK) {
-    status = baum_i_energy(w, state->t, state->q, state->v, &after[0], &after[1]);
+    status = baum_i_energy(w, t, q, v, &after[0], &after[1]);
   }
   works[BAUM_I_WORK_PROJECTION] += after[0] - before[0] + (after[1] - before[1]);
+  return status;
+}
+
+/* Where IDA began, which may be off the state it was given. */
+static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
+{
+  baum_i_account *account = run->account;
+  const baum_i_state *from = &account->from;
+  const baum_i_state *node = &account->node;
+  baum_status status =
+    run->integrator->interpolate(run->self, &account->problem, from->t, node->q, node->v);
+  if (status == BAUM_OK) {
+    /* A state's q and v are one after the other. */
+    status = add_projection(account, from->t, from->q, node->q, node->v, works);
+  }
+  baum_i_state moved = *node;
+  moved.t = from->t;
+  baum_i_run_copy(run, &moved, &account->from);
+  return status;
+}
+
+/* Did the projection to a state move far beyond the errors that the method allows itself? */
+static bool moved_far(const baum_simulation *run, const baum_i_state *state)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double tolerance = FAR * run->problem.rtol;
+  const double *q = run->account->unprojected;
+  const double *v = q + m->nq;
+  bool far = false;
+  for (int i = 0; i < m->nv; i++) {
+    far = far || fabs(state->q[i] - q[i]) > tolerance * m->scale[i] ||
+          fabs(state->v[i] - v[i]) > tolerance * m->scale[i] * run->problem.rate;
+  }
+  return far;
+}
+
+/* How states inside a stretch are found. */
+static baum_status choose_nodes(baum_simulation *run, stretch *s)
+{
+  baum_i_account *account = run->account;
+  baum_workspace *w = account->workspace;
+  size_t bytes = (size_t)w->mechanism->nv * sizeof *w->a;
+  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  baum_status status = BAUM_OK;
+  if (fixed && run->integrator->order <= HERMITE_ORDER) {
+    status = baum_i_problem_acceleration(&account->problem, s->t, s->q, s->v);
+    memcpy(account->end_a, w->a, bytes);
+    s->to_a = account->end_a;
+  } else if (fixed) {
+    s->stepper = run->self;
+  } else if (account->far) {
+    const baum_i_state *from = &account->from;
+    status = baum_i_problem_acceleration(&account->problem, from->t, from->q, from->v);
+    memcpy(account->end_a, w->a, bytes);
+    s->from_a = account->end_a;
+    s->stepper = account->stepper;
+  }
   return status;
 }
 
@@ -218,24 +283,20 @@ static baum_status work_to(baum_simulation *run, const baum_i_state *state,
                            double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
-  baum_workspace *w = account->workspace;
-  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  const double *raw = account->unprojected;
   bool projected = run->problem.formulation == BAUM_FORMULATION_PROJECTION;
   stretch s = {.t = state->t, .q = state->q, .v = state->v, .from_a = run->acceleration};
-  baum_status status = BAUM_OK;
   if (projected) {
-    s.q = account->unprojected;
-    s.v = account->unprojected + w->mechanism->nq;
+    s.q = raw;
+    s.v = raw + run->workspace->mechanism->nq;
   }
-  if (fixed && run->integrator->order <= HERMITE_ORDER) {
-    status = baum_i_problem_acceleration(&account->problem, s.t, s.q, s.v);
-    memcpy(account->end_a, w->a, (size_t)w->mechanism->nv * sizeof *w->a);
-    s.to_a = account->end_a;
-  }
+  baum_status status = choose_nodes(run, &s);
   if (status == BAUM_OK) {
     status = integrate(run, &s, works);
   }
-  return status == BAUM_OK && projected ? add_projection(account, state, works) : status;
+  return status == BAUM_OK && projected
+           ? add_projection(account, state->t, raw, state->q, state->v, works)
+           : status;
 }
 
 /* Equations as the run has them now. */
@@ -248,6 +309,13 @@ static void follow(baum_simulation *run)
   account->workspace->row_gains = run->workspace->row_gains;
 }
 
+/* Only variable steps of residuals go on from another state than that they were given. */
+static bool starts_elsewhere(const baum_simulation *run)
+{
+  return run->account->fresh && run->integrator->solves_residuals &&
+         !baum_i_problem_has_fixed_step(&run->problem);
+}
+
 static void try_work(baum_simulation *run, const baum_i_state *state, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
@@ -257,7 +325,11 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   follow(run);
-  if (work_to(run, state, works) != BAUM_OK) {
+  baum_status status = starts_elsewhere(run) ? move_start(run, account->before) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = work_to(run, state, works);
+  }
+  if (status != BAUM_OK) {
     account->broken = true;
     baum_i_run_warn(run, "t = %.9g s: the energy account ends here: %.200s", account->from.t,
                     baum_message());
@@ -288,6 +360,7 @@ void baum_i_account_go_on(baum_simulation *run)
   memcpy(account->before, account->read, sizeof account->before);
   memset(account->last, 0, sizeof account->last);
   baum_i_run_copy(run, &run->state, &account->from);
+  account->fresh = true;
 }
 
 void baum_i_account_step(baum_simulation *run)
@@ -299,13 +372,31 @@ void baum_i_account_step(baum_simulation *run)
   }
   memset(account->last, 0, sizeof account->last);
   baum_i_run_copy(run, fixed ? &run->state : &run->ahead, &account->from);
+  account->far = account->stepper && moved_far(run, &run->trial);
   try_work(run, &run->trial, account->last);
+  account->fresh = false;
 }
 
 void baum_i_account_accept(baum_simulation *run)
 {
   add(run->account->last, run->account->before);
   memset(run->account->last, 0, sizeof run->account->last);
+}
+
+/* A state inside the last step before its projection. */
+static baum_status find_unprojected(baum_simulation *run, double t)
+{
+  baum_i_account *account = run->account;
+  const baum_mechanism *m = run->workspace->mechanism;
+  stretch s = {.t = t};
+  follow(run);
+  baum_status status = choose_nodes(run, &s);
+  if (status == BAUM_OK) {
+    status = find_node(run, &s, 1.0);
+  }
+  memcpy(account->unprojected, account->node.q, (size_t)m->nq * sizeof(double));
+  memcpy(account->unprojected + m->nq, account->node.v, (size_t)m->nv * sizeof(double));
+  return status;
 }
 
 /* A sample of a fixed step is its trial state, whose step does not count; one of a variable step may be inside the last
@@ -318,13 +409,10 @@ void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
   if (fixed ? state == &run->trial : state->t == run->ahead.t) {
     add(account->last, account->read);
   } else if (!fixed && state->t != account->from.t) {
-    baum_status status = BAUM_OK;
-    if (run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-      double *q = account->unprojected;
-      status = run->integrator->interpolate(run->self, &account->problem, state->t, q,
-                                            q + account->workspace->mechanism->nq);
+    bool projected = run->problem.formulation == BAUM_FORMULATION_PROJECTION;
+    if (projected && find_unprojected(run, state->t) != BAUM_OK) {
+      account->broken = true;
     }
-    account->broken = account->broken || status != BAUM_OK;
     try_work(run, state, account->read);
   }
 }
@@ -396,6 +484,17 @@ static baum_status make_memory(baum_simulation *run)
   return BAUM_OK;
 }
 
+/* Where projections may move far. */
+static baum_status make_stepper(baum_simulation *run)
+{
+  const baum_integrator *method = run->integrator;
+  baum_i_account *account = run->account;
+  bool wanted = method->step && method->advance &&
+                run->problem.formulation == BAUM_FORMULATION_PROJECTION &&
+                !baum_i_problem_has_fixed_step(&run->problem);
+  return wanted ? method->create(&account->problem, &run->trial, &account->stepper) : BAUM_OK;
+}
+
 baum_status baum_i_account_create(baum_simulation *run)
 {
   if (run->integrator->without_freedom) {
@@ -417,13 +516,17 @@ baum_status baum_i_account_create(baum_simulation *run)
     run->account->problem.workspace = run->account->workspace;
     run->account->nodes = node_count(run);
     run->workspace->unprojected = run->account->unprojected;
+    status = make_stepper(run);
   }
   return status;
 }
 
-void baum_i_account_destroy(baum_i_account *account)
+void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account)
 {
   if (account) {
+    if (account->stepper) {
+      method->destroy(account->stepper);
+    }
     baum_workspace_destroy(account->workspace);
     baum_i_free(account->from.q);
     baum_i_free(account);

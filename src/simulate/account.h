@@ -18,7 +18,8 @@ enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 }; /* kinetic, potential, works, 
 
 /* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_account_create(baum_simulation *run);
-void baum_i_account_destroy(baum_i_account *account); /* NULL is fine */
+/* Of a run of that method; NULL is fine for the account. */
+void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account);
 
 /* What follows is called where run->account is not NULL. */
 

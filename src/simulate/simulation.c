@@ -258,7 +258,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   if (simulation->integrator->destroy) {
     simulation->integrator->destroy(simulation->self);
   }
-  baum_i_account_destroy(simulation->account);
+  baum_i_account_destroy(simulation->integrator, simulation->account);
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);

@@ -19,7 +19,7 @@
 
 /* ---- what is run ---- */
 
-enum { CHANNELS = 13, WIDTH_MAX = 240, SAMPLES = 7 };
+enum { CHANNELS = 14, WIDTH_MAX = 240, SAMPLES = 7 };
 
 static bool is_of_a_body(baum_quantity quantity)
 {
@@ -51,6 +51,7 @@ static baum_simulation_options options_for(step_mode mode, baum_formulation form
   double rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
   baum_simulation_options o = step_mode_options(mode, 1e-3, rtol);
   o.formulation = formulation;
+  o.energy_account = true;
   return o;
 }
 

@@ -542,7 +542,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
     const char *sentence;
   } bad[] = {
     {{.quantity = (baum_quantity)0}, "channel 1: quantity is no baum_quantity"},
-    {{.quantity = (baum_quantity)14}, "channel 1: quantity is no baum_quantity"},
+    {{.quantity = (baum_quantity)15}, "channel 1: quantity is no baum_quantity"},
     {{.quantity = BAUM_BODY_POSE}, "channel 1: body is none or not of this mechanism"},
     {{.quantity = BAUM_BODY_POSE, .body = others.crank}, "channel 1: body is none or not of"},
     {{.quantity = BAUM_BODY_VELOCITY, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
@@ -559,7 +559,9 @@ static void channels_that_do_not_fit_are_refused(void **state)
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     check_channel(run, &parts, bad[k].channel, bad[k].sentence);
   }
-  double row[1];
+  double row[12];
+  const baum_channel account = {.quantity = BAUM_ENERGY_ACCOUNT};
+  ASSERT_SAYS(baum_simulation_get(run, &account, 1, row), BAUM_ERR_STATE, "no energy account");
   ASSERT_SAYS(baum_simulation_get(run, NULL, 1, row), BAUM_ERR_ARGUMENT, "channels are NULL");
   ASSERT_SAYS(baum_simulation_get(run, NULL, -1, row), BAUM_ERR_ARGUMENT, "count is negative");
   ASSERT_SAYS(baum_simulation_get(run, NULL, 0, NULL), BAUM_ERR_ARGUMENT, "row is NULL");
