@@ -1,0 +1,412 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The energy account, class by class, on motions that are known in closed form; and what begins, continues and does not
+ * enter it.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "sentence.h"
+
+/* rk8 at rtol 1e-12, whose errors over a second are some 1e-12. */
+static const double CLOSE = 1e-10;
+
+static void check(baum_status status)
+{
+  if (status < BAUM_OK) {
+    fail_msg("%s: %s", baum_status_name(status), baum_message());
+  }
+}
+
+static baum_simulation_options account_options(void)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk8();
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  o.rtol = 1e-12;
+  o.max_step = 0.1;
+  o.start = BAUM_START_AS_GIVEN;
+  o.energy_account = true;
+  return o;
+}
+
+static baum_energy_account read_account(baum_simulation *run)
+{
+  baum_energy_account out;
+  check(baum_simulation_energy_account(run, &out, sizeof out));
+  assert_int_equal(out.struct_size, sizeof out);
+  return out;
+}
+
+/* A frozen mechanism to t = 1, then both are gone. */
+static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options options)
+{
+  baum_simulation *run = NULL;
+  check(baum_mechanism_freeze(m));
+  check(baum_simulation_create(m, &options, &run));
+  check(baum_simulation_advance_to(run, 1.0));
+  baum_energy_account out = read_account(run);
+  ASSERT_NEAR(out.residual, 0.0, 0.0, CLOSE);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+  return out;
+}
+
+/* Without gravity; a particle of 1 kg at (1, 0) with v along x. */
+static baum_mechanism *make(double v, baum_body_id *id)
+{
+  baum_mechanism *m = NULL;
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0));
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  particle.position[0] = 1.0;
+  particle.velocity[0] = v;
+  check(baum_mechanism_add_planar_particle(m, &particle, id));
+  return m;
+}
+
+/* ---- classes ---- */
+
+/* 2 N from rest for 1 s: 2 m. */
+static void loads_do_work(void **state)
+{
+  (void)state;
+  baum_body_id body;
+  baum_input_id input;
+  baum_mechanism *m = make(0.0, &body);
+  check(baum_mechanism_add_input(m, "push", 2.0, &input));
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = body;
+  load.force[0] = 1.0;
+  load.input = input;
+  check(baum_mechanism_add_planar_load(m, &load, NULL));
+  baum_energy_account a = run_to_1(m, account_options());
+  ASSERT_NEAR(a.loads, 2.0, 0.0, CLOSE);
+  ASSERT_NEAR(a.kinetic, 2.0, 0.0, CLOSE);
+}
+
+static int soft_law(double length, double rate, double *out, void *user)
+{
+  (void)rate;
+  (void)user;
+  out[0] = 4.0 * length;
+  out[1] = 4.0;
+  return 0;
+}
+
+static baum_energy_account run_spring(double damping, baum_spring_fn *law)
+{
+  baum_body_id body;
+  baum_mechanism *m = make(law ? 0.0 : 3.0, &body);
+  baum_planar_spring_def spring = baum_planar_spring_def_default();
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = body;
+  spring.point_a[0] = -1.0;
+  spring.point_a[1] = 0.0;
+  spring.point_b[0] = 0.0;
+  spring.point_b[1] = 0.0;
+  spring.damping = damping;
+  spring.law = law;
+  check(baum_mechanism_add_planar_spring(m, &spring, NULL));
+  return run_to_1(m, account_options());
+}
+
+/* v = 3 exp(-c t), c = 0.5. */
+static void dampers_take_energy(void **state)
+{
+  (void)state;
+  baum_energy_account a = run_spring(0.5, NULL);
+  ASSERT_NEAR(a.dampers, -4.5 * (1.0 - exp(-1.0)), 0.0, CLOSE);
+}
+
+/* l = |2 cos 2t|; 2 l^2 would be the potential, and what it loses is the work. */
+static void a_law_works_as_a_spring(void **state)
+{
+  (void)state;
+  baum_energy_account a = run_spring(0.0, soft_law);
+  double length = 2.0 * cos(2.0);
+  ASSERT_NEAR(a.springs, 8.0 - 2.0 * length * length, 0.0, CLOSE);
+  ASSERT_NEAR(a.potential, 0.0, 0.0, 0.0);
+}
+
+static int push(double t, const double *q, const double *v, const double *inputs, double *out,
+                void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = 6.0 * t;
+  return 0;
+}
+
+/* x'' = 6 t: v = 3 t^2, and 9/2 J at t = 1. */
+static void user_forces_do_work(void **state)
+{
+  (void)state;
+  baum_body_id body;
+  baum_mechanism *m = make(0.0, &body);
+  baum_user_force_def force = baum_user_force_def_default();
+  force.bodies = &body;
+  force.body_count = 1;
+  force.force = push;
+  check(baum_mechanism_add_user_force(m, &force, NULL));
+  ASSERT_NEAR(run_to_1(m, account_options()).user_forces, 4.5, 0.0, CLOSE);
+}
+
+static int growing_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 1.0 + q[0] * q[0];
+  return 0;
+}
+
+static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                    void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)out;
+  (void)user;
+  return 0;
+}
+
+/* M v' = 0 with v = 1 and M = 1 + q^2, which is no equation of Lagrange's: v^2 (q^2 / 2) comes from M' alone. */
+static void a_varying_mass_is_in_the_account(void **state)
+{
+  (void)state;
+  static const double rate[1] = {1.0};
+  baum_mechanism *m = NULL;
+  check(baum_mechanism_create(&m));
+  baum_coordinates_def body = baum_coordinates_def_default();
+  body.size = 1;
+  body.v = rate;
+  body.mass = growing_mass;
+  body.force = no_force;
+  check(baum_mechanism_add_coordinates(m, &body, NULL));
+  ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
+}
+
+/* A wheel of 2 kg m^2 that is turned with 3 rad/s^2 from rest. */
+static void drivers_do_work(void **state)
+{
+  (void)state;
+  baum_body_id wheel;
+  baum_joint_id pin;
+  baum_mechanism *m = NULL;
+  check(baum_mechanism_create(&m));
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.inertia = 2.0;
+  check(baum_mechanism_add_planar_body(m, &body, &wheel));
+  baum_planar_revolute_def joint = baum_planar_revolute_def_default();
+  joint.body_a = BAUM_GROUND;
+  joint.body_b = wheel;
+  joint.point[0] = 0.0;
+  joint.point[1] = 0.0;
+  check(baum_mechanism_add_planar_revolute(m, &joint, &pin));
+  baum_driver_def driver = baum_driver_def_default();
+  driver.joint = pin;
+  driver.acceleration = 3.0;
+  check(baum_mechanism_add_driver(m, &driver, NULL));
+  ASSERT_NEAR(run_to_1(m, account_options()).drivers, 9.0, 0.0, CLOSE);
+}
+
+/* ---- constraints ---- */
+
+static int wall(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0] - 1.0;
+  return 0;
+}
+
+static int wall_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+/* x = 1, left at 1 m/s; gravity along x or none. */
+static baum_energy_account run_wall(double gravity, baum_simulation_options options)
+{
+  baum_body_id body;
+  baum_mechanism *m = make(1.0, &body);
+  check(baum_mechanism_set_gravity(m, gravity, 0.0, 0.0));
+  baum_user_constraint_def row = baum_user_constraint_def_default();
+  row.bodies = &body;
+  row.body_count = 1;
+  row.row_count = 1;
+  row.phi = wall;
+  row.jacobian = wall_jacobian;
+  check(baum_mechanism_add_user_constraint(m, &row, NULL));
+  return run_to_1(m, options);
+}
+
+/* lambda holds the weight, 5 N, while x runs away with 1 m/s. */
+static void violation_does_work(void **state)
+{
+  (void)state;
+  baum_energy_account a = run_wall(5.0, account_options());
+  ASSERT_NEAR(a.violation, -5.0, 0.0, CLOSE);
+  ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
+}
+
+/* x - 1 = t exp(-2 t) with alpha = beta = 2, v = (1 - 2 t) exp(-2 t); what the weight asks for is no work of the gains. */
+static void gains_are_a_part_of_the_violation(void **state)
+{
+  (void)state;
+  baum_simulation_options o = account_options();
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  o.gains = baum_gains_fixed(2.0, 2.0);
+  baum_energy_account a = run_wall(5.0, o);
+  double v = -exp(-2.0);
+  ASSERT_NEAR(a.gains, 0.5 * (v * v - 1.0), 0.0, CLOSE);
+  ASSERT_NEAR(a.violation, a.gains - 5.0 * exp(-2.0), 0.0, CLOSE);
+}
+
+/* The first step ends at rest. */
+static void projection_takes_energy(void **state)
+{
+  (void)state;
+  baum_simulation_options o = account_options();
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  ASSERT_NEAR(run_wall(0.0, o).projection, -0.5, 0.0, CLOSE);
+  o.integrator = baum_rk4();
+  o.rtol = (double)NAN;
+  o.max_step = (double)NAN;
+  o.step = 0.01;
+  ASSERT_NEAR(run_wall(0.0, o).projection, -0.5, 0.0, CLOSE);
+}
+
+/* ---- in the course of a run ---- */
+
+static baum_mechanism *make_pushed(baum_input_id *input)
+{
+  baum_body_id body;
+  baum_mechanism *m = make(0.0, &body);
+  check(baum_mechanism_add_input(m, "push", 2.0, input));
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = body;
+  load.force[0] = 1.0;
+  load.input = *input;
+  check(baum_mechanism_add_planar_load(m, &load, NULL));
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* 2 N for 1 s, then 4 N for 1 s: v = 2, then 6. */
+static void inputs_continue_and_states_begin_anew(void **state)
+{
+  (void)state;
+  baum_input_id input;
+  baum_mechanism *m = make_pushed(&input);
+  baum_simulation *run = NULL;
+  baum_simulation_options o = account_options();
+  o.max_step = 0.3; /* 1 s is inside a step */
+  check(baum_simulation_create(m, &o, &run));
+  check(baum_simulation_advance_to(run, 1.0));
+  check(baum_simulation_set_input(run, input, 4.0));
+  ASSERT_NEAR(read_account(run).loads, 2.0, 0.0, CLOSE);
+  check(baum_simulation_advance_to(run, 2.0));
+  ASSERT_NEAR(read_account(run).loads, 18.0, 0.0, CLOSE);
+  check(baum_simulation_advance_to(run, 1.0));
+  ASSERT_NEAR(read_account(run).loads, 2.0, 0.0, CLOSE);
+  const double q[2] = {0.0, 0.0};
+  const double v[2] = {1.0, 0.0};
+  check(baum_simulation_set_state(run, 5.0, q, v));
+  ASSERT_NEAR(read_account(run).loads, 0.0, 0.0, 0.0);
+  ASSERT_NEAR(read_account(run).start, 0.5, 0.0, 0.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* Off the grid the work of the shorter step is in the sample, and in nothing else; and the motion knows nothing of it. */
+static void samples_and_motion_stay_apart(void **state)
+{
+  (void)state;
+  enum { WIDTH = 12, LOADS = 2, N = 3 };
+  static const double times[N] = {0.105, 0.205, 0.3};
+  const baum_channel channel = {.quantity = BAUM_ENERGY_ACCOUNT};
+  double rows[N][WIDTH];
+  double x[2];
+  baum_input_id input;
+  baum_mechanism *m = make_pushed(&input);
+  for (int k = 0; k < 2; k++) {
+    baum_simulation *run = NULL;
+    baum_simulation_options o = account_options();
+    o.integrator = baum_rk4();
+    o.rtol = (double)NAN;
+    o.max_step = (double)NAN;
+    o.step = 0.01;
+    o.energy_account = k == 0;
+    check(baum_simulation_create(m, &o, &run));
+    if (k == 0) {
+      check(baum_simulation_sample(run, times, N, &channel, 1, rows[0], NULL));
+      ASSERT_NEAR(read_account(run).loads, 2.0 * 0.09, 0.0, CLOSE);
+    } else {
+      check(baum_simulation_advance_to(run, 0.3));
+    }
+    x[k] = baum_simulation_q(run)[0];
+    baum_simulation_destroy(run);
+  }
+  for (int k = 0; k < N; k++) {
+    ASSERT_NEAR(rows[k][LOADS], 2.0 * times[k] * times[k], 0.0, CLOSE);
+  }
+  assert_true(x[0] == x[1]);
+  baum_mechanism_destroy(m);
+}
+
+static void what_has_no_account_says_so(void **state)
+{
+  (void)state;
+  baum_input_id input;
+  baum_mechanism *m = make_pushed(&input);
+  baum_simulation *run = NULL;
+  baum_simulation_options o = account_options();
+  baum_energy_account out;
+  o.energy_account = false;
+  check(baum_simulation_create(m, &o, &run));
+  ASSERT_SAYS(baum_simulation_energy_account(run, &out, sizeof out), BAUM_ERR_STATE,
+              "energy_account");
+  ASSERT_SAYS(baum_simulation_energy_account(NULL, &out, sizeof out), BAUM_ERR_ARGUMENT,
+              "simulation is NULL");
+  ASSERT_SAYS(baum_simulation_energy_account(run, NULL, sizeof out), BAUM_ERR_ARGUMENT,
+              "out is NULL");
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(loads_do_work),
+    cmocka_unit_test(dampers_take_energy),
+    cmocka_unit_test(a_law_works_as_a_spring),
+    cmocka_unit_test(user_forces_do_work),
+    cmocka_unit_test(a_varying_mass_is_in_the_account),
+    cmocka_unit_test(drivers_do_work),
+    cmocka_unit_test(violation_does_work),
+    cmocka_unit_test(gains_are_a_part_of_the_violation),
+    cmocka_unit_test(projection_takes_energy),
+    cmocka_unit_test(inputs_continue_and_states_begin_anew),
+    cmocka_unit_test(samples_and_motion_stay_apart),
+    cmocka_unit_test(what_has_no_account_says_so),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
