@@ -36,8 +36,11 @@ lambda_ = Channel("lambda", _Q.BAUM_LAMBDA)
 phi = Channel("phi", _Q.BAUM_PHI)
 phi_rate = Channel("phi_rate", _Q.BAUM_PHI_RATE)
 energy = Channel("energy", _Q.BAUM_ENERGY)
+energy_account = Channel("energy_account", _Q.BAUM_ENERGY_ACCOUNT)
 
-WHOLE = {channel.key: channel for channel in (q, v, a, lambda_, phi, phi_rate, energy)}
+WHOLE = {channel.key: channel for channel in (
+    q, v, a, lambda_, phi, phi_rate, energy, energy_account
+)}
 
 
 class Layout:

@@ -13,6 +13,12 @@ Counters = namedtuple("Counters", [name for name, _ in _abi.baum_counters._field
 Counters.__doc__ = """What a run has cost and how well constraints were kept since it was created;
 see baum_counters in simulation.h. Joints are handles or None, times in seconds."""
 
+EnergyAccount = namedtuple(
+    "EnergyAccount", [name for name, _ in _abi.baum_energy_account._fields_[1:]]
+)
+EnergyAccount.__doc__ = """Where the energy of a run has come from [J]; see baum_energy_account in
+simulation.h."""
+
 
 class Run:
     """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x
@@ -20,7 +26,7 @@ class Run:
     of q and v.
 
     status: OK, WARNED or STOP_CANCELLED (then the samples end early); counters; explain: in words
-    how it was done; warnings: list of sentences.
+    how it was done; warnings: list of sentences; energy_account: at the end, None without the option.
     """
 
     def __init__(self, mechanism, layout, times, rows, status, account):
@@ -28,6 +34,7 @@ class Run:
         self.t = times
         self.status = status
         self.counters, self.explain, self.warnings = account
+        self.energy_account = None
         self._layout = layout
         self._rows = rows
         self.q = self["q"]

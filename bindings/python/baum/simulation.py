@@ -12,7 +12,7 @@ from .errors import Error, Status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
-from .run import Counters, Run
+from .run import Counters, EnergyAccount, Run
 from ._values import address, integer, number, vector
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
@@ -59,6 +59,7 @@ CONVERT = {
     "tolerance_q": _number("tolerance_q"),
     "tolerance_v": _number("tolerance_v"),
     "tolerance_lambda": _number("tolerance_lambda"),
+    "energy_account": bool,
 }
 
 
@@ -124,6 +125,7 @@ class Simulation:
         self._own_progress = progress
         self._progress = [progress]
         self._keep = _progress(self._progress)
+        self._has_account = bool(options.get("energy_account"))
         self._layouts = {}
         self._warned = 0
         self._seconds_per_step = None
@@ -196,7 +198,9 @@ class Simulation:
 
     def _make_run(self, layout, times, rows, done, status):
         account = (self.counters, self.explain, self.warnings)
-        return Run(self.mechanism, layout, times[:done], rows[:done], status, account)
+        run = Run(self.mechanism, layout, times[:done], rows[:done], status, account)
+        run.energy_account = self.energy_account if self._has_account else None
+        return run
 
     def set_state(self, t, q, v=None):
         """Replace time [s] and state, which is handled as the option `start` says. v, or parts of
@@ -297,6 +301,15 @@ class Simulation:
         if key not in self._layouts:
             self._layouts[key] = Layout(self.mechanism, channels)
         return self._layouts[key]
+
+    @property
+    def energy_account(self):
+        """Where the energy has come from; with the option energy_account=True."""
+        struct = _abi.baum_energy_account()
+        self._call(
+            lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct)
+        )
+        return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
 
     @property
     def counters(self):
