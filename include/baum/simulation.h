@@ -286,6 +286,39 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
 BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver,
                                                 double s, double ds, double dds);
 
+/* ---- save and restore ------------------------------------------------------------------------ */
+
+/** Save a run into memory: time, q, v, grid, gains in use, inputs, laws of drivers, counters, warnings, energy account.
+ *  The run forgets what a restored one cannot know, so that the two go on alike, bit for bit: methods of several steps
+ *  and those that choose their step begin anew from here, which counters.restarts counts, and KLU chooses its pivots
+ *  anew, which may allocate in the next step. One-step methods with a fixed step lose nothing; with blocks
+ *  (BAUM_SOLVER_AUTO where they suit) the run goes on as if it had not been saved. Allocates nothing.
+ *  The buffer has no pointers and may be copied, kept in a file and restored in another process; not by another version of
+ *  the format, which the library counts up with what a run has. It has version, size, a sum over its bytes, and
+ *  fingerprints of the mechanism and the options.
+ *  @param[out] buffer    (capacity) of any alignment; NULL: only the size is told, and nothing changes
+ *  @param      capacity  [byte] at least what NULL tells, which is the same all through a run
+ *  @param[out] size      [byte] that were written; with NULL the most that will be
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure
+ */
+BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
+                                          size_t capacity, size_t *size);
+
+/** Put a run back to where one was saved: this run, or one of the same mechanism and options, also in another process. It
+ *  goes on bit for bit as the saved one does on a processor of the same kind with the same library. Of the mechanism the
+ *  kinds of elements, their order and bodies, and all numbers must be the same, which is checked; functions of the user
+ *  must be, too, and cannot be checked, and what these keep for themselves is not saved. Of the options integrator,
+ *  formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account must be the same. Gains and
+ *  rates that were chosen at the start, and redundant rows, are those of the saved run. Allocates nothing, but for a saved run
+ *  that has set drivers, where this one has not.
+ *  @param[in] buffer  (size) of any alignment; what is behind its end is not looked at
+ *  @param     size    [byte] at least what baum_simulation_save() wrote
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (cut off, damaged, none of a run, of another version,
+ *             mechanism or options: the sentence says which), BAUM_ERR_MEMORY; unchanged on failure
+ */
+BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer,
+                                             size_t size);
+
 /** Present time [s]; NaN for NULL. */
 BAUM_API double baum_simulation_time(const baum_simulation *simulation);
 /** Present positions (nq), owned by the run and changed by it; NULL for NULL. */

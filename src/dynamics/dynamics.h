@@ -114,6 +114,9 @@ enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 
+/* Choose pivots anew at the next factorizations, so that nothing depends on the ones before. */
+void baum_i_workspace_forget(baum_workspace *workspace);
+
 /* What solvers have done for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
 

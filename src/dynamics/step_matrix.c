@@ -165,6 +165,11 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
 }
 
+void baum_i_step_matrix_forget(baum_i_step_matrix *matrix)
+{
+  baum_i_sparse_lu_forget(matrix->lu);
+}
+
 void baum_i_step_matrix_solve(baum_i_step_matrix *matrix, double *x)
 {
   baum_i_sparse_lu_solve(matrix->lu, x);

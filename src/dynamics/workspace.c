@@ -177,6 +177,14 @@ baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
   return sum;
 }
 
+void baum_i_workspace_forget(baum_workspace *w)
+{
+  baum_i_kkt_forget(w->kkt);
+  if (w->redundancy.kkt) {
+    baum_i_kkt_forget(w->redundancy.kkt);
+  }
+}
+
 void baum_workspace_destroy(baum_workspace *workspace)
 {
   if (!workspace) {

@@ -33,6 +33,7 @@ static const baum_integrator INTEGRATOR = {
   .step = baum_i_adams_step,
   .accept = baum_i_adams_accept,
   .restart = baum_i_adams_restart,
+  .forget = baum_i_adams_forget,
 };
 
 const baum_integrator *baum_ab2(void)

@@ -129,9 +129,14 @@ baum_status baum_i_adams_restart(void *self, const baum_i_problem *problem,
 {
   (void)problem;
   (void)state;
+  baum_i_adams_forget(self);
+  return BAUM_OK;
+}
+
+void baum_i_adams_forget(void *self)
+{
   adams_run *run = self;
   run->past = 0;
-  return BAUM_OK;
 }
 
 /* ---- memory ---- */

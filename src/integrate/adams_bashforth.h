@@ -26,5 +26,6 @@ baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_
 void baum_i_adams_accept(void *self, const baum_i_problem *problem, const baum_i_state *state);
 baum_status baum_i_adams_restart(void *self, const baum_i_problem *problem,
                                  const baum_i_state *state);
+void baum_i_adams_forget(void *self);
 
 #endif

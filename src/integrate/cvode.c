@@ -193,6 +193,13 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   return flag == CV_SUCCESS ? BAUM_OK : fail(run, flag);
 }
 
+static void forget(void *self)
+{
+  cvode_run *run = self;
+  run->sundials.unfinished = true;
+  run->newton.klu.forgotten = true;
+}
+
 /* ---- one step ---- */
 
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
@@ -387,6 +394,7 @@ static const baum_integrator ADAMS = {
   .advance = advance,
   .interpolate = interpolate,
   .restart = restart,
+  .forget = forget,
   .statistics = count,
 };
 
@@ -400,6 +408,7 @@ static const baum_integrator BDF = {
   .advance = advance,
   .interpolate = interpolate,
   .restart = restart,
+  .forget = forget,
   .statistics = count,
 };
 

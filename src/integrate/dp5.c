@@ -67,6 +67,7 @@ static const baum_integrator INTEGRATOR = {
   .advance = baum_i_rk_adaptive_advance,
   .interpolate = baum_i_rk_adaptive_interpolate,
   .restart = baum_i_rk_adaptive_restart,
+  .forget = baum_i_rk_adaptive_forget,
   .statistics = baum_i_rk_adaptive_statistics,
 };
 

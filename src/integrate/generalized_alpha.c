@@ -289,6 +289,13 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   return BAUM_OK;
 }
 
+static void forget(void *self)
+{
+  alpha_run *run = self;
+  run->known = false;
+  baum_i_step_matrix_forget(run->matrix);
+}
+
 /* ---- life ---- */
 
 static void destroy(void *self)
@@ -385,6 +392,7 @@ static const baum_integrator GENERALIZED_ALPHA = {
   .step = take_step,
   .accept = accept,
   .restart = restart,
+  .forget = forget,
   .statistics = count,
 };
 

@@ -336,6 +336,13 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag);
 }
 
+static void forget(void *self)
+{
+  ida_run *run = self;
+  run->sundials.unfinished = true;
+  run->klu.forgotten = true;
+}
+
 /* ---- one step ---- */
 
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
@@ -537,6 +544,7 @@ static const baum_integrator IDA = {
   .advance = advance,
   .interpolate = interpolate,
   .restart = restart,
+  .forget = forget,
   .statistics = count,
 };
 

@@ -84,6 +84,9 @@ struct baum_integrator {
   /* Begin anew from a state, in problem->direction. Allocates nothing. NULL where nothing is remembered; also not
    * called where baum_i_integrator_remembers() says no. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
+  /* Begin anew at the next step, from the state which that is given, and with pivots chosen anew, so that nothing
+   * depends on the steps before. Neither evaluates nor allocates. Where there is `restart`. */
+  void (*forget)(void *self);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
 

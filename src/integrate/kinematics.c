@@ -48,7 +48,8 @@ typedef struct kinematics_run {
   baum_i_pose *right; /* its end: the last good pose */
   baum_i_pose *trial;
   baum_i_pose *spare;
-  double h; /* [s] > 0, what the next step tries */
+  bool forgotten; /* the next step begins anew */
+  double h;       /* [s] > 0, what the next step tries */
   baum_i_statistics statistics;
   baum_i_sentence evaluation; /* of the last refused evaluation */
 } kinematics_run;
@@ -236,26 +237,6 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
   }
 }
 
-static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
-{
-  kinematics_run *run = self;
-  const baum_mechanism *m = problem->workspace->mechanism;
-  double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
-  h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
-  double end = run->right->t + problem->direction * h;
-  baum_status status = step(run, problem, run->right, run->trial, end, &h);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  run->h = h;
-  swap(&run->left, &run->right);
-  swap(&run->right, &run->trial);
-  state->t = run->right->t;
-  memcpy(state->q, run->right->q, (size_t)m->nq * sizeof *state->q);
-  memcpy(state->v, run->right->v, (size_t)m->nv * sizeof *state->v);
-  return BAUM_OK;
-}
-
 /* ---- inside the last step ---- */
 
 /* By short steps from the left end, where the guess inside was no good. */
@@ -359,9 +340,42 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   }
   swap(&run->right, &run->trial);
   copy_pose(m, run->right, run->left);
+  run->forgotten = false;
   double rate = baum_i_state_rate(m, run->right->v, run->right->a);
   run->h = FIRST_TURN / fmax(rate, problem->rate);
   return BAUM_OK;
+}
+
+/* ---- the next step ---- */
+
+static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  kinematics_run *run = self;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  baum_status status = run->forgotten ? restart(self, problem, state) : BAUM_OK;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
+  h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
+  double end = run->right->t + problem->direction * h;
+  status = step(run, problem, run->right, run->trial, end, &h);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  run->h = h;
+  swap(&run->left, &run->right);
+  swap(&run->right, &run->trial);
+  state->t = run->right->t;
+  memcpy(state->q, run->right->q, (size_t)m->nq * sizeof *state->q);
+  memcpy(state->v, run->right->v, (size_t)m->nv * sizeof *state->v);
+  return BAUM_OK;
+}
+
+static void forget(void *self)
+{
+  kinematics_run *run = self;
+  run->forgotten = true;
 }
 
 static void count(const void *self, baum_i_statistics *out)
@@ -459,6 +473,7 @@ static const baum_integrator KINEMATICS = {
   .advance = advance,
   .interpolate = interpolate,
   .restart = restart,
+  .forget = forget,
   .statistics = count,
 };
 

@@ -182,6 +182,12 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
   return BAUM_OK;
 }
 
+void baum_i_rk_adaptive_forget(void *self)
+{
+  adaptive_run *run = self;
+  run->unfinished = true;
+}
+
 /* The end of the last step is the start of the next. */
 static void go_on(adaptive_run *run)
 {

@@ -35,6 +35,7 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
                                            double *q, double *v);
 baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem,
                                        const baum_i_state *state);
+void baum_i_rk_adaptive_forget(void *self);
 void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out);
 
 #endif

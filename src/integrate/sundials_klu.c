@@ -98,6 +98,7 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
 static int choose_pivots(baum_i_sundials_klu *klu)
 {
   klu->fresh = true;
+  klu->forgotten = false;
   klu->full_factorizations++;
   (void)SUNLinSol_KLUReInit(klu->solver, klu->matrix, 0, SUNKLU_REINIT_PARTIAL);
   if (SUNLinSolSetup_KLU(klu->solver, klu->matrix) == 0) {
@@ -111,7 +112,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 {
   sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(klu->solver);
   klu->fresh = false;
-  if (!numeric) {
+  if (!numeric || klu->forgotten) {
     return choose_pivots(klu);
   }
   /* KLU's name for the index type depends on its release. */

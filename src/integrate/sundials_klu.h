@@ -24,6 +24,7 @@ typedef struct baum_i_sundials_klu {
   double *entry;               /* (n) largest of each row of A */
   N_Vector right;              /* (n) for the caller */
   N_Vector solution;           /* (n) likewise */
+  bool forgotten;              /* pivots are to be chosen anew */
   bool fresh;                  /* pivots were chosen at the present matrix */
   int64_t full_factorizations; /* times pivots were chosen */
 } baum_i_sundials_klu;

@@ -340,6 +340,11 @@ baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values
   return status == BAUM_OK ? baum_i_kkt_solve(kkt, f, r, a, lambda) : status;
 }
 
+void baum_i_kkt_forget(baum_i_kkt *kkt)
+{
+  kkt->first.has_pivots = false;
+}
+
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt)
 {
   return kkt->quality;

@@ -91,6 +91,9 @@ baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values
                                         const double *f, const double *r, double *a,
                                         double *lambda);
 
+/* Choose pivots anew at the next factorization, so that nothing depends on the ones before. */
+void baum_i_kkt_forget(baum_i_kkt *kkt);
+
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
 /* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization:
  * free of units, continuous while pivots are kept, with a jump where they are chosen anew. 0 for no

@@ -23,7 +23,8 @@ struct baum_i_sparse_lu {
   klu_common common;
   klu_symbolic *symbolic;
   klu_numeric *numeric;
-  double chosen; /* rcond when the pivots were chosen */
+  bool forgotten; /* pivots are to be chosen anew */
+  double chosen;  /* rcond when the pivots were chosen */
   baum_i_sparse_lu_work work;
 };
 
@@ -86,6 +87,7 @@ static double measure(baum_i_sparse_lu *lu)
 static baum_status choose(baum_i_sparse_lu *lu, double *values)
 {
   lu->work.full_factorizations++;
+  lu->forgotten = false;
   if (lu->numeric) {
     (void)klu_free_numeric(&lu->numeric, &lu->common);
   }
@@ -106,7 +108,12 @@ static bool keep(baum_i_sparse_lu *lu, double *values)
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values)
 {
   lu->work.factorizations++;
-  return lu->numeric && keep(lu, values) ? BAUM_OK : choose(lu, values);
+  return lu->numeric && !lu->forgotten && keep(lu, values) ? BAUM_OK : choose(lu, values);
+}
+
+void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu)
+{
+  lu->forgotten = true;
 }
 
 void baum_i_sparse_lu_solve(baum_i_sparse_lu *lu, double *x)

@@ -25,6 +25,9 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is fine */
  * BAUM_ERR_MEMORY. Neither sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
+/* Choose pivots anew at the next factorization, so that nothing depends on the ones before. */
+void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu);
+
 /* The right side x (n) becomes the solution. After a factorization. */
 void baum_i_sparse_lu_solve(baum_i_sparse_lu *lu, double *x);
 

@@ -19,6 +19,8 @@
 
 #include <baum/mechanism.h>
 
+#include "base/digest.h"
+
 /* ---- elements ---- */
 
 /* How a definition struct is filled, checked and owned. */
@@ -39,6 +41,9 @@ typedef struct baum_i_definition {
   /* The name of a field that a new definition may not change, but does, beside bodies and size; or
    * NULL. NULL when there is none. */
   const char *(*tied)(const void *present, const void *next);
+  /* What tells this one from others beside its bodies and the numbers of lower(): flags, arrays, inputs. NULL when
+   * there is nothing. */
+  void (*digest)(const void *def, baum_i_digest *sum);
 } baum_i_definition;
 
 /* Every definition struct begins with these two. */

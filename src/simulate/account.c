@@ -28,6 +28,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "simulate/saved.h"
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 
@@ -531,6 +532,30 @@ void baum_i_account_destroy(const baum_integrator *method, baum_i_account *accou
     baum_i_free(account->from.q);
     baum_i_free(account);
   }
+}
+
+/* ---- saved ---- */
+
+void baum_i_account_forget(baum_i_account *account)
+{
+  baum_i_workspace_forget(account->workspace);
+}
+
+void baum_i_account_saved(baum_i_account *account, baum_i_saved *list)
+{
+  BAUM_I_SAVED_ADD(list, "account broken", account->broken);
+  BAUM_I_SAVED_ADD(list, "account before", account->before);
+  BAUM_I_SAVED_ADD(list, "account last", account->last);
+  BAUM_I_SAVED_ADD(list, "account read", account->read);
+  BAUM_I_SAVED_ADD(list, "account from", account->from.t);
+  baum_i_saved_add(
+    list, "account from q, v", account->from.q,
+    ((size_t)account->workspace->mechanism->nq + (size_t)account->workspace->mechanism->nv) *
+      sizeof *account->from.q);
+  BAUM_I_SAVED_ADD(list, "account alpha", account->problem.alpha);
+  BAUM_I_SAVED_ADD(list, "account beta", account->problem.beta);
+  BAUM_I_SAVED_ADD(list, "account rate", account->problem.rate);
+  BAUM_I_SAVED_ADD(list, "account evaluations", account->workspace->evaluations);
 }
 
 /* ---- public ---- */

@@ -100,8 +100,7 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   return status;
 }
 
-/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. */
-static baum_status own_parameters(baum_simulation *run)
+baum_status baum_i_run_own_parameters(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   if (run->parameters) {
@@ -142,7 +141,7 @@ baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_i
     return status;
   }
   const baum_mechanism *m = simulation->workspace->mechanism;
-  status = own_parameters(simulation);
+  status = baum_i_run_own_parameters(simulation);
   if (status == BAUM_OK) {
     status = set_driver(simulation, m->joints[baum_i_joint_index(m, driver)], law);
   }

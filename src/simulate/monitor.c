@@ -201,19 +201,43 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-static void count_work(baum_simulation *run, baum_counters *c)
+static baum_i_work work_here(const baum_simulation *run)
 {
   baum_i_kkt_counters kkt = baum_i_workspace_work(run->workspace);
   baum_i_statistics statistics = {0};
   if (run->integrator->statistics && run->self) {
     run->integrator->statistics(run->self, &statistics);
   }
+  return (baum_i_work){
+    .factorizations = kkt.factorizations + statistics.factorizations,
+    .full_factorizations = kkt.full_factorizations + statistics.full_factorizations,
+    .rejected = statistics.rejected,
+    .nonlinear_iterations = statistics.nonlinear_iterations,
+  };
+}
+
+void baum_i_run_count(baum_simulation *run)
+{
+  baum_counters *c = &run->counters;
+  baum_i_work here = work_here(run);
   c->evaluations = run->workspace->evaluations;
-  c->factorizations = kkt.factorizations + statistics.factorizations;
-  c->full_factorizations = kkt.full_factorizations + statistics.full_factorizations;
   c->near_singular = run->workspace->near_singular;
-  c->rejected = statistics.rejected;
-  c->nonlinear_iterations = statistics.nonlinear_iterations;
+  c->factorizations = run->before.factorizations + here.factorizations;
+  c->full_factorizations = run->before.full_factorizations + here.full_factorizations;
+  c->rejected = run->before.rejected + here.rejected;
+  c->nonlinear_iterations = run->before.nonlinear_iterations + here.nonlinear_iterations;
+}
+
+void baum_i_run_count_from_here(baum_simulation *run)
+{
+  const baum_counters *c = &run->counters;
+  baum_i_work here = work_here(run);
+  run->before = (baum_i_work){
+    .factorizations = c->factorizations - here.factorizations,
+    .full_factorizations = c->full_factorizations - here.full_factorizations,
+    .rejected = c->rejected - here.rejected,
+    .nonlinear_iterations = c->nonlinear_iterations - here.nonlinear_iterations,
+  };
 }
 
 /* Gains below this share of 1/h let the violation lag behind gamma,
@@ -259,7 +283,7 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
     return status;
   }
   baum_counters *c = &simulation->counters;
-  count_work(simulation, c);
+  baum_i_run_count(simulation);
   predict(simulation, c);
   c->energy_change = kinetic + potential - simulation->start_energy;
   c->alpha = simulation->problem.alpha;

@@ -8,6 +8,7 @@
 
 #include "base/message.h"
 #include "integrate/integrator.h"
+#include "mechanism/fingerprint.h"
 #include "stabilization/gains.h"
 
 enum {
@@ -22,7 +23,16 @@ typedef struct baum_i_grid {
   int64_t k;
 } baum_i_grid;
 
+/* What solvers and methods count by themselves. */
+typedef struct baum_i_work {
+  int64_t factorizations;
+  int64_t full_factorizations;
+  int64_t rejected;
+  int64_t nonlinear_iterations;
+} baum_i_work;
+
 typedef struct baum_i_account baum_i_account;
+typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
   baum_simulation_options options;
@@ -41,8 +51,11 @@ struct baum_simulation {
   baum_i_state trial;   /* a step under way, or a sample beside the motion */
   double *acceleration; /* (nv) at the start of a step */
 
+  baum_i_fingerprint fingerprint; /* of the mechanism */
   baum_i_grid grid;
   baum_counters counters;
+  baum_i_work
+    before; /* what solvers have done for the run in other processes, less what is not of it */
   double start_energy;
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
@@ -101,6 +114,18 @@ baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
 /* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
+
+/* Bring the counters of work up to date. */
+void baum_i_run_count(baum_simulation *run);
+
+/* Let the counters go on from what has been written into run->counters. */
+void baum_i_run_count_from_here(baum_simulation *run);
+
+/* ---- inputs.c ---- */
+
+/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK or
+ * BAUM_ERR_MEMORY. */
+baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- output.c ---- */
 

@@ -189,6 +189,7 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
   }
   if (status == BAUM_OK) {
     baum_i_run_accept(run, energy);
+    run->fingerprint = baum_i_mechanism_fingerprint(mechanism);
   }
   return status;
 }

@@ -22,6 +22,7 @@ class baum_status(enum.IntEnum):
     BAUM_ERR_MEMORY = -3
     BAUM_ERR_STRUCT = -4
     BAUM_ERR_UNSUPPORTED = -5
+    BAUM_ERR_BUFFER = -6
     BAUM_ERR_INCONSISTENT = -10
     BAUM_ERR_SINGULAR = -11
     BAUM_ERR_UNSTABLE = -12
@@ -867,6 +868,8 @@ PROTOTYPES = {
     "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
     "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),
     "baum_simulation_set_driver": (c_int, [c_void_p, baum_joint_id, c_double, c_double, c_double]),
+    "baum_simulation_save": (c_int, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "baum_simulation_restore": (c_int, [c_void_p, c_void_p, c_size_t]),
     "baum_simulation_time": (c_double, [c_void_p]),
     "baum_simulation_q": (c_void_p, [c_void_p]),
     "baum_simulation_v": (c_void_p, [c_void_p]),

@@ -95,6 +95,12 @@ static int size(const void *given)
   return def->size;
 }
 
+static void digest(const void *given, baum_i_digest *sum)
+{
+  const baum_coordinates_def *def = given;
+  baum_i_digest_add_integer(sum, def->constant_mass);
+}
+
 static bool constant_mass(const void *given)
 {
   const baum_coordinates_def *def = given;
@@ -428,7 +434,8 @@ static const baum_i_body_type type = {
                  .defaults = &defaults,
                  .check = check,
                  .own = own,
-                 .release = release},
+                 .release = release,
+                 .digest = digest},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
   .constant_mass = constant_mass,

@@ -94,6 +94,13 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return status == BAUM_OK ? check_body(mechanism, def, label) : status;
 }
 
+static void digest(const void *given, baum_i_digest *sum)
+{
+  const baum_planar_load_def *def = given;
+  baum_i_digest_add_integer(sum, def->follows_body);
+  baum_i_digest_add_integer(sum, def->input.index1);
+}
+
 static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
 {
   const baum_planar_load_def *def = given;
@@ -215,7 +222,8 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_planar_load_def),
                  .defaults = &defaults,
                  .former = former,
-                 .check = check},
+                 .check = check,
+                 .digest = digest},
   .parameter_count = PARAMETER_COUNT,
   .bodies = bodies,
   .lower = lower,

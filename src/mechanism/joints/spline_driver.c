@@ -154,6 +154,16 @@ static baum_status own(void *copy)
   return BAUM_OK;
 }
 
+static void digest(const void *given, baum_i_digest *sum)
+{
+  const baum_spline_driver_def *def = given;
+  size_t bytes = (size_t)def->count * sizeof(double);
+  baum_i_digest_add_integer(sum, def->count);
+  baum_i_digest_add_integer(sum, def->periodic);
+  baum_i_digest_add(sum, def->times, bytes);
+  baum_i_digest_add(sum, def->values, bytes);
+}
+
 static void release(void *copy)
 {
   baum_spline_driver_def *def = copy;
@@ -209,7 +219,8 @@ static const baum_i_joint_type type = {
                  .check = check,
                  .own = own,
                  .release = release,
-                 .tied = baum_i_driver_tied},
+                 .tied = baum_i_driver_tied,
+                 .digest = digest},
   .parameter_count = BAUM_I_DRIVER_NUMBERS, /* all zero at first */
   .planar = true,
   .scleronomic = false,

@@ -1,0 +1,444 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run into memory and back.
+ *
+ * A buffer is words of eight bytes as this machine has them:
+ *
+ *   "baumsave"       a number by which byte order and doubles are known      version
+ *   size in bytes    fingerprint of the mechanism (2)                        sum over the names of the parts
+ *   for each part of the list in saved.h: its length in bytes, and its bytes filled up to whole words
+ *   sum over all before (base/digest.h)
+ *
+ * Everything is checked before anything changes. What methods remember of steps, and pivots, are not in it: saving
+ * makes the run forget them, as restoring does, so that both go on alike.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/digest.h"
+#include "mechanism/fingerprint.h"
+#include "simulate/account.h"
+#include "simulate/saved.h"
+
+enum { WORD = 8 };
+
+static const char MAGIC[WORD + 1] = "baumsave";
+static const double NUMBER = 0x1.123456789abcdp+42; /* no two bytes are the same */
+
+typedef struct header {
+  char magic[WORD];
+  double number;
+  uint64_t version;
+  uint64_t size;
+  baum_i_fingerprint mechanism;
+  uint64_t parts;
+} header;
+
+static size_t padded(size_t size)
+{
+  return (size + WORD - 1) / WORD * WORD;
+}
+
+/* Which parts there are. */
+static uint64_t sum_of_names(const baum_i_saved *list)
+{
+  baum_i_digest sum = {0};
+  for (int k = 0; k < list->count; k++) {
+    baum_i_digest_add_text(&sum, list->parts[k].name);
+  }
+  return sum.value;
+}
+
+static header header_of(const baum_simulation *run, const baum_i_saved *list)
+{
+  header h = {.number = NUMBER, .version = BAUM_I_SAVED_VERSION, .parts = sum_of_names(list)};
+  memcpy(h.magic, MAGIC, WORD);
+  h.mechanism = run->fingerprint;
+  return h;
+}
+
+/* The most that a list takes. */
+static size_t largest_size(const baum_i_saved *list)
+{
+  size_t size = sizeof(header) + WORD;
+  for (int k = 0; k < list->count; k++) {
+    size += WORD + padded(list->parts[k].size);
+  }
+  return size;
+}
+
+/* ---- forget ---- */
+
+/* What no buffer holds. */
+static void forget(baum_simulation *run)
+{
+  baum_i_workspace_forget(run->workspace);
+  if (run->account) {
+    baum_i_account_forget(run->account);
+  }
+  if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
+    run->integrator->forget(run->self);
+  }
+}
+
+/* The state that is reported becomes the one from which the next step goes. */
+static void begin_anew(baum_simulation *run)
+{
+  if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
+    if (run->account) {
+      baum_i_account_read(run, &run->state);
+    }
+    baum_i_run_copy(run, &run->state, &run->ahead);
+    if (run->account) {
+      baum_i_account_go_on(run);
+    }
+    run->counters.restarts++;
+  }
+  forget(run);
+}
+
+/* ---- save ---- */
+
+/* Bytes of a part, of which it has at most BAUM_I_SAVED_TEXT of its own. */
+static const void *bytes_of(const baum_simulation *run, const baum_i_saved_part *part,
+                            char own[BAUM_I_SAVED_TEXT], size_t *size)
+{
+  *size = part->size;
+  switch (part->kind) {
+  case BAUM_I_SAVED_NUMBER: memcpy(own, &part->number, sizeof part->number); return own;
+  case BAUM_I_SAVED_INTEGER: memcpy(own, &part->integer, sizeof part->integer); return own;
+  case BAUM_I_SAVED_TEXT_OF:
+    memset(own, 0, BAUM_I_SAVED_TEXT);
+    memcpy(own, part->place, strnlen(part->place, BAUM_I_SAVED_TEXT - 1));
+    return own;
+  case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
+  case BAUM_I_SAVED_WARNINGS: {
+    int64_t kept = run->counters.warnings;
+    *size = (size_t)(kept < BAUM_I_WARNINGS ? kept : BAUM_I_WARNINGS) * BAUM_I_WARNING_SIZE;
+    return part->place;
+  }
+  case BAUM_I_SAVED_CHOICE:
+  case BAUM_I_SAVED_STATE:
+  default: return part->place;
+  }
+}
+
+static unsigned char *put(unsigned char *to, const void *bytes, size_t size)
+{
+  if (size > 0) {
+    memcpy(to, bytes, size);
+    memset(to + size, 0, padded(size) - size);
+  }
+  return to + padded(size);
+}
+
+static size_t write_all(const baum_simulation *run, const baum_i_saved *list, unsigned char *buffer)
+{
+  unsigned char *next = buffer + sizeof(header);
+  for (int k = 0; k < list->count; k++) {
+    char own[BAUM_I_SAVED_TEXT];
+    size_t size = 0;
+    const void *bytes = bytes_of(run, &list->parts[k], own, &size);
+    uint64_t length = size;
+    next = put(next, &length, sizeof length);
+    next = put(next, bytes, size);
+  }
+  size_t before = (size_t)(next - buffer);
+  header h = header_of(run, list);
+  h.size = before + WORD;
+  (void)put(buffer, &h, sizeof h);
+  baum_i_digest sum = {0};
+  baum_i_digest_add(&sum, buffer, before);
+  (void)put(next, &sum.value, sizeof sum.value);
+  return before + WORD;
+}
+
+baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size_t capacity,
+                                 size_t *size)
+{
+  const char *call = "baum_simulation_save";
+  if (!simulation || !size) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
+                       simulation ? "size" : "the simulation");
+  }
+  baum_i_saved list;
+  baum_i_saved_list(simulation, &list);
+  size_t most = largest_size(&list);
+  if (!buffer) {
+    *size = most;
+    return BAUM_OK;
+  }
+  if (capacity < most) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: capacity is %zu bytes, must be at least %zu; ask with a buffer that is "
+                       "NULL",
+                       call, capacity, most);
+  }
+  begin_anew(simulation);
+  baum_i_run_count(simulation);
+  *size = write_all(simulation, &list, buffer);
+  return BAUM_OK;
+}
+
+/* ---- check ---- */
+
+/* The buffer of a restore. */
+typedef struct reader {
+  const unsigned char *bytes;
+  size_t size;
+  header head;
+  const unsigned char *at[BAUM_I_SAVED_PARTS]; /* where each part is */
+  size_t length[BAUM_I_SAVED_PARTS];
+} reader;
+
+#define refuse(...) baum_i_fail(BAUM_ERR_BUFFER, "baum_simulation_restore: " __VA_ARGS__)
+
+/* Is it of this library, and whole? */
+static baum_status check_header(reader *r)
+{
+  const header *h = &r->head;
+  if (r->size < sizeof *h + WORD) {
+    return refuse("the buffer has %zu bytes, less than its head; it is cut off, or none of "
+                  "baum_simulation_save()",
+                  r->size);
+  }
+  memcpy(&r->head, r->bytes, sizeof r->head);
+  if (memcmp(h->magic, MAGIC, WORD) != 0) {
+    return refuse("the buffer is none of baum_simulation_save()");
+  }
+  if (memcmp(&h->number, &NUMBER, sizeof NUMBER) != 0) {
+    return refuse("the buffer is of a machine with another order of bytes or other numbers, or "
+                  "damaged");
+  }
+  if (h->version != BAUM_I_SAVED_VERSION) {
+    return refuse("the buffer has version %llu of the format, this library reads version %d; save "
+                  "with the library that restores",
+                  (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
+  }
+  if (h->size > r->size) {
+    return refuse("the buffer has %zu bytes of %llu; it is cut off", r->size,
+                  (unsigned long long)h->size);
+  }
+  if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
+    return refuse("the buffer is damaged: it says that it has %llu bytes",
+                  (unsigned long long)h->size);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_sum(reader *r)
+{
+  size_t before = (size_t)r->head.size - WORD;
+  baum_i_digest sum = {0};
+  baum_i_digest_add(&sum, r->bytes, before);
+  if (memcmp(&sum.value, r->bytes + before, WORD) != 0) {
+    return refuse("the buffer is damaged: its sum is not that of its bytes");
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_mechanism(const reader *r, const baum_simulation *run)
+{
+  const baum_i_fingerprint *there = &r->head.mechanism;
+  const baum_i_fingerprint *here = &run->fingerprint;
+  if (there->structure != here->structure) {
+    return refuse("the buffer is of another mechanism: kinds, number or connections of elements "
+                  "differ");
+  }
+  if (there->numbers != here->numbers) {
+    return refuse("the buffer is of another mechanism: elements are the same, but not all masses, "
+                  "lengths or other numbers of theirs");
+  }
+  return BAUM_OK;
+}
+
+/* A lone double that must agree; one that is not given, as there. */
+static baum_status check_number(const baum_i_saved_part *part, const unsigned char *at)
+{
+  double there = 0.0;
+  memcpy(&there, at, sizeof there);
+  if (there == part->number || (isnan(there) && isnan(part->number))) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer is of a run with other options: %s is %.9g there and %.9g here",
+                part->name, there, part->number);
+}
+
+static baum_status check_integer(const baum_i_saved_part *part, const unsigned char *at)
+{
+  int64_t there = 0;
+  memcpy(&there, at, sizeof there);
+  if (there == part->integer) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer is of a run with other options: %s is %lld there and %lld here",
+                part->name, (long long)there, (long long)part->integer);
+}
+
+static baum_status check_text(const baum_i_saved_part *part, const unsigned char *at)
+{
+  char there[BAUM_I_SAVED_TEXT];
+  memcpy(there, at, sizeof there);
+  there[sizeof there - 1] = '\0';
+  if (strcmp(there, part->place) == 0) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer is of a run with other options: %s is %s there and %s here", part->name,
+                there, (const char *)part->place);
+}
+
+/* Whether a part may have this length. */
+static bool has_length(const baum_i_saved_part *part, size_t length)
+{
+  switch (part->kind) {
+  case BAUM_I_SAVED_NUMBERS: return length == 0 || length == part->size;
+  case BAUM_I_SAVED_WARNINGS: return length <= part->size && length % BAUM_I_WARNING_SIZE == 0;
+  case BAUM_I_SAVED_NUMBER:
+  case BAUM_I_SAVED_INTEGER:
+  case BAUM_I_SAVED_TEXT_OF:
+  case BAUM_I_SAVED_CHOICE:
+  case BAUM_I_SAVED_STATE:
+  default: return length == part->size;
+  }
+}
+
+static baum_status check_part(const baum_i_saved_part *part, const unsigned char *at, size_t length)
+{
+  if (!has_length(part, length)) {
+    return refuse("the buffer does not fit: %s has %zu bytes there and %zu here", part->name,
+                  length, part->size);
+  }
+  switch (part->kind) {
+  case BAUM_I_SAVED_NUMBER: return check_number(part, at);
+  case BAUM_I_SAVED_INTEGER: return check_integer(part, at);
+  case BAUM_I_SAVED_TEXT_OF: return check_text(part, at);
+  case BAUM_I_SAVED_CHOICE:
+    if (length > 0 && memcmp(at, part->place, length) != 0) {
+      return refuse("the buffer does not fit: %s is not as it is here", part->name);
+    }
+    return BAUM_OK;
+  case BAUM_I_SAVED_STATE:
+  case BAUM_I_SAVED_NUMBERS:
+  case BAUM_I_SAVED_WARNINGS:
+  default: return BAUM_OK;
+  }
+}
+
+/* Where the parts are, and whether each fits. */
+static baum_status check_parts(reader *r, const baum_i_saved *list)
+{
+  size_t next = sizeof(header);
+  size_t end = (size_t)r->head.size - WORD;
+  for (int k = 0; k < list->count; k++) {
+    uint64_t length = 0;
+    if (end - next < WORD) {
+      return refuse("the buffer does not fit: it ends before %s", list->parts[k].name);
+    }
+    memcpy(&length, r->bytes + next, sizeof length);
+    next += WORD;
+    if (length > end - next) {
+      return refuse("the buffer does not fit: it ends in %s", list->parts[k].name);
+    }
+    r->at[k] = r->bytes + next;
+    r->length[k] = (size_t)length;
+    next += padded((size_t)length);
+    baum_status status = check_part(&list->parts[k], r->at[k], r->length[k]);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  return next == end ? BAUM_OK : refuse("the buffer does not fit: there is something behind it");
+}
+
+static baum_status check(reader *r, const baum_simulation *run, const baum_i_saved *list)
+{
+  baum_status status = check_header(r);
+  if (status == BAUM_OK) {
+    status = check_sum(r);
+  }
+  if (status == BAUM_OK) {
+    status = check_mechanism(r, run);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = check_parts(r, list);
+  if (status == BAUM_OK && r->head.parts != sum_of_names(list)) {
+    status = refuse("the buffer does not fit: it has other parts; save with the library that "
+                    "restores");
+  }
+  return status;
+}
+
+/* ---- put back ---- */
+
+static bool is_put_back(const baum_i_saved_part *part)
+{
+  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_WARNINGS;
+}
+
+/* A run without numbers of its own gets them when the buffer has some. */
+static baum_status make_numbers(baum_simulation *run, const reader *r, const baum_i_saved *list)
+{
+  for (int k = 0; k < list->count; k++) {
+    if (list->parts[k].kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
+      return baum_i_run_own_parameters(run);
+    }
+  }
+  return BAUM_OK;
+}
+
+static void put_numbers_back(baum_simulation *run, const unsigned char *at, size_t length)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  if (run->parameters) {
+    memcpy(run->parameters, length > 0 ? (const void *)at : m->parameters,
+           (size_t)m->parameter_count * sizeof *run->parameters);
+  }
+}
+
+/* Ids of another process have other tags. */
+static void own_ids(baum_simulation *run)
+{
+  baum_joint_id *ids[] = {&run->counters.max_phi_joint, &run->counters.max_phi_rate_joint};
+  for (size_t k = 0; k < sizeof ids / sizeof *ids; k++) {
+    if (ids[k]->index1 != 0) {
+      *ids[k] = baum_i_joint_id(run->workspace->mechanism, ids[k]->index1 - 1);
+    }
+  }
+}
+
+static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *list)
+{
+  for (int k = 0; k < list->count; k++) {
+    const baum_i_saved_part *part = &list->parts[k];
+    if (part->kind == BAUM_I_SAVED_NUMBERS) {
+      put_numbers_back(run, r->at[k], r->length[k]);
+    } else if (is_put_back(part) && r->length[k] > 0) {
+      memcpy(part->place, r->at[k], r->length[k]);
+    }
+  }
+  own_ids(run);
+  baum_i_run_count_from_here(run);
+  baum_i_run_copy(run, &run->state, &run->ahead);
+  forget(run);
+}
+
+baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer, size_t size)
+{
+  if (!simulation || !buffer) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_restore: %s is NULL",
+                       simulation ? "the buffer" : "the simulation");
+  }
+  baum_i_saved list;
+  baum_i_saved_list(simulation, &list);
+  reader r = {.bytes = buffer, .size = size};
+  baum_status status = check(&r, simulation, &list);
+  if (status == BAUM_OK) {
+    status = make_numbers(simulation, &r, &list);
+  }
+  if (status != BAUM_OK) {
+    return baum_i_run_fail(simulation, status);
+  }
+  put_back(simulation, &r, &list);
+  return BAUM_OK;
+}

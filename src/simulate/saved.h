@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is saved of a run: one list, by which save.c writes, checks and puts back.
+ *
+ * Whoever adds something to a run that a later step reads adds it to the list too: in saved.c, or where it is made, as
+ * account.c does. BAUM_I_SAVED_VERSION is raised when the meaning of a part changes.
+ */
+#ifndef BAUM_I_SIMULATE_SAVED_H
+#define BAUM_I_SIMULATE_SAVED_H
+
+#include "simulate/run.h"
+
+enum { BAUM_I_SAVED_VERSION = 1, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+
+typedef enum baum_i_saved_kind {
+  /* must be here as it was there: */
+  BAUM_I_SAVED_NUMBER,  /* a double */
+  BAUM_I_SAVED_INTEGER, /* an int64_t */
+  BAUM_I_SAVED_TEXT_OF, /* a text, of less than BAUM_I_SAVED_TEXT characters */
+  BAUM_I_SAVED_CHOICE,  /* bytes */
+  /* is put back: */
+  BAUM_I_SAVED_STATE,   /* bytes */
+  BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
+  BAUM_I_SAVED_WARNINGS /* as many as there are */
+} baum_i_saved_kind;
+
+typedef struct baum_i_saved_part {
+  const char *name; /* in sentences; also tells the part from others */
+  baum_i_saved_kind kind;
+  void *place; /* not written to where it must agree */
+  size_t size; /* at most, in bytes */
+  double number;
+  int64_t integer;
+} baum_i_saved_part;
+
+struct baum_i_saved {
+  int count;
+  baum_i_saved_part parts[BAUM_I_SAVED_PARTS];
+};
+
+/* Bytes that are put back. */
+void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t size);
+
+/* For one object. */
+#define BAUM_I_SAVED_ADD(list, name, object) \
+  baum_i_saved_add((list), (name), &(object), sizeof(object))
+
+/* All of a run. */
+void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);
+
+#endif
