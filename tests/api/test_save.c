@@ -1,0 +1,209 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Saved runs go on in another process as in their own, bit for bit.
+ *
+ * This process takes a run through random times, saves it at each, and goes on. Then this program is started once more
+ * with the buffers; it builds the same mechanism anew, restores, goes on likewise, and tells where it came to.
+ */
+#define _GNU_SOURCE /* fork */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "saved_scenes.h"
+
+enum { ANEW = 10 /* every so many buffers the other process makes a run anew */ };
+
+static const char *program; /* argv[0] */
+
+/* What a run has come to: all that can be read of it. */
+typedef struct outcome {
+  double t;
+  double q[SAVED_NV_MAX];
+  double v[SAVED_NV_MAX];
+  baum_counters counters;
+  baum_energy_account account;
+  char warning[320];
+} outcome;
+
+static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
+{
+  memset(out, 0, sizeof *out);
+  out->t = baum_simulation_time(run);
+  memcpy(out->q, baum_simulation_q(run), (size_t)scene->nv * sizeof *out->q);
+  memcpy(out->v, baum_simulation_v(run), (size_t)scene->nv * sizeof *out->v);
+  assert_int_equal(baum_simulation_counters(run, &out->counters, sizeof out->counters), BAUM_OK);
+  if (scene->options.energy_account) {
+    assert_int_equal(baum_simulation_energy_account(run, &out->account, sizeof out->account),
+                     BAUM_OK);
+  }
+  if (out->counters.warnings > 0) {
+    int64_t last = out->counters.warnings - 1;
+    (void)baum_simulation_warning(run, last, out->warning, sizeof out->warning);
+  }
+  out->counters.wall = 0.0;
+  out->counters.max_phi_joint.tag = 0; /* of each mechanism its own */
+  out->counters.max_phi_rate_joint.tag = 0;
+}
+
+/* The k-th stretch of a run, of a random length, with what acts on it from outside. */
+static void go_on(baum_simulation *run, const saved_scene *scene, int k)
+{
+  double t = baum_simulation_time(run) + saved_random(k) * scene->span;
+  if (k % 3 == 0 && scene->has_input) {
+    assert_int_equal(baum_simulation_set_input(run, scene->input, 0.5 + saved_random(k + 1000)),
+                     BAUM_OK);
+  }
+  if (k % 7 == 3 && scene->law) {
+    assert_int_equal(scene->law(run, scene), BAUM_OK);
+  }
+  assert_true(saved_reached(baum_simulation_advance_to(run, t)));
+  if (k % 4 == 1) {
+    assert_true(saved_reached(baum_simulation_step(run, 2)));
+  }
+}
+
+/* ---- the other process ---- */
+
+static void *read_buffer(FILE *file, size_t *size)
+{
+  assert_int_equal(fread(size, sizeof *size, 1, file), 1);
+  void *buffer = malloc(*size);
+  assert_non_null(buffer);
+  assert_int_equal(fread(buffer, 1, *size, file), *size);
+  return buffer;
+}
+
+/* Arguments: number of the scene, number of buffers, descriptors of the two files. */
+static int be_the_other(char **arguments)
+{
+  saved_scene scene;
+  int count = atoi(arguments[1]);
+  FILE *in = fdopen(atoi(arguments[2]), "r");
+  FILE *out = fdopen(atoi(arguments[3]), "w");
+  bool fine = in && out && saved_scene_open(&scene, atoi(arguments[0]));
+  baum_simulation *run = NULL;
+  for (int k = 0; k < count && fine; k++) {
+    size_t size = 0;
+    outcome came_to;
+    if (k % ANEW == 0) {
+      baum_simulation_destroy(run);
+      run = saved_scene_start(&scene);
+    }
+    void *buffer = read_buffer(in, &size);
+    fine = baum_simulation_restore(run, buffer, size) == BAUM_OK;
+    free(buffer);
+    if (!fine) {
+      (void)fprintf(stderr, "%s\n", baum_message());
+      break;
+    }
+    go_on(run, &scene, k);
+    look(run, &scene, &came_to);
+    fine = fwrite(&came_to, sizeof came_to, 1, out) == 1;
+  }
+  baum_simulation_destroy(run);
+  saved_scene_close(&scene);
+  return out && fclose(out) == 0 && fine ? EXIT_SUCCESS : EXIT_FAILURE;
+}
+
+static void start_the_other(int scene, int count, FILE *buffers, FILE *outcomes)
+{
+  char numbers[4][16];
+  (void)snprintf(numbers[0], sizeof numbers[0], "%d", scene);
+  (void)snprintf(numbers[1], sizeof numbers[1], "%d", count);
+  (void)snprintf(numbers[2], sizeof numbers[2], "%d", fileno(buffers));
+  (void)snprintf(numbers[3], sizeof numbers[3], "%d", fileno(outcomes));
+  rewind(buffers);
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    (void)execl(program, program, "restore", numbers[0], numbers[1], numbers[2], numbers[3],
+                (char *)NULL);
+    _exit(EXIT_FAILURE);
+  }
+  int status = 0;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != EXIT_SUCCESS) {
+    fail_msg("scene %d: the other process failed", scene);
+  }
+}
+
+/* ---- this one ---- */
+
+/* Saves before every stretch; where the run came to after it. */
+static void run_and_save(const saved_scene *scene, FILE *buffers, outcome *came_to, int count)
+{
+  baum_simulation *run = saved_scene_start(scene);
+  size_t most = 0;
+  assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
+  char *buffer = malloc(most);
+  assert_non_null(buffer);
+  for (int k = 0; k < count; k++) {
+    size_t size = 0;
+    assert_int_equal(baum_simulation_save(run, buffer, most, &size), BAUM_OK);
+    assert_in_range(size, 64, most);
+    assert_int_equal(fwrite(&size, sizeof size, 1, buffers), 1);
+    assert_int_equal(fwrite(buffer, 1, size, buffers), size);
+    go_on(run, scene, k);
+    look(run, scene, &came_to[k]);
+  }
+  free(buffer);
+  baum_simulation_destroy(run);
+}
+
+static void check_scene(int number, const saved_scene *scene)
+{
+  int count = scene->times;
+  outcome *want = calloc((size_t)count, sizeof *want);
+  FILE *buffers = tmpfile();
+  FILE *outcomes = tmpfile();
+  assert_true(want && buffers && outcomes);
+  run_and_save(scene, buffers, want, count);
+  start_the_other(number, count, buffers, outcomes);
+  rewind(outcomes);
+  for (int k = 0; k < count; k++) {
+    outcome got;
+    assert_int_equal(fread(&got, sizeof got, 1, outcomes), 1);
+    if (memcmp(&got, &want[k], sizeof got) != 0) {
+      fail_msg("%s: buffer %d: t = %.17g and %.17g, q0 = %.17g and %.17g, evaluations %lld and "
+               "%lld",
+               scene->name, k, got.t, want[k].t, got.q[0], want[k].q[0],
+               (long long)got.counters.evaluations, (long long)want[k].counters.evaluations);
+    }
+  }
+  (void)fclose(buffers);
+  (void)fclose(outcomes);
+  free(want);
+}
+
+static void every_method_goes_on_bit_for_bit_in_another_process(void **state)
+{
+  (void)state;
+  saved_scene scene;
+  int number = 0;
+  for (; saved_scene_open(&scene, number); number++) {
+    check_scene(number, &scene);
+    saved_scene_close(&scene);
+  }
+  assert_true(number > 20); /* pairs of integrator and formulation without SUNDIALS */
+}
+
+int main(int argc, char **argv)
+{
+  program = argv[0];
+  if (argc == 6 && strcmp(argv[1], "restore") == 0) {
+    return be_the_other(argv + 2);
+  }
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_method_goes_on_bit_for_bit_in_another_process),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

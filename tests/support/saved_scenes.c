@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "saved_scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "driven.h"
+#include "every_element.h"
+#include "models.h"
+#include "step_mode.h"
+
+double saved_random(int k)
+{
+  double x = 0.5 + 0.6180339887498949 * k; /* golden section */
+  return x - floor(x);
+}
+
+bool saved_reached(baum_status status)
+{
+  return status == BAUM_OK || status == BAUM_WARNED;
+}
+
+/* ---- mechanisms ---- */
+
+/* The law that the motor has, from here on by the run: value, rate and acceleration go on. */
+static baum_status lead_on(baum_simulation *run, const saved_scene *scene)
+{
+  double t = baum_simulation_time(run);
+  return baum_simulation_set_driver(run, scene->motor, 0.5 + t * (2.0 + 0.15 * t), 2.0 + 0.3 * t,
+                                    0.3);
+}
+
+static void open_every_element(saved_scene *scene)
+{
+  every_element parts = every_element_make(NULL);
+  scene->mechanism = parts.mechanism;
+  scene->nv = EVERY_NV;
+  scene->has_input = true;
+  scene->input = parts.throttle;
+  scene->motor = parts.motor;
+  scene->law = lead_on;
+}
+
+static void open_slider_crank(saved_scene *scene, bool doubled)
+{
+  model m;
+  const model_slider_crank options = {.doubled_guide = doubled, .frames = 2};
+  assert_int_equal(model_slider_crank_build(options, &m), BAUM_OK);
+  scene->mechanism = m.mechanism;
+  m.mechanism = NULL;
+  model_destroy(&m);
+  scene->nv = 3 * (3 + 2);
+  scene->span = 1e-2;
+}
+
+static void open_driven(saved_scene *scene)
+{
+  const drive motor = {.angle = 0.4, .rate = 1.0};
+  scene->mechanism = four_bar_make(&motor);
+  scene->nv = 9;
+  scene->span = 0.2;
+}
+
+/* ---- the list ---- */
+
+/* Every integrator with every formulation, on a mechanism that it takes. */
+static bool open_pair(saved_scene *scene, int *number)
+{
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      baum_formulation formulation = (baum_formulation)f;
+      if (!baum_integrator_offers(mode.integrator, formulation) || (*number)-- != 0) {
+        continue;
+      }
+      double rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
+      scene->options = step_mode_options(mode, 1e-3, rtol);
+      scene->options.formulation = formulation;
+      if (every_element_suits(mode.integrator)) {
+        open_every_element(scene);
+      } else {
+        open_slider_crank(scene, false);
+        scene->options.step = 1e-4;
+      }
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Further ones: other solvers, redundant rows, immobile bodies, the energy account, kinematics. */
+static bool open_other(saved_scene *scene, int number)
+{
+  static const baum_solver solvers[] = {BAUM_SOLVER_KLU, BAUM_SOLVER_QR, BAUM_SOLVER_BLOCK};
+  baum_simulation_options *o = &scene->options;
+  *o = baum_simulation_options_default();
+  o->integrator = baum_rk4();
+  o->step = 1e-4;
+  scene->times = 100;
+  if (number < 6) {
+    o->solver = solvers[number / 2];
+    open_slider_crank(scene, number % 2 == 1);
+    return true;
+  }
+  switch (number) {
+  case 6: /* the account of a fixed step */
+    open_every_element(scene);
+    o->step = 1e-3;
+    o->energy_account = true;
+    return true;
+  case 7: /* and of a variable one */
+    open_every_element(scene);
+    o->integrator = baum_rk8();
+    o->step = NAN;
+    o->rtol = 1e-6;
+    o->energy_account = true;
+    return true;
+  case 8:
+    open_driven(scene);
+    o->integrator = baum_kinematics();
+    o->step = NAN;
+    return true;
+  default: return false;
+  }
+}
+
+bool saved_scene_open(saved_scene *scene, int number)
+{
+  *scene = (saved_scene){.times = 100, .span = 5e-3};
+  bool is_pair = open_pair(scene, &number);
+  if (!is_pair && !open_other(scene, number)) {
+    return false;
+  }
+  const baum_simulation_options *o = &scene->options;
+  const char *formulation = baum_formulation_name(o->formulation);
+  (void)snprintf(scene->name, sizeof scene->name, "%s %s %s, solver %d%s",
+                 baum_integrator_name(o->integrator), isnan(o->step) ? "variable" : "fixed",
+                 formulation, (int)o->solver, o->energy_account ? ", account" : "");
+  return true;
+}
+
+void saved_scene_close(saved_scene *scene)
+{
+  baum_mechanism_destroy(scene->mechanism);
+  scene->mechanism = NULL;
+}
+
+baum_simulation *saved_scene_start(const saved_scene *scene)
+{
+  baum_simulation *run = NULL;
+  baum_status status = baum_simulation_create(scene->mechanism, &scene->options, &run);
+  if (status != BAUM_OK) {
+    fail_msg("%s: %s", scene->name, baum_message());
+  }
+  return run;
+}
