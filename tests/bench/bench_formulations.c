@@ -13,63 +13,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "a01_pendulum_reference.h"
-#include "andrews_reference.h"
-#include "four_bar_reference.h"
-#include "reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "problems.h"
 
-enum { PROBLEMS = 4, RUNGS = 3, NAME_SIZE = 64 };
+enum { RUNGS = 3 };
 static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
 static const double PARTS[RUNGS] = {1e2, 1e3, 1e4};
-
-typedef struct problem {
-  const char *name;
-  reference with;
-  baum_status (*build)(model *out);
-} problem;
-
-static baum_status build_pendulum(model *out)
-{
-  return model_pendulum_rod(&MODEL_PENDULUM_A01, out);
-}
-
-static baum_status build_slider_crank(model *out)
-{
-  return model_slider_crank_build((model_slider_crank){.driven = false}, out);
-}
-
-static const problem ALL[PROBLEMS] = {
-  {"pendulum, 10 s",
-   {.samples = A01_PENDULUM_SAMPLES,
-    .width = A01_PENDULUM_WIDTH,
-    .t = A01_PENDULUM_T,
-    .q = A01_PENDULUM_Q[0],
-    .lengths = "mm"},
-   build_pendulum},
-  {"free slider-crank, 0.2 s",
-   {.samples = SLIDER_CRANK_UNDRIVEN_SAMPLES,
-    .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
-    .t = SLIDER_CRANK_UNDRIVEN_T,
-    .q = SLIDER_CRANK_UNDRIVEN_Q[0],
-    .lengths = "mmrmmrmmr"},
-   build_slider_crank},
-  {"four-bar, 5 s",
-   {.samples = FOUR_BAR_SAMPLES,
-    .width = FOUR_BAR_WIDTH,
-    .t = FOUR_BAR_T,
-    .q = FOUR_BAR_Q[0],
-    .lengths = "mmrmmrmmr"},
-   model_four_bar},
-  {"Andrews, 0.03 s",
-   {.samples = ANDREWS_SAMPLES,
-    .width = ANDREWS_WIDTH,
-    .t = ANDREWS_T,
-    .q = ANDREWS_Q[0],
-    .lengths = "rrrrrrr",
-    .columns = model_andrews_from_bodies},
-   model_andrews_bodies},
-};
 
 /* ---- methods ---- */
 
@@ -83,11 +31,10 @@ static bool find_method(const char *text, method *out)
 {
   for (int32_t k = 0; baum_integrator_at(k); k++) {
     for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
-      char name[NAME_SIZE];
+      char name[PAIR_SIZE];
       out->integrator = baum_integrator_at(k);
       out->formulation = (baum_formulation)f;
-      (void)snprintf(name, sizeof name, "%s/%s", baum_integrator_name(out->integrator),
-                     baum_formulation_name(out->formulation));
+      problem_pair(out->integrator, out->formulation, name);
       if (strcmp(name, text) == 0) {
         return baum_integrator_offers(out->integrator, out->formulation);
       }
@@ -114,12 +61,11 @@ static baum_simulation_options options_of(const method *with, const problem *of,
 static void print_run(const method *with, const problem *of, const baum_mechanism *mechanism,
                       int rung)
 {
-  char name[NAME_SIZE];
+  char name[PAIR_SIZE];
   baum_simulation_options options = options_of(with, of, rung);
-  (void)snprintf(name, sizeof name, "%s/%s", baum_integrator_name(with->integrator),
-                 baum_formulation_name(with->formulation));
+  problem_pair(with->integrator, with->formulation, name);
   reference_run run = reference_compare(&of->with, mechanism, &options);
-  printf("| %-26s | %-20s | %.0e |", of->name, name,
+  printf("| %-36s | %-20s | %.0e |", of->what, name,
          isnan(options.rtol) ? options.step : options.rtol);
   if (run.status < BAUM_OK) {
     printf(" %s |\n", run.message);
@@ -134,15 +80,15 @@ static int run_all(const method *methods, int count)
 {
   printf("| problem | method | rtol or h | error | Phi | Phi' | steps | evaluations | setups |\n");
   printf("|---|---|---|---|---|---|---|---|---|\n");
-  for (int p = 0; p < PROBLEMS; p++) {
+  for (int p = 0; problem_at(p); p++) {
     model m;
-    if (ALL[p].build(&m) != BAUM_OK) {
-      (void)fprintf(stderr, "%s: %s\n", ALL[p].name, baum_message());
+    if (problem_at(p)->build(&m) != BAUM_OK) {
+      (void)fprintf(stderr, "%s: %s\n", problem_at(p)->name, baum_message());
       return 1;
     }
     for (int k = 0; k < count; k++) {
       for (int rung = 0; rung < RUNGS; rung++) {
-        print_run(&methods[k], &ALL[p], m.mechanism, rung);
+        print_run(&methods[k], problem_at(p), m.mechanism, rung);
       }
     }
     model_destroy(&m);

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Is projection as exact as Baumgarte's gains? For every integrator that offers both, at the same step or tolerance:
+ * the error with PROJECTION, with BAUMGARTE and the gains of `auto`, and with the best of a sweep of constant gains,
+ * alpha = beta, four a decade over twelve decades, among those runs that take at most a quarter more evaluations.
+ *
+ * usage: bench_projection
+ *
+ * The best of a sweep is found by knowing the answer, and of 49 errors that scatter it is the luckiest: the mean of its
+ * neighbours, in brackets, tells how much of it is luck.
+ */
+#include <math.h>
+#include <stdio.h>
+
+#include "problems.h"
+
+enum { GAINS = 49, RUNGS = 3 };
+static const double RTOL[RUNGS] = {1e-4, 1e-6, 1e-8};
+static const double PARTS[RUNGS] = {16.0, 64.0, 256.0}; /* of the longest step */
+
+typedef struct outcome {
+  double error;
+  double evaluations;
+} outcome;
+
+typedef struct swept {
+  double error[GAINS]; /* infinite where the run failed or was dearer */
+  int best;
+} swept;
+
+static const double DEARER = 1.25;
+
+static double gain_at(int k)
+{
+  return pow(10.0, -4.0 + 0.25 * k);
+}
+
+static outcome run(const problem *at, const baum_mechanism *mechanism,
+                   const baum_simulation_options *o)
+{
+  reference_run out = reference_compare(&at->with, mechanism, o);
+  return (outcome){.error = isnan(out.error) ? (double)INFINITY : out.error,
+                   .evaluations = (double)out.counters.evaluations};
+}
+
+static swept sweep(const problem *at, const baum_mechanism *mechanism, baum_simulation_options o,
+                   double evaluations)
+{
+  swept all = {.best = 0};
+  o.max_steps = (int64_t)evaluations; /* no run that counts takes more */
+  for (int k = 0; k < GAINS; k++) {
+    o.gains = baum_gains_fixed(gain_at(k), gain_at(k));
+    outcome found = run(at, mechanism, &o);
+    all.error[k] = found.evaluations <= DEARER * evaluations ? found.error : (double)INFINITY;
+    all.best = all.error[k] < all.error[all.best] ? k : all.best;
+  }
+  return all;
+}
+
+static double neighbours(const swept *all)
+{
+  int before = all->best > 0 ? all->best - 1 : 0;
+  int after = all->best < GAINS - 1 ? all->best + 1 : GAINS - 1;
+  return sqrt(all->error[before] * all->error[after]);
+}
+
+static void compare(const problem *at, const baum_mechanism *mechanism,
+                    const baum_integrator *integrator, bool fixed)
+{
+  char pair[PAIR_SIZE];
+  problem_pair(integrator, BAUM_FORMULATION_PROJECTION, pair);
+  printf("%-13s %-30s %s", at->name, pair, fixed ? "step" : "rtol");
+  for (int rung = 0; rung < RUNGS; rung++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = integrator;
+    *(fixed ? &o.step : &o.rtol) = fixed ? at->step / PARTS[rung] : RTOL[rung];
+    o.formulation = BAUM_FORMULATION_PROJECTION;
+    outcome projected = run(at, mechanism, &o);
+    o.formulation = BAUM_FORMULATION_BAUMGARTE;
+    o.gains = baum_gains_auto();
+    outcome automatic = run(at, mechanism, &o);
+    swept all = sweep(at, mechanism, o, projected.evaluations);
+    printf(" | %8.1e %8.1e %8.1e (%8.1e)", projected.error, automatic.error, all.error[all.best],
+           neighbours(&all));
+  }
+  printf("\n");
+  (void)fflush(stdout);
+}
+
+static void compare_all(const problem *at, const baum_mechanism *mechanism)
+{
+  for (int k = 0; baum_integrator_at(k); k++) {
+    const baum_integrator *integrator = baum_integrator_at(k);
+    if (!baum_integrator_offers(integrator, BAUM_FORMULATION_PROJECTION) ||
+        !baum_integrator_offers(integrator, BAUM_FORMULATION_BAUMGARTE)) {
+      continue;
+    }
+    if (baum_integrator_has_fixed_step(integrator)) {
+      compare(at, mechanism, integrator, true);
+    }
+    if (baum_integrator_has_variable_step(integrator)) {
+      compare(at, mechanism, integrator, false);
+    }
+  }
+}
+
+int main(void)
+{
+  printf("errors with projection, with gains by auto, with the best gains (their neighbours); "
+         "coarse to fine\n");
+  for (int k = 0; problem_at(k); k++) {
+    model m;
+    if (problem_at(k)->build(&m) != BAUM_OK) {
+      (void)fprintf(stderr, "%s: %s\n", problem_at(k)->name, baum_message());
+      return 1;
+    }
+    compare_all(problem_at(k), m.mechanism);
+    model_destroy(&m);
+  }
+  return 0;
+}

@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Mechanisms with a reference trajectory, by number. */
+#ifndef BAUM_BENCH_PROBLEMS_H
+#define BAUM_BENCH_PROBLEMS_H
+
+#include "reference.h"
+
+typedef struct problem {
+  const char *name; /* a word */
+  const char *what; /* and for how long */
+  reference with;
+  double step; /* [s] the longest that may be of use */
+  baum_status (*build)(model *out);
+} problem;
+
+/* NULL past the end. */
+const problem *problem_at(int k);
+
+/* "integrator/formulation" of a pair. */
+enum { PAIR_SIZE = 64 };
+void problem_pair(const baum_integrator *integrator, baum_formulation formulation,
+                  char text[PAIR_SIZE]);
+
+#endif
