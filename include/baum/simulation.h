@@ -173,8 +173,7 @@ typedef struct baum_simulation_options {
                             Default: false. */
   const double
     *row_gains; /**< [-] (row_gain_count) > 0, factors f on the gains of each row: alpha f_i,
-                                beta f_i. Copied. Not with CVODE and IDA, whose matrices have one pair
-                                of gains. Default: NULL, all 1. */
+                                beta f_i. Copied. Default: NULL, all 1. */
   int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
 } baum_simulation_options;
 

@@ -15,6 +15,9 @@
  *   q      c I + W^-1 (J^T mu)_q                         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
+ * With gains alpha_i, beta_i of rows, (J w)_q is that of w = v' + 2 alpha v, and 2 (alpha_i - alpha) (J v)_q by a second
+ * linearization.
+ *
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
  * ones only add values to the slots found then. A dropped row reads 1 on its diagonal.
  */
@@ -140,12 +143,15 @@ static void walk_correction(const factors *f, const baum_i_joint *joint, sink *s
 static void emit_acceleration(const factors *f, int row, int column, int at, double keep, sink *s)
 {
   const baum_workspace *w = f->w;
-  const baum_dae *dae = f->dae;
+  double gain = baum_i_row_gain(w, row - 2 * w->mechanism->nv);
+  double damping = 2.0 * f->dae->alpha * gain;
+  double beta = f->dae->beta * gain;
+  double more = w->row_gains ? 2.0 * f->dae->alpha * (gain - 1.0) * w->jv_q[at] : 0.0;
   emit(s, row, column,
-       keep * (w->jw_q[at] - w->gamma_q[at] - 2.0 * dae->alpha * w->nu_q[at] +
-               dae->beta * dae->beta * w->jacobian[at]));
+       keep * (w->jw_q[at] + more - w->gamma_q[at] - damping * w->nu_q[at] +
+               beta * beta * w->jacobian[at]));
   emit(s, row, w->mechanism->nv + column,
-       keep * ((f->c + 2.0 * dae->alpha) * w->jacobian[at] - w->gamma_v[at]));
+       keep * ((f->c + damping) * w->jacobian[at] - w->gamma_v[at]));
 }
 
 static void emit_velocity(const factors *f, int row, int column, int at, double keep, sink *s)
@@ -309,6 +315,13 @@ static void choose_direction(const baum_dae *dae, int nv, const double *v, const
   }
 }
 
+/* (J v)_q, and blocks that the linearization proper overwrites. */
+static baum_status linearize_rates(baum_workspace *w, const double *v, const double *lambda)
+{
+  const baum_i_joint_blocks blocks = {w->jv_q, w->jtl_q, w->gamma_q, w->gamma_v, w->nu_q};
+  return baum_i_mechanism_linearize_joints(&w->point, v, lambda, &blocks);
+}
+
 /* The blocks with mu first, which those with lambda overwrite. */
 static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, const double *v,
                                     const double *dv)
@@ -321,6 +334,9 @@ static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, cons
   choose_direction(dae, m->nv, v, dv, direction);
   if (dae->index == BAUM_RESIDUAL_GGL) {
     status = baum_i_mechanism_linearize_joints(&w->point, direction, lambda + m->nc, &blocks);
+  }
+  if (dae->index == BAUM_RESIDUAL_INDEX1 && w->row_gains) {
+    status = linearize_rates(w, v, lambda);
   }
   blocks.jtl_q = w->jtl_q;
   return status == BAUM_OK

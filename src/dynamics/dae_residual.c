@@ -12,7 +12,7 @@
  *   Phi'
  *   Phi
  *
- * A dropped row i reads lambda_i = 0, and mu_i = 0.
+ * A dropped row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and beta are those of row i.
  */
 #include <string.h>
 
@@ -23,7 +23,9 @@ static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, cons
 {
   int nc = w->mechanism->nc;
   for (int i = 0; i < nc; i++) {
-    out[i] = 2.0 * dae->alpha * w->phi_rate[i] + dae->beta * dae->beta * w->phi[i] - w->gamma[i];
+    double alpha = dae->alpha * baum_i_row_gain(w, i);
+    double beta = dae->beta * baum_i_row_gain(w, i);
+    out[i] = 2.0 * alpha * w->phi_rate[i] + beta * beta * w->phi[i] - w->gamma[i];
   }
   baum_i_jacobian_times(&w->structure, w->jacobian, dv, out);
 }

@@ -87,6 +87,7 @@ struct baum_workspace {
   double *body_force_q;
   double *body_force_v;
   double *jw_q; /* (jacobian_size) */
+  double *jv_q; /* likewise with v, where rows have gains of their own */
   double *gamma_q;
   double *gamma_v;
   double *nu_q;
@@ -196,6 +197,8 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
  * acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
  * BAUM_ERR_NOT_FINITE, without a sentence. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
+/* Likewise the smallest out, in the metric of M, with J out = rows (nc); rows may be workspace->work_c. */
+baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
 /* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
@@ -214,6 +217,12 @@ baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
 /* ---- sizes of rows and states ---- */
+
+/* Factor on alpha and beta of a row. */
+static inline double baum_i_row_gain(const baum_workspace *workspace, int row)
+{
+  return workspace->row_gains ? workspace->row_gains[row] : 1.0;
+}
 
 /* (nc) norm of each row of J times the scales: |Phi_i| / size_i is a violation as a displacement;
  * 1 for empty rows. */

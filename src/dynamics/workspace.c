@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 28 };
+enum { ARRAY_COUNT = 29 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -38,6 +38,7 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->body_force_q, m->mass_size},
     {&w->body_force_v, m->mass_size},
     {&w->jw_q, m->jacobian_size},
+    {&w->jv_q, m->jacobian_size},
     {&w->gamma_q, m->jacobian_size},
     {&w->gamma_v, m->jacobian_size},
     {&w->nu_q, m->jacobian_size},

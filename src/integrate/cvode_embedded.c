@@ -10,6 +10,11 @@
  *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,     s = 2 alpha gamma + (beta gamma)^2
  *
  * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors that the evaluation before has left.
+ * Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i gamma)^2 is one of each row, and with Q = M^-1 J^T (J M^-1 J^T)^-1,
+ * for which J Q = I, likewise
+ *
+ *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
+ *
  * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff ones remain what
  * BDF is for.
  */
@@ -18,6 +23,8 @@
 #if BAUM_HAVE_SUNDIALS
 
 #include "integrate/cvode_embedded.h"
+
+#include <string.h>
 
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_newton.h>
@@ -33,6 +40,47 @@ static int answer(baum_i_sundials *sundials, baum_status status)
   return status == BAUM_ERR_MEMORY ? baum_i_sundials_answer(sundials, status) : 1;
 }
 
+/* s r_v + gamma beta^2 r_q over 1 + s */
+static double weigh(const baum_i_problem *problem, double gamma, double factor, double r_v,
+                    double r_q)
+{
+  double beta = factor * problem->beta;
+  double s = 2.0 * problem->direction * factor * problem->alpha * gamma;
+  double stiffness = gamma * beta * beta;
+  s += gamma * stiffness;
+  return (s * r_v + stiffness * r_q) / (1.0 + s);
+}
+
+static baum_status solve_alike(const baum_i_problem *problem, double gamma, const double *r,
+                               double *work, double *normal)
+{
+  int n = problem->workspace->mechanism->nv;
+  for (int i = 0; i < n; i++) {
+    work[i] = weigh(problem, gamma, 1.0, r[n + i], r[i]);
+  }
+  return baum_i_normal_part(problem->workspace, work, normal);
+}
+
+static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, const double *r,
+                                 double *normal)
+{
+  baum_workspace *w = problem->workspace;
+  int nc = w->mechanism->nc;
+  double *rows_v = w->work_c;
+  double *rows_q = rows_v + nc;
+  baum_status status = baum_i_need_jacobian(w);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  memset(rows_v, 0, 2 * (size_t)nc * sizeof *rows_v);
+  baum_i_jacobian_times(&w->structure, w->jacobian, r + w->mechanism->nv, rows_v);
+  baum_i_jacobian_times(&w->structure, w->jacobian, r, rows_q);
+  for (int i = 0; i < nc; i++) {
+    rows_v[i] = weigh(problem, gamma, w->row_gains[i], rows_v[i], rows_q[i]);
+  }
+  return baum_i_least_with_rows(w, rows_v, normal);
+}
+
 static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
                  sunrealtype tolerance)
 {
@@ -46,13 +94,8 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   double *normal = N_VGetArrayPointer(embedded->normal);
   double gamma = 0.0;
   (void)CVodeGetCurrentGamma(embedded->cvode, &gamma);
-  double damping = 2.0 * problem->direction * problem->alpha * gamma;
-  double stiffness = gamma * problem->beta * problem->beta;
-  double s = damping + gamma * stiffness;
-  for (int i = 0; i < n; i++) {
-    d[i] = (s * r[n + i] + stiffness * r[i]) / (1.0 + s);
-  }
-  baum_status status = baum_i_normal_part(problem->workspace, d, normal);
+  baum_status status = problem->workspace->row_gains ? solve_by_rows(problem, gamma, r, normal)
+                                                     : solve_alike(problem, gamma, r, d, normal);
   for (int i = 0; i < n && status == BAUM_OK; i++) {
     d[n + i] = r[n + i] - normal[i];
     d[i] = r[i] + gamma * d[n + i];

@@ -204,12 +204,6 @@ static baum_status check_row_gains(const baum_simulation_options *o)
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "simulation options: row_gains are given, but only baumgarte has gains");
   }
-  if (o->row_gains && o->integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "simulation options: row_gains are given, but the matrix of %s has the same "
-                       "gains for all rows; take an explicit method such as rk8",
-                       o->integrator->name);
-  }
   return BAUM_OK;
 }
 

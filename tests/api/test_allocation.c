@@ -451,6 +451,38 @@ static void runs_survive_every_failing_allocation(void **state)
   baum_mechanism_destroy(s.parts.mechanism);
 }
 
+static const double *factors_of_rows(void)
+{
+  static double factors[EVERY_NC];
+  for (int i = 0; i < EVERY_NC; i++) {
+    factors[i] = i % 2 == 0 ? 1.0 : 0.5;
+  }
+  return factors;
+}
+
+/* Nothing but their copy is made for them, which is the same for all integrators. */
+static void runs_with_gains_of_rows_survive_likewise(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  run_scenario s = {.parts = every_element_make(NULL), .span = 0.001};
+  int done = 0;
+  for (int k = 0; find_pair(k, &s.options); k++) {
+    if (s.options.formulation == BAUM_FORMULATION_BAUMGARTE) {
+      s.options.row_gains = factors_of_rows();
+      s.options.row_gain_count = EVERY_NC;
+      check_steady(&s.parts, &s.options);
+      s.options.start = BAUM_START_AS_GIVEN;
+      if (done++ == 0) {
+        fail_every_allocation(simulate, &s);
+      }
+    }
+  }
+  baum_mechanism_destroy(s.parts.mechanism);
+}
+
 /* The weld twice: rank, dropped rows and least-norm multipliers allocate too. */
 static every_element make_redundant(void)
 {
@@ -490,6 +522,7 @@ int main(void)
     cmocka_unit_test(replacing_survives_every_failing_allocation),
     cmocka_unit_test(a_workspace_survives_every_failing_allocation),
     cmocka_unit_test(runs_survive_every_failing_allocation),
+    cmocka_unit_test(runs_with_gains_of_rows_survive_likewise),
     cmocka_unit_test(runs_with_redundant_joints_and_any_solver_survive_likewise),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Is the rule `auto` beaten by a constant alpha = beta?
  *
- * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME]
+ * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
  * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over perturbed
  * starts. Cost: evaluations of (7), each of which factors its matrix, and factorizations of the integrator's
@@ -31,6 +31,7 @@ typedef struct arguments {
   bool quick;
   bool table;
   int problem;            /* -1: all */
+  int lot;                /* of random numbers that perturb the starts */
   const char *integrator; /* NULL: all */
 } arguments;
 
@@ -213,6 +214,8 @@ static arguments read_arguments(int argc, char **argv)
       args.problem = (int)strtol(argv[++k], NULL, 10);
     } else if (strcmp(argv[k], "--integrator") == 0 && k + 1 < argc) {
       args.integrator = argv[++k];
+    } else if (strcmp(argv[k], "--lot") == 0 && k + 1 < argc) {
+      args.lot = (int)strtol(argv[++k], NULL, 10);
     }
   }
   return args;
@@ -228,7 +231,7 @@ int main(int argc, char **argv)
     if (args.problem >= 0 && args.problem != k) {
       continue;
     }
-    if (!gain_problem_make(k, &problem)) {
+    if (!gain_problem_make(k, args.lot, &problem)) {
       (void)fprintf(stderr, "bench_gains: %s\n", baum_message());
       return 1;
     }

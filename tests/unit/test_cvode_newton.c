@@ -156,12 +156,21 @@ static int check_states(const solver *s, double tolerance, chance *c)
   return checked;
 }
 
+/* With gains of rows from 0.1 to 10 times the others, where there are any: of every second one. */
 static int check_mechanism(const baum_mechanism *mechanism, baum_formulation formulation,
                            double tolerance, chance *c)
 {
   solver s;
+  double factors[SIZE];
   open_solver(&s, mechanism, formulation);
   int checked = check_states(&s, tolerance, c);
+  for (int i = 0; i < mechanism->nc && i < SIZE; i++) {
+    factors[i] = i % 2 == 0 ? 1.0 : pow(10.0, chance_number(c, -1.0, 1.0));
+  }
+  if (formulation == BAUM_FORMULATION_BAUMGARTE && mechanism->nc <= SIZE) {
+    s.workspace->row_gains = factors;
+    assert_int_equal(check_states(&s, tolerance, c) > 0, checked > 0);
+  }
   close_solver(&s);
   return checked;
 }

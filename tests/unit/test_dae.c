@@ -178,10 +178,28 @@ static void check_all_forms(const char *name, const baum_mechanism *mechanism)
   }
 }
 
+/* Index 1 with gains of rows from 0.1 to 10 times those of all. */
+static void check_row_gains(const char *name, const baum_mechanism *mechanism)
+{
+  double factors[SIZE_MAX_DAE];
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(mechanism, &w), BAUM_OK);
+  for (int i = 0; i < mechanism->nc; i++) {
+    factors[i] = pow(10.0, scatter(i));
+  }
+  w->row_gains = factors;
+  double worst = check_jacobian(w, BAUM_RESIDUAL_INDEX1);
+  if (!(worst <= 2e-7)) { /* as above */
+    fail_msg("%s, gains of rows: %g", name, worst);
+  }
+  baum_workspace_destroy(w);
+}
+
 static void check_model(const char *name, baum_status status, model *m)
 {
   assert_int_equal(status, BAUM_OK);
   check_all_forms(name, m->mechanism);
+  check_row_gains(name, m->mechanism);
   model_destroy(m);
 }
 
@@ -217,6 +235,7 @@ static void the_jacobian_is_that_of_differences_for_every_element(void **state)
   (void)state;
   every_element parts = every_element_make(NULL);
   check_all_forms("every element", parts.mechanism);
+  check_row_gains("every element", parts.mechanism);
   baum_mechanism_destroy(parts.mechanism);
 }
 
@@ -226,6 +245,7 @@ static void the_jacobian_is_that_of_differences_for_every_joint(void **state)
   for (int k = 0; k < JOINT_SCENES; k++) {
     baum_mechanism *mechanism = joint_scene_make(&joint_scenes[k]);
     check_all_forms(joint_scenes[k].name, mechanism);
+    check_row_gains(joint_scenes[k].name, mechanism);
     baum_mechanism_destroy(mechanism);
   }
 }
@@ -253,13 +273,13 @@ static void the_jacobian_is_that_of_differences_for_rows_that_depend_on_time(voi
   check_model("car axis", model_car_axis(true, &m), &m);
 }
 
-static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equations(void **state)
+static void check_index_1_at_the_solution(const double *row_gains)
 {
-  (void)state;
   model m;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m.mechanism, &w), BAUM_OK);
+  w->row_gains = row_gains;
   const baum_dae dae = {BAUM_RESIDUAL_INDEX1, 30.0, 50.0};
   point p = random_point(w, BAUM_RESIDUAL_INDEX1, 5);
   int nv = m.mechanism->nv;
@@ -280,6 +300,17 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   }
   baum_workspace_destroy(w);
   model_destroy(&m);
+}
+
+static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equations(void **state)
+{
+  (void)state;
+  double factors[SIZE_MAX_DAE];
+  for (int i = 0; i < SIZE_MAX_DAE; i++) {
+    factors[i] = pow(10.0, 0.5 * scatter(i));
+  }
+  check_index_1_at_the_solution(NULL);
+  check_index_1_at_the_solution(factors);
 }
 
 /* At the solution of (5) on the constraints, with mu = 0, everything vanishes; mu moves the positions alone, by

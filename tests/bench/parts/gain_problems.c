@@ -126,14 +126,15 @@ static bool allocate(gain_problem *problem, gain_start *start)
 
 /* A hundredth of the scales off, and of the time scale where nothing but time is free;
  * the projection makes a start of it. */
-static baum_status perturb(gain_problem *problem, int number, gain_start *start)
+static baum_status perturb(gain_problem *problem, int lot, int number, gain_start *start)
 {
   static const double SIZE = 0.01;
+  static const double GOLDEN = 0.6180339887498949;
   baum_simulation *run = problem->kept;
   double rate = run->problem.rate;
-  uint64_t seed = 1 + (uint64_t)number;
+  uint64_t seed = 1 + (uint64_t)(lot * GAIN_STARTS + number);
   (void)draw(&seed);
-  start->t = (number + 1) * SIZE / GAIN_STARTS * problem->t[0];
+  start->t = (number + 1 - fmod(lot * GOLDEN, 1.0)) * SIZE / GAIN_STARTS * problem->t[0];
   for (int i = 0; i < problem->nq; i++) {
     double scale = problem->scale[i];
     start->q[i] = run->workspace->mechanism->drawn_q[i] + SIZE * scale * draw(&seed);
@@ -157,7 +158,7 @@ static baum_status keep_run(gain_problem *problem)
   return status;
 }
 
-bool gain_problem_make(int k, gain_problem *out)
+bool gain_problem_make(int k, int lot, gain_problem *out)
 {
   *out =
     (gain_problem){.name = PROBLEMS[k].name, .samples = PROBLEMS[k].samples, .t = PROBLEMS[k].t};
@@ -167,7 +168,7 @@ bool gain_problem_make(int k, gain_problem *out)
   }
   for (int s = 0; s < GAIN_STARTS && status >= 0; s++) {
     gain_start *start = &out->starts[s];
-    status = allocate(out, start) ? perturb(out, s, start) : BAUM_ERR_MEMORY;
+    status = allocate(out, start) ? perturb(out, lot, s, start) : BAUM_ERR_MEMORY;
     if (status >= 0) {
       status = refer(out, start, PROBLEMS[k].steps);
     }
