@@ -1,6 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Runs: options, samples, channels, counters, warnings, step by step."""
 
+import os
+import subprocess
+import sys
 import unittest
 import warnings
 
@@ -301,6 +304,44 @@ class StepByStep(unittest.TestCase):
         with self.assertRaises(baum.Error):
             s.set_state(0.0, (0, float("nan")))
         self.assertEqual(s.q.tolist(), [0, -1])
+
+    def test_saved_runs_go_on_alike_in_another_process(self):
+        method = "cvode_adams" if SUNDIALS else "rk8"
+        program = (
+            "import sys, mechanisms\n"
+            f"run = mechanisms.slider_crank(omega=20).simulation('{method}', rtol=1e-8)\n"
+            "run.restore(sys.stdin.buffer.read())\n"
+            "run.advance_to(0.3)\n"
+            "sys.stdout.write(' '.join(x.hex() for x in (*run.q, *run.v)))\n"
+        )
+        run = slider_crank(omega=20).simulation(method, rtol=1e-8)
+        run.advance_to(0.1)
+        saved = run.save()
+        self.assertIsInstance(saved, bytes)
+        run.advance_to(0.3)
+        other = subprocess.run(
+            [sys.executable, "-c", program],
+            input=saved,
+            stdout=subprocess.PIPE,
+            cwd=os.path.dirname(__file__),
+            check=True,
+        )
+        self.assertEqual(
+            other.stdout.decode(), " ".join(float(x).hex() for x in (*run.q, *run.v))
+        )
+        run.restore(bytearray(saved))
+        self.assertEqual(run.time, 0.1)
+
+    def test_bytes_of_something_else_are_refused(self):
+        run = slider_crank(omega=20).simulation("rk4", step=1e-3)
+        saved = run.save()
+        for wrong in (b"", b"abc" * 99, saved[:-1], slider_crank().simulation("rk4", step=1e-3).save()):
+            with self.assertRaises(baum.Error) as caught:
+                run.restore(wrong)
+            self.assertEqual(caught.exception.status, baum.Status.ERR_BUFFER)
+            self.assertIn("the buffer", str(caught.exception))
+        with self.assertRaises(TypeError):
+            run.restore("text")
 
     def test_sampling_goes_on_where_the_run_stands(self):
         s = rod_pendulum().simulation("rk4", step=1e-3)

@@ -236,6 +236,23 @@ class Simulation:
         law = [number(part, f"{driver.name}: {name}") for name, part in law.items()]
         self._call(lib.baum_simulation_set_driver, driver.id, *law)
 
+    def save(self):
+        """The run as bytes, to be restored in this or another process. Methods of several steps and
+        those that choose their step begin anew from here, so that this run and a restored one go on
+        alike, bit for bit."""
+        size = ctypes.c_size_t()
+        self._call(lib.baum_simulation_save, None, 0, ctypes.byref(size))
+        buffer = ctypes.create_string_buffer(size.value)
+        self._call(lib.baum_simulation_save, buffer, size.value, ctypes.byref(size))
+        return buffer.raw[: size.value]
+
+    def restore(self, saved):
+        """Put this run back to where `saved` was: a run of the same mechanism and options. Anything
+        else is refused with Status.ERR_BUFFER. Warnings of the saved run are not given again."""
+        saved = bytes(memoryview(saved))
+        self._call(lib.baum_simulation_restore, saved, len(saved))
+        self._warned = self.counters.warnings
+
     def cancel(self):
         """Ask a run to stop after its present step. From any thread or signal handler."""
         lib.baum_simulation_cancel(self._owner._address)

@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is restored is looked at first: buffers that are cut off, damaged or of something else are refused with a
+ * sentence that says so, and the run is as it was. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "every_element.h"
+#include "models.h"
+
+/* Where things are in a buffer, in bytes. */
+enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 56 };
+
+typedef struct saved {
+  unsigned char *bytes;
+  size_t size;
+} saved;
+
+static saved save(baum_simulation *run)
+{
+  saved s = {0};
+  size_t most = 0;
+  assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
+  s.bytes = malloc(most);
+  assert_non_null(s.bytes);
+  assert_int_equal(baum_simulation_save(run, s.bytes, most, &s.size), BAUM_OK);
+  return s;
+}
+
+static baum_simulation *start(const baum_mechanism *mechanism,
+                              const baum_simulation_options *options, double t)
+{
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, options, &run), BAUM_OK);
+  assert_true(baum_simulation_advance_to(run, t) >= BAUM_OK);
+  return run;
+}
+
+static baum_simulation_options fixed_step(void)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  o.step = 1e-3;
+  return o;
+}
+
+static baum_mechanism *pendulum(void)
+{
+  model m;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  baum_mechanism *mechanism = m.mechanism;
+  m.mechanism = NULL;
+  model_destroy(&m);
+  return mechanism;
+}
+
+/* It is refused with a sentence that has these words. */
+static void check_refused(baum_simulation *run, const void *bytes, size_t size, const char *words)
+{
+  baum_status status = baum_simulation_restore(run, bytes, size);
+  const char *sentence = baum_message();
+  if (status != BAUM_ERR_BUFFER || !strstr(sentence, words) ||
+      !strstr(sentence, "baum_simulation_restore: the buffer")) {
+    fail_msg("want \"%s\", got %s: %s", words, baum_status_name(status), sentence);
+  }
+  assert_string_equal(baum_simulation_message(run), sentence);
+}
+
+/* The run saves the same bytes as before: all that is saved is unchanged. One-step methods with a fixed step lose
+ * nothing by that. */
+static void check_unchanged(baum_simulation *run, const saved *before)
+{
+  saved now = save(run);
+  assert_int_equal(now.size, before->size);
+  assert_memory_equal(now.bytes, before->bytes, now.size);
+  free(now.bytes);
+}
+
+/* A run and a buffer of another moment of it. */
+typedef struct scene {
+  baum_mechanism *mechanism;
+  baum_simulation *run;
+  saved other;
+  saved before;
+} scene;
+
+static scene open_scene(void)
+{
+  scene s = {.mechanism = pendulum()};
+  baum_simulation_options o = fixed_step();
+  s.run = start(s.mechanism, &o, 0.2);
+  s.other = save(s.run);
+  assert_int_equal(baum_simulation_advance_to(s.run, 0.3), BAUM_OK);
+  s.before = save(s.run);
+  return s;
+}
+
+static void close_scene(scene *s)
+{
+  check_unchanged(s->run, &s->before);
+  assert_int_equal(baum_simulation_restore(s->run, s->other.bytes, s->other.size), BAUM_OK);
+  assert_true(baum_simulation_time(s->run) == 0.2);
+  free(s->other.bytes);
+  free(s->before.bytes);
+  baum_simulation_destroy(s->run);
+  baum_mechanism_destroy(s->mechanism);
+}
+
+static void cut_off_at_every_length(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  for (size_t size = 0; size < s.other.size; size++) {
+    /* of its own, so that the address sanitizer sees what is read behind it */
+    unsigned char *part = malloc(size + 1);
+    assert_non_null(part);
+    memcpy(part + 1, s.other.bytes, size); /* not aligned */
+    check_refused(s.run, part + 1, size, "cut off");
+    free(part);
+  }
+  close_scene(&s);
+}
+
+static void every_byte_changed(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  for (size_t k = 0; k < s.other.size; k++) {
+    for (int bit = 0; bit < 8; bit++) {
+      s.other.bytes[k] ^= (unsigned char)(1 << bit);
+      const char *words = k < AT_NUMBER       ? "none of baum_simulation_save()"
+                          : k < AT_VERSION    ? "another order of bytes"
+                          : k < AT_SIZE       ? "version"
+                          : k >= AT_STRUCTURE ? "damaged: its sum"
+                                              : "";
+      check_refused(s.run, s.other.bytes, s.other.size, words);
+      s.other.bytes[k] ^= (unsigned char)(1 << bit);
+    }
+  }
+  close_scene(&s);
+}
+
+/* Two words changed alike must not make up for each other, as they do in plain sums. */
+static void two_signs_changed(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  for (size_t k = AT_STRUCTURE + 7; k + 8 < s.other.size; k += 8) {
+    s.other.bytes[k] ^= 0x80;
+    s.other.bytes[k + 8] ^= 0x80;
+    check_refused(s.run, s.other.bytes, s.other.size, "damaged");
+    s.other.bytes[k] ^= 0x80;
+    s.other.bytes[k + 8] ^= 0x80;
+  }
+  close_scene(&s);
+}
+
+/* ---- buffers whose sum is right ---- */
+
+/* The sum as documented in base/digest.h. */
+static void seal(saved *s)
+{
+  uint64_t h = 0;
+  for (size_t k = 0; k + 8 < s->size; k += 8) {
+    uint64_t word = 0;
+    memcpy(&word, s->bytes + k, sizeof word);
+    h = (h ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+    h ^= h >> 32;
+  }
+  memcpy(s->bytes + s->size - sizeof h, &h, sizeof h);
+}
+
+/* Neither crashes nor is taken halfway, whatever lengths and numbers it has. */
+static void random_words_under_a_good_sum(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  uint64_t seed = 1;
+  int taken = 0;
+  unsigned char *kept = malloc(s.other.size);
+  assert_non_null(kept);
+  memcpy(kept, s.other.bytes, s.other.size);
+  for (int k = 0; k < 20000; k++) {
+    seed = seed * UINT64_C(6364136223846793005) + UINT64_C(1442695040888963407);
+    size_t words = (s.other.size - HEAD) / 8 - 1;
+    size_t at = HEAD + (size_t)(seed >> 33) % words * 8;
+    uint64_t value = k % 3 == 0 ? seed : (seed >> 50) << (k % 3 == 1 ? 0 : 49);
+    memcpy(s.other.bytes + at, &value, sizeof value);
+    seal(&s.other);
+    baum_status status = baum_simulation_restore(s.run, s.other.bytes, s.other.size);
+    assert_true(status == BAUM_OK || status == BAUM_ERR_BUFFER);
+    taken += status == BAUM_OK;
+    memcpy(s.other.bytes, kept, s.other.size);
+  }
+  assert_in_range(taken, 1, 19999); /* words of the state are taken, others are not */
+  free(kept);
+  assert_int_equal(baum_simulation_restore(s.run, s.before.bytes, s.before.size), BAUM_OK);
+  close_scene(&s);
+}
+
+static void other_versions(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  for (uint64_t version = 0; version < 3; version++) {
+    if (version != 1) {
+      memcpy(s.other.bytes + AT_VERSION, &version, sizeof version);
+      seal(&s.other);
+      check_refused(s.run, s.other.bytes, s.other.size,
+                    version == 0 ? "has version 0 of the format, this library reads version 1"
+                                 : "has version 2 of the format");
+    }
+  }
+  uint64_t version = 1;
+  memcpy(s.other.bytes + AT_VERSION, &version, sizeof version);
+  seal(&s.other);
+  close_scene(&s);
+}
+
+/* ---- buffers of something else ---- */
+
+/* A slider-crank whose rod is a little heavier, or with another joint. */
+static baum_mechanism *crank(double rod_mass, bool doubled)
+{
+  model m;
+  const model_slider_crank data = {.rod_mass = rod_mass, .doubled_guide = doubled};
+  assert_int_equal(model_slider_crank_build(data, &m), BAUM_OK);
+  baum_mechanism *mechanism = m.mechanism;
+  m.mechanism = NULL;
+  model_destroy(&m);
+  return mechanism;
+}
+
+static void other_mechanisms(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanisms[4] = {pendulum(), crank(0.1, false), crank(0.1 + 1e-16, false),
+                                   crank(0.1, true)};
+  baum_simulation_options o = fixed_step();
+  o.step = 1e-4;
+  baum_simulation *runs[4];
+  for (int k = 0; k < 4; k++) {
+    runs[k] = start(mechanisms[k], &o, 1e-3);
+  }
+  for (int k = 0; k < 4; k++) {
+    saved s = save(runs[k]);
+    for (int i = 0; i < 4; i++) {
+      bool numbers = k + i == 3 && k * i == 2;
+      if (i != k) {
+        saved before = save(runs[i]);
+        check_refused(runs[i], s.bytes, s.size,
+                      numbers ? "another mechanism: elements are the same, but not all masses"
+                              : "another mechanism: kinds, number or connections");
+        check_unchanged(runs[i], &before);
+        free(before.bytes);
+      }
+    }
+    free(s.bytes);
+  }
+  for (int k = 0; k < 4; k++) {
+    baum_simulation_destroy(runs[k]);
+    baum_mechanism_destroy(mechanisms[k]);
+  }
+}
+
+typedef struct other_options {
+  const char *words;
+  void (*change)(baum_simulation_options *o);
+} other_options;
+
+static void use_rk3(baum_simulation_options *o)
+{
+  o->integrator = baum_rk3();
+}
+
+static void use_projection(baum_simulation_options *o)
+{
+  o->formulation = BAUM_FORMULATION_PROJECTION;
+}
+
+static void use_rtol(baum_simulation_options *o)
+{
+  o->integrator = baum_rk8();
+  o->step = NAN;
+  o->rtol = 1e-6;
+}
+
+static void use_step(baum_simulation_options *o)
+{
+  o->step = 0.002;
+}
+
+static void use_gains(baum_simulation_options *o)
+{
+  o->gains = baum_gains_fixed(5.0, 6.0);
+}
+
+static void use_account(baum_simulation_options *o)
+{
+  o->energy_account = true;
+}
+
+static void use_solver(baum_simulation_options *o)
+{
+  o->solver = BAUM_SOLVER_KLU;
+}
+
+static void use_row_gains(baum_simulation_options *o)
+{
+  static const double factor = 0.5;
+  o->row_gains = &factor;
+  o->row_gain_count = 1;
+}
+
+static void runs_with_other_options(void **state)
+{
+  (void)state;
+  static const other_options cases[] = {
+    {"the integrator is rk3 there and rk4 here", use_rk3},
+    {"the formulation is projection there and baumgarte here", use_projection},
+    {"the integrator is rk8 there and rk4 here", use_rtol},
+    {"step is 0.002 there and 0.001 here", use_step},
+    {"the rule of the gains is", use_gains},
+    {"energy_account is 1 there and 0 here", use_account},
+    {"solver is 1 there and 0 here", use_solver},
+    {"row_gains has 8 bytes there and 0 here", use_row_gains},
+  };
+  scene s = open_scene();
+  for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+    baum_simulation_options o = fixed_step();
+    cases[k].change(&o);
+    baum_simulation *run = start(s.mechanism, &o, 0.1);
+    saved other = save(run);
+    check_refused(s.run, other.bytes, other.size, cases[k].words);
+    free(other.bytes);
+    baum_simulation_destroy(run);
+  }
+  close_scene(&s);
+}
+
+static void foreign_bytes(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  unsigned char zeros[4096] = {0};
+  check_refused(s.run, zeros, sizeof zeros, "none of baum_simulation_save()");
+  memset(zeros, 0xff, sizeof zeros);
+  check_refused(s.run, zeros, sizeof zeros, "none of baum_simulation_save()");
+  check_refused(s.run, s.run, 64, "none of baum_simulation_save()"); /* not even of bytes */
+  close_scene(&s);
+}
+
+/* ---- calls ---- */
+
+static void wrong_calls(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  size_t most = 0;
+  size_t size = 77;
+  unsigned char bytes[256];
+  assert_int_equal(baum_simulation_save(NULL, NULL, 0, &most), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_simulation_save(s.run, bytes, sizeof bytes, NULL), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_simulation_save(s.run, NULL, 0, &most), BAUM_OK);
+  assert_int_equal(baum_simulation_save(s.run, bytes, sizeof bytes, &size), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "capacity is 256 bytes, must be at least"));
+  assert_int_equal(size, 77);
+  assert_int_equal(baum_simulation_restore(NULL, bytes, sizeof bytes), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_simulation_restore(s.run, NULL, sizeof bytes), BAUM_ERR_ARGUMENT);
+  close_scene(&s);
+}
+
+/* A buffer may be longer than what was saved, and stay for a whole run: its size is told once. */
+static void what_is_behind_a_saved_run_does_not_matter(void **state)
+{
+  (void)state;
+  scene s = open_scene();
+  unsigned char *longer = malloc(s.other.size + 5);
+  assert_non_null(longer);
+  memcpy(longer, s.other.bytes, s.other.size);
+  memset(longer + s.other.size, 0xa5, 5);
+  assert_int_equal(baum_simulation_restore(s.run, longer, s.other.size + 5), BAUM_OK);
+  assert_true(baum_simulation_time(s.run) == 0.2);
+  free(longer);
+  assert_int_equal(baum_simulation_restore(s.run, s.before.bytes, s.before.size), BAUM_OK);
+  close_scene(&s);
+}
+
+/* Saved before a law was set, restored after. */
+static void laws_that_were_set_later_are_gone(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(parts.mechanism, &o, 0.01);
+  saved s = save(run);
+  assert_true(baum_simulation_advance_to(run, 0.05) >= BAUM_OK);
+  double want = baum_simulation_q(run)[0];
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(baum_simulation_restore(run, s.bytes, s.size), BAUM_OK);
+    assert_true(baum_simulation_input(run, parts.throttle) == 1.0);
+    assert_true(baum_simulation_advance_to(run, 0.05) >= BAUM_OK);
+    assert_true(baum_simulation_q(run)[0] == want);
+    assert_int_equal(baum_simulation_set_driver(run, parts.motor, 0.6, 3.0, 0.0), BAUM_OK);
+    assert_int_equal(baum_simulation_set_input(run, parts.throttle, 2.0), BAUM_OK);
+    assert_true(baum_simulation_advance_to(run, 0.07) >= BAUM_OK);
+  }
+  free(s.bytes);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(cut_off_at_every_length),
+    cmocka_unit_test(every_byte_changed),
+    cmocka_unit_test(two_signs_changed),
+    cmocka_unit_test(random_words_under_a_good_sum),
+    cmocka_unit_test(other_versions),
+    cmocka_unit_test(other_mechanisms),
+    cmocka_unit_test(runs_with_other_options),
+    cmocka_unit_test(foreign_bytes),
+    cmocka_unit_test(wrong_calls),
+    cmocka_unit_test(what_is_behind_a_saved_run_does_not_matter),
+    cmocka_unit_test(laws_that_were_set_later_are_gone),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
