@@ -54,8 +54,7 @@ static inline double baum_i_spring_potential(const baum_i_spring_law *spring, do
 
 /* Adds the power of the tension at l' without that of V: of a user's law all of it. */
 static inline baum_status baum_i_spring_power(const baum_i_spring_law *spring, baum_i_point *point,
-                                              double length, double rate,
-                                              double sum[BAUM_I_POWERS])
+                                              double length, double rate, double sum[BAUM_I_POWERS])
 {
   if (!spring->law) {
     sum[BAUM_I_POWER_DAMPERS] -= spring->numbers[BAUM_I_DAMPING] * rate * rate;
