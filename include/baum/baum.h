@@ -6,6 +6,7 @@
 #define BAUM_BAUM_H
 
 #include <baum/dynamics.h>
+#include <baum/events.h>
 #include <baum/mechanism.h>
 #include <baum/planar.h>
 #include <baum/planar_joints.h>

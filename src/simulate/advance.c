@@ -12,6 +12,7 @@
 
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
@@ -87,7 +88,7 @@ static baum_status explain_callback(const baum_simulation *run, baum_status stat
   return status;
 }
 
-static baum_status try_step(baum_simulation *run, double t_next, bool observe)
+baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe)
 {
   baum_i_state *trial = &run->trial;
   const baum_i_state *state = &run->state;
@@ -135,6 +136,41 @@ static double grid_time(const baum_simulation *run, int64_t k)
   return run->grid.origin + (double)k * run->options.step;
 }
 
+/* A step off the grid has been kept, and a new grid begins; past steps were of the old one. */
+static void leave_grid(baum_simulation *run)
+{
+  run->counters.short_steps++;
+  run->counters.restarts += run->integrator->accept ? 1 : 0;
+  run->grid = (baum_i_grid){.origin = run->state.t};
+}
+
+/* The step to t_next that has just been tried, up to an event that stops the run: BAUM_STOP_EVENT, and it is kept to
+ * there. */
+static baum_status watch_step(baum_simulation *run, double t_next)
+{
+  baum_status status = run->events ? baum_i_events_watch(run, t_next) : BAUM_OK;
+  if (status == BAUM_STOP_EVENT) {
+    keep_trial(run);
+    leave_grid(run);
+    if (run->integrator->accept) {
+      (void)run->integrator->restart(run->self, &run->problem, &run->state); /* cannot fail */
+    }
+  }
+  return status;
+}
+
+static baum_status kept_step(baum_simulation *run, double t_next)
+{
+  baum_status status = baum_i_run_try_step(run, t_next, true);
+  if (status == BAUM_OK) {
+    status = watch_step(run, t_next);
+  }
+  if (status == BAUM_OK) {
+    keep_trial(run);
+  }
+  return status;
+}
+
 static baum_status whole_step(baum_simulation *run, int direction)
 {
   double t_next = grid_time(run, run->grid.k + direction);
@@ -143,22 +179,16 @@ static baum_status whole_step(baum_simulation *run, int direction)
                        "t = %.17g s: the step of %g s is lost in the rounding of the time",
                        run->state.t, run->options.step);
   }
-  baum_status status = try_step(run, t_next, true);
-  if (status == BAUM_OK) {
-    keep_trial(run);
-    run->grid.k += direction;
-  }
+  baum_status status = kept_step(run, t_next);
+  run->grid.k += status == BAUM_OK ? direction : 0;
   return status;
 }
 
 static baum_status short_step(baum_simulation *run, double t)
 {
-  baum_status status = try_step(run, t, true);
+  baum_status status = kept_step(run, t);
   if (status == BAUM_OK) {
-    keep_trial(run);
-    run->counters.short_steps++;
-    run->counters.restarts += run->integrator->accept ? 1 : 0; /* its past was of the grid */
-    run->grid = (baum_i_grid){.origin = t};
+    leave_grid(run);
   }
   return status;
 }
@@ -202,9 +232,14 @@ static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   baum_i_run_copy(run, &run->ahead, &run->trial);
+  if (run->events) {
+    run->events->from = run->ahead.t;
+  }
   baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
   if (status == BAUM_OK) {
     status = check_finite(run, &run->trial);
+  }
+  if (status == BAUM_OK) {
   }
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
@@ -226,7 +261,7 @@ static void catch_up(baum_simulation *run)
   baum_i_run_copy(run, &run->ahead, &run->state);
 }
 
-static baum_status interpolate(baum_simulation *run, double t)
+baum_status baum_i_run_inside(baum_simulation *run, double t)
 {
   baum_status status =
     run->integrator->interpolate(run->self, &run->problem, t, run->trial.q, run->trial.v);
@@ -237,42 +272,62 @@ static baum_status interpolate(baum_simulation *run, double t)
   if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
     status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
   }
-  if (status == BAUM_OK) {
+  return status;
+}
+
+/* Look at the last step, as far as t or its end; the run stands where an event stops it. */
+static baum_status watch_last(baum_simulation *run, double t)
+{
+  bool passed = run->problem.direction * (run->ahead.t - t) > 0.0;
+  baum_status status = run->events ? baum_i_events_watch(run, passed ? t : run->ahead.t) : BAUM_OK;
+  if (status == BAUM_STOP_EVENT) {
     baum_i_run_copy(run, &run->trial, &run->state);
+  }
+  return status;
+}
+
+/* One step more; where that fails the run stands at the end of the last. */
+static baum_status next_step(baum_simulation *run, int64_t taken)
+{
+  baum_status status = may_go_on(run, taken);
+  if (status == BAUM_OK) {
+    status = internal_step(run);
+  }
+  if (status != BAUM_OK) {
+    catch_up(run);
   }
   return status;
 }
 
 static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)
 {
-  while (run->problem.direction * (t - run->ahead.t) > 0.0) {
-    baum_status status = may_go_on(run, (*taken)++);
+  baum_status status = watch_last(run, t);
+  while (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) > 0.0) {
+    status = next_step(run, (*taken)++);
     if (status == BAUM_OK) {
-      status = internal_step(run);
+      status = watch_last(run, t);
     }
-    if (status != BAUM_OK) {
-      catch_up(run);
-      return status;
-    }
+  }
+  if (status != BAUM_OK) {
+    return status;
   }
   if (t == run->ahead.t) {
     catch_up(run);
     return BAUM_OK;
   }
-  return interpolate(run, t);
+  status = baum_i_run_inside(run, t);
+  if (status == BAUM_OK) {
+    baum_i_run_copy(run, &run->trial, &run->state);
+  }
+  return status;
 }
 
 /* ---- what every call begins and ends with ---- */
 
-/* Point the run towards t. A multistep method that turns round begins anew from the present state;
- * when it cannot, it has not turned. */
-static baum_status turn(baum_simulation *run, double t)
+/* A multistep method that turns round begins anew from the present state; when it cannot, it has not turned. */
+static baum_status turn_to(baum_simulation *run, double direction)
 {
   double before = run->problem.direction;
-  double direction = t < run->state.t ? -1.0 : 1.0;
-  if (direction == before) {
-    return BAUM_OK;
-  }
   if (run->account) {
     baum_i_account_read(run, &run->state);
   }
@@ -291,6 +346,23 @@ static baum_status turn(baum_simulation *run, double t)
   run->counters.restarts++;
   baum_i_run_copy(run, &run->state, &run->ahead);
   return BAUM_OK;
+}
+
+/* Point the run towards t. */
+static baum_status turn(baum_simulation *run, double t)
+{
+  double direction = t < run->state.t ? -1.0 : 1.0;
+  if (direction == run->problem.direction) {
+    return BAUM_OK;
+  }
+  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = turn_to(run, direction);
+  }
+  if (status == BAUM_OK && run->events) {
+    baum_i_events_go_on(run);
+  }
+  return status;
 }
 
 static baum_status advance(baum_simulation *run, double t, int64_t *taken)
@@ -360,8 +432,17 @@ static baum_status one_step(baum_simulation *run)
   if (baum_i_problem_has_fixed_step(&run->problem)) {
     return whole_step(run, 1);
   }
-  baum_status status = internal_step(run);
-  catch_up(run);
+  baum_status status = watch_last(run, INFINITY);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = internal_step(run);
+  if (status == BAUM_OK) {
+    status = watch_last(run, INFINITY);
+  }
+  if (status != BAUM_STOP_EVENT) {
+    catch_up(run);
+  }
   return status;
 }
 
@@ -435,7 +516,10 @@ static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken
   }
   if (status == BAUM_OK && !stands_at(run, t)) {
     *at = &run->trial;
-    status = try_step(run, t, false);
+    status = baum_i_run_try_step(run, t, false);
+    if (status == BAUM_OK) {
+      status = watch_step(run, t);
+    }
   }
   return status;
 }

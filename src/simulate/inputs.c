@@ -12,9 +12,9 @@
 #include "base/alloc.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 
-/* A method that fails here begins anew at its next step, and from the same state. */
-static baum_status begin_anew(baum_simulation *run)
+static baum_status restart(baum_simulation *run)
 {
   if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;
@@ -28,6 +28,18 @@ static baum_status begin_anew(baum_simulation *run)
   baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
   run->counters.restarts += status == BAUM_OK;
   return baum_i_message_settle(status, &kept);
+}
+
+baum_status baum_i_run_begin_anew(baum_simulation *run)
+{
+  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = restart(run);
+  }
+  if (status == BAUM_OK && run->events) {
+    baum_i_events_go_on(run);
+  }
+  return status;
 }
 
 /* The work up to here, before anything changes. */
@@ -59,7 +71,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   }
   read_account(simulation);
   *present = value;
-  status = begin_anew(simulation);
+  status = baum_i_run_begin_anew(simulation);
   if (status != BAUM_OK) {
     *present = before;
     return baum_i_run_fail(simulation, status);
@@ -125,7 +137,7 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
   memcpy(before, numbers, size);
   read_account(run);
   joint->type->replace_law(numbers, run->state.t, law);
-  baum_status status = begin_anew(run);
+  baum_status status = baum_i_run_begin_anew(run);
   if (status != BAUM_OK) {
     memcpy(numbers, before, size);
   }

@@ -32,6 +32,7 @@ typedef struct baum_i_work {
 } baum_i_work;
 
 typedef struct baum_i_account baum_i_account;
+typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
@@ -43,6 +44,8 @@ struct baum_simulation {
 
   double *row_gains;       /* (nc) own copy of the option, or NULL */
   baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
+  baum_i_events *events;   /* see events.h; NULL: there are none */
+
 
   double *parameters;   /* own copy of the mechanism's once a driver is set, else NULL */
   double *memory;       /* all arrays below */
@@ -121,7 +124,19 @@ void baum_i_run_count(baum_simulation *run);
 /* Let the counters go on from what has been written into run->counters. */
 void baum_i_run_count_from_here(baum_simulation *run);
 
+/* ---- advance.c ---- */
+
+/* Fixed step: a step to t_next from the present state, on the trial state. */
+baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe);
+
+/* Variable step: the state inside the last step, projected if the formulation says so, into trial. */
+baum_status baum_i_run_inside(baum_simulation *run, double t);
+
 /* ---- inputs.c ---- */
+
+/* The equations change at the present state: methods that carry their past along begin anew from it, which may be
+ * behind the end of their last step. A method that fails here begins anew at its next step, and from the same state. */
+baum_status baum_i_run_begin_anew(baum_simulation *run);
 
 /* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK or
  * BAUM_ERR_MEMORY. */

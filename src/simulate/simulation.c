@@ -7,6 +7,7 @@
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 #include "simulate/options.h"
 
 /* ---- memory ---- */
@@ -260,6 +261,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
     simulation->integrator->destroy(simulation->self);
   }
   baum_i_account_destroy(simulation->integrator, simulation->account);
+  baum_i_events_destroy(simulation->events);
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);

@@ -6,6 +6,7 @@
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A drawing further off is more likely to be mounted on a branch that its author did not
@@ -184,6 +185,9 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   if (run->account) {
     baum_i_account_begin(run);
   }
+  if (run->events) {
+    baum_i_events_begin(run);
+  }
 }
 
 static baum_status check_entry(const char *call, char name, int i, double value, bool may_be_free)
@@ -260,6 +264,9 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   if (status == BAUM_OK) {
     status = baum_i_run_measure(simulation, &energy);
+  }
+  if (status == BAUM_OK && simulation->events) {
+    status = baum_i_events_evaluate(simulation, &simulation->trial);
   }
   /* Last of what may fail, for it cannot be undone. */
   if (status == BAUM_OK &&

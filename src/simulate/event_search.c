@@ -1,0 +1,386 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The search for events, one for all integrators: g(t) is the value of an event in the motion as outputs see it,
+ * which is the interpolant of the last step, projected where the formulation says so, or with fixed steps the end of
+ * a shorter step from the same start. docs/theory/events.md.
+ *
+ * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is looked at cheaply, on the
+ * interpolant without projection or on the cubic of the two ends; where a sign has changed there, it is asked of g.
+ * Each event has a side that it keeps from look to look, also from step to step, where interpolants do not meet exactly:
+ * nothing is found twice or lost there.
+ *
+ * Between two looks with different signs g is made zero by the secant with the weights of Dowell and Jarratt (BIT 11,
+ * 1971; "Illinois"), every third time by bisection, never nearer to an end than half of the tolerance, until the two are
+ * a tolerance apart. The event is at the later one, where g has passed zero.
+ */
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "mechanism/definition.h"
+#include "simulate/events.h"
+
+enum { QUARTERS = 4, MOST_TRIES = 300 };
+
+/* Roundings of a time that count as the same, and share of 1/rate. */
+static const double ROUNDINGS = 4.0;
+static const double SAME_TIME = 1e-12;
+
+/* A stretch without looks between. */
+typedef struct bracket {
+  double a, b;   /* earlier and later time along the run */
+  double fa, fb; /* of opposite signs */
+} bracket;
+
+static bool is_before(const baum_simulation *run, double a, double b)
+{
+  return run->problem.direction * (b - a) > 0.0;
+}
+
+static bool is_fixed(const baum_simulation *run)
+{
+  return baum_i_problem_has_fixed_step(&run->problem);
+}
+
+/* ---- states inside the step ---- */
+
+/* The cubic of the ends of a fixed step; exact as far as it begins like the motion. */
+static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_state *p = &run->state;
+  const baum_i_state *n = &run->ahead;
+  double h = n->t - p->t;
+  double x = (t - p->t) / h;
+  for (int i = 0; i < m->nv; i++) {
+    double change = n->q[i] - p->q[i];
+    double bend = change - h * p->v[i];
+    double twist = h * (n->v[i] - p->v[i]) - 2.0 * bend;
+    out->q[i] = p->q[i] + x * (h * p->v[i] + x * (bend + (x - 1.0) * twist));
+    out->v[i] = p->v[i] + x * (2.0 * bend + (3.0 * x - 2.0) * twist) / h;
+  }
+}
+
+/* Shorter than this share of a step the cubic is the motion to rounding, and methods that divide by the step are not
+ * asked. */
+static const double SHORTEST = 1e-9;
+
+static baum_status find_state_by_step(baum_simulation *run, double t)
+{
+  if (t == run->trial.t) {
+    return BAUM_OK;
+  }
+  if (fabs(t - run->state.t) > SHORTEST * fabs(run->ahead.t - run->state.t)) {
+    return baum_i_run_try_step(run, t, false);
+  }
+  follow_cubic(run, t, &run->trial);
+  run->trial.t = t;
+  return BAUM_OK;
+}
+
+/* The state that outputs see at t, into the trial state. */
+static baum_status find_state(baum_simulation *run, double t)
+{
+  if (is_fixed(run)) {
+    return find_state_by_step(run, t);
+  }
+  if (t == run->ahead.t) {
+    baum_i_run_copy(run, &run->ahead, &run->trial);
+    return BAUM_OK;
+  }
+  return baum_i_run_inside(run, t);
+}
+
+/* About that state, at less cost, into events->look. */
+static baum_status glance(baum_simulation *run, double t)
+{
+  baum_i_state *look = &run->events->look;
+  look->t = t;
+  if (is_fixed(run)) {
+    follow_cubic(run, t, look);
+    return BAUM_OK;
+  }
+  return run->integrator->interpolate(run->self, &run->problem, t, look->q, look->v);
+}
+
+static baum_status value_at(baum_simulation *run, double t)
+{
+  baum_status status = find_state(run, t);
+  return status == BAUM_OK ? baum_i_events_evaluate(run, &run->trial) : status;
+}
+
+/* ---- one event ---- */
+
+static bool has_passed(const baum_i_events *events, int k)
+{
+  int32_t side = events->marks[k].side;
+  return side != 0 && baum_i_sign(events->list[k].next) != side;
+}
+
+/* In time, whichever way the run goes. */
+static int32_t direction_of(const baum_simulation *run, int k)
+{
+  return run->events->marks[k].side * run->problem.direction < 0.0 ? 1 : -1;
+}
+
+static bool is_wanted(const baum_simulation *run, int k)
+{
+  int32_t wanted = run->events->list[k].def.direction;
+  return wanted == 0 || wanted == direction_of(run, k);
+}
+
+static double tolerance_of(const baum_i_event *event, double t)
+{
+  double rounding = ROUNDINGS * DBL_EPSILON * fabs(t);
+  return event->def.tolerance > rounding ? event->def.tolerance : rounding;
+}
+
+/* The next time to look at. */
+static double choose(const bracket *is, double tolerance, int try)
+{
+  double width = is->b - is->a;
+  double x = is->a + width * is->fa / (is->fa - is->fb);
+  double edge = copysign(0.5 * tolerance, width);
+  if (try % 3 == 2 || !(fabs(width) > 2.0 * fabs(edge))) {
+    return is->a + 0.5 * width;
+  }
+  if ((x - is->a) * width < edge * width) {
+    return is->a + edge;
+  }
+  return (is->b - x) * width < edge * width ? is->b - edge : x;
+}
+
+/* Event k between events->t and t, where it has passed. Changes next of all. */
+static baum_status locate(baum_simulation *run, int k, double t)
+{
+  baum_i_event *event = &run->events->list[k];
+  const baum_i_event_mark *mark = &run->events->marks[k];
+  bool agrees = baum_i_sign(mark->value) == mark->side;
+  bracket is = {.a = run->events->t,
+                .b = t,
+                .fa = agrees ? mark->value : mark->side * DBL_MIN,
+                .fb = event->next};
+  double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
+  int stays = 0; /* tries in a row that have moved a (< 0) or b (> 0) */
+  for (int try = 0; try < MOST_TRIES && is.fb != 0.0 && fabs(is.b - is.a) > tolerance; try++) {
+    double x = choose(&is, tolerance, try);
+    if (x == is.a || x == is.b) {
+      break;
+    }
+    baum_status status = value_at(run, x);
+    if (status != BAUM_OK) {
+      return status;
+    }
+    bool before = baum_i_sign(event->next) == mark->side;
+    stays = before ? (stays < 0 ? stays - 1 : -1) : (stays > 0 ? stays + 1 : 1);
+    *(before ? &is.a : &is.b) = x;
+    *(before ? &is.fa : &is.fb) = event->next;
+    if (stays < -1 || stays > 1) {
+      *(before ? &is.fb : &is.fa) *= 0.5;
+    }
+  }
+  event->found = is.b;
+  return BAUM_OK;
+}
+
+/* ---- what has been found ---- */
+
+static void record(baum_simulation *run, int k, double t)
+{
+  baum_i_events *events = run->events;
+  events->marks[k].last = t;
+  events->records[events->recorded % BAUM_I_EVENT_RECORDS] =
+    (baum_event_record){.t = t, .event = k, .direction = direction_of(run, k)};
+  events->recorded++;
+}
+
+/* Leaving zero at the start is no event. */
+static bool leaves_zero(const baum_simulation *run, int k)
+{
+  const baum_i_events *events = run->events;
+  double since = fabs(events->list[k].found - events->begin);
+  return events->marks[k].fresh &&
+         since <= baum_i_event_window(run, &events->list[k], events->begin);
+}
+
+static int first_found(const baum_simulation *run)
+{
+  const baum_i_events *events = run->events;
+  int first = -1;
+  for (int k = 0; k < events->count; k++) {
+    double found = events->list[k].found;
+    if (!isnan(found) && (first < 0 || is_before(run, found, events->list[first].found))) {
+      first = k;
+    }
+  }
+  return first;
+}
+
+/* The last time of those that cannot be told from the first. */
+static double end_of_group(const baum_simulation *run, int first)
+{
+  const baum_i_events *events = run->events;
+  double t = events->list[first].found;
+  double same = fmax(SAME_TIME / run->problem.rate, 16.0 * DBL_EPSILON * fabs(t));
+  double end = t;
+  for (int k = 0; k < events->count; k++) {
+    const baum_i_event *event = &events->list[k];
+    double apart = fmax(same, fmax(tolerance_of(event, t), tolerance_of(&events->list[first], t)));
+    if (fabs(event->found - t) <= apart && is_before(run, end, event->found)) {
+      end = event->found;
+    }
+  }
+  return end;
+}
+
+/* The events up to `end`, all at that time. Is one of them terminal? */
+static int happen(baum_simulation *run, double end)
+{
+  baum_i_events *events = run->events;
+  int terminal = -1;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event *event = &events->list[k];
+    if (isnan(event->found) || is_before(run, end, event->found)) {
+      continue;
+    }
+    if (!leaves_zero(run, k)) {
+      record(run, k, end);
+      terminal = event->def.terminal && terminal < 0 ? k : terminal;
+    }
+    events->marks[k].side = -events->marks[k].side;
+    events->marks[k].fresh = 0;
+    event->found = (double)NAN;
+  }
+  return terminal;
+}
+
+/* ---- a stretch ---- */
+
+static baum_status stop(baum_simulation *run, int terminal, double t)
+{
+  baum_i_events *events = run->events;
+  baum_status status = value_at(run, t);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  events->t = t;
+  for (int k = 0; k < events->count; k++) {
+    events->marks[k].value = events->list[k].next;
+    events->list[k].found = (double)NAN;
+  }
+  const char *name = events->list[terminal].def.name;
+  bool rises = events->marks[terminal].side * run->problem.direction > 0.0;
+  return baum_i_fail(BAUM_STOP_EVENT, "t = %.9g s: event %d%s%.60s%s, %s", t, terminal,
+                     name ? " \"" : "", name ? name : "", name ? "\"" : "",
+                     rises ? "rising" : "falling");
+}
+
+/* In order of time, up to the first that is terminal. */
+static baum_status deliver(baum_simulation *run)
+{
+  for (int first = first_found(run); first >= 0; first = first_found(run)) {
+    double end = end_of_group(run, first);
+    int terminal = happen(run, end);
+    if (terminal >= 0) {
+      return stop(run, terminal, end);
+    }
+  }
+  return BAUM_OK;
+}
+
+static bool any_has_passed(const baum_i_events *events)
+{
+  for (int k = 0; k < events->count; k++) {
+    if (has_passed(events, k)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* Every event that has passed at t, whose values are given; afterwards they are those at t again. */
+static baum_status locate_all(baum_simulation *run, double t)
+{
+  baum_i_events *events = run->events;
+  baum_status status = BAUM_OK;
+  bool moved = false;
+  for (int k = 0; k < events->count && status == BAUM_OK; k++) {
+    if (moved) {
+      status = value_at(run, t);
+      moved = false;
+    }
+    if (status == BAUM_OK && has_passed(events, k) && is_wanted(run, k)) {
+      status = locate(run, k, t);
+      moved = true;
+    }
+  }
+  return status == BAUM_OK && moved ? value_at(run, t) : status;
+}
+
+/* Take the values at t. */
+static void keep(baum_i_events *events, double t)
+{
+  events->t = t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    mark->fresh = mark->fresh && !has_passed(events, k);
+    mark->value = events->list[k].next;
+    mark->side = baum_i_sign(mark->value);
+  }
+}
+
+/* Is the state at t to be had for nothing? */
+static bool is_end(const baum_simulation *run, double t)
+{
+  return is_fixed(run) ? t == run->trial.t : t == run->ahead.t;
+}
+
+/* From events->t to t, without looks between. */
+static baum_status look(baum_simulation *run, double t, bool exact)
+{
+  baum_i_events *events = run->events;
+  exact = exact || is_end(run, t);
+  baum_status status = exact ? find_state(run, t) : glance(run, t);
+  if (status == BAUM_OK) {
+    status = baum_i_events_evaluate(run, exact ? &run->trial : &events->look);
+  }
+  if (status == BAUM_OK && !exact && any_has_passed(events)) {
+    status = value_at(run, t);
+  }
+  if (status == BAUM_OK && any_has_passed(events)) {
+    status = locate_all(run, t);
+    if (status == BAUM_OK) {
+      status = deliver(run);
+    }
+  }
+  if (status == BAUM_OK) {
+    keep(events, t);
+  }
+  return status;
+}
+
+/* ---- the whole ---- */
+
+baum_status baum_i_events_watch(baum_simulation *run, double to)
+{
+  baum_i_events *events = run->events;
+  bool fixed = is_fixed(run);
+  double from = fixed ? run->state.t : events->from;
+  double end = fixed ? to : run->ahead.t;
+  baum_status status = BAUM_OK;
+  if (fixed) {
+    baum_i_run_copy(run, &run->trial, &run->ahead);
+  }
+  for (int k = 1; k < QUARTERS && status == BAUM_OK; k++) {
+    double t = from + k * (end - from) / QUARTERS;
+    if (is_before(run, events->t, t) && is_before(run, t, to)) {
+      status = look(run, t, false);
+    }
+  }
+  if (status == BAUM_OK && is_before(run, events->t, to)) {
+    status = look(run, to, true);
+  }
+  if (status == BAUM_OK && fixed) {
+    status = find_state(run, to);
+  }
+  return status;
+}

@@ -1,0 +1,306 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Events of a run: what they are, their values, where they begin, and what has happened.
+ * The search is in event_search.c. */
+#include "simulate/events.h"
+
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "mechanism/definition.h"
+#include "mechanism/joints/coordinate.h"
+
+/* ---- definition ---- */
+
+static const baum_event_def defaults = {
+  .struct_size = sizeof(baum_event_def),
+  .terminal = true,
+  .tolerance = BAUM_I_NOT_GIVEN,
+};
+
+static const baum_i_definition definition = {
+  .kind = "event", .size = sizeof(baum_event_def), .defaults = &defaults};
+
+void baum_event_def_init(baum_event_def *def, size_t caller_size)
+{
+  baum_i_definition_init(&definition, def, caller_size);
+}
+
+static baum_status check_source(const baum_mechanism *m, const baum_event_def *def,
+                                const char *label)
+{
+  bool of_joint = def->joint.index1 != 0;
+  if (of_joint == (def->function != NULL)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s, one of them must be", label,
+                       of_joint ? "function() and joint are both given"
+                                : "neither function() nor joint is given");
+  }
+  return of_joint ? baum_i_check_coordinate(m, def->joint, label, "joint", "to pass a value")
+                  : BAUM_OK;
+}
+
+static baum_status check(const baum_mechanism *m, const baum_event_def *def, const char *label)
+{
+  baum_status status = check_source(m, def, label);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "value", "rad or m", def->value);
+  }
+  if (status == BAUM_OK && (def->direction < -1 || def->direction > 1)) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: direction is %d, must be -1, 0 or 1", label,
+                         (int)def->direction);
+  }
+  if (status == BAUM_OK && !isnan(def->tolerance)) {
+    status = baum_i_check_positive(label, "tolerance", "s", def->tolerance);
+  }
+  return status;
+}
+
+static void label_of(int number, const char *name, char text[BAUM_I_LABEL_SIZE])
+{
+  (void)snprintf(text, BAUM_I_LABEL_SIZE, name ? "event %d \"%.60s\"" : "event %d", number, name);
+}
+
+/* ---- life ---- */
+
+static baum_status create(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_events *events = baum_i_alloc(1, sizeof *events);
+  if (!events) {
+    return baum_i_fail_memory();
+  }
+  events->memory = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *events->memory);
+  if (!events->memory) {
+    baum_i_events_destroy(events);
+    return baum_i_fail_memory();
+  }
+  events->look = (baum_i_state){.q = events->memory, .v = events->memory + m->nq};
+  events->t = run->state.t;
+  events->begin = run->state.t;
+  run->events = events;
+  return BAUM_OK;
+}
+
+void baum_i_events_destroy(baum_i_events *events)
+{
+  if (events) {
+    for (int k = 0; k < events->count; k++) {
+      baum_i_free(events->list[k].def.name);
+    }
+    baum_i_free(events->list);
+    baum_i_free(events->marks);
+    baum_i_free(events->memory);
+    baum_i_free(events);
+  }
+}
+
+/* Room for one more, and its name; the list is as long as before. */
+static baum_status make_room(baum_i_events *events, const baum_event_def *def)
+{
+  size_t count = (size_t)events->count + 1;
+  baum_i_event *list = baum_i_grow(events->list, count, sizeof *list);
+  if (!list) {
+    return baum_i_fail_memory();
+  }
+  events->list = list;
+  baum_i_event_mark *marks = baum_i_grow(events->marks, count, sizeof *marks);
+  if (!marks) {
+    return baum_i_fail_memory();
+  }
+  events->marks = marks;
+  baum_i_event *event = &list[count - 1];
+  *event = (baum_i_event){.def = *def, .joint = -1, .found = (double)NAN};
+  event->def.name = def->name ? baum_i_copy_text(def->name) : NULL;
+  return def->name && !event->def.name ? baum_i_fail_memory() : BAUM_OK;
+}
+
+/* ---- values ---- */
+
+static baum_status fail_value(const baum_simulation *run, int number, int answer, double value,
+                              double t)
+{
+  const baum_event_def *def = &run->events->list[number].def;
+  char label[BAUM_I_LABEL_SIZE];
+  label_of(number, def->name, label);
+  if (answer != 0) {
+    return baum_i_fail(BAUM_ERR_CALLBACK, "t = %.9g s: %s: function() returned %d (%s)", t, label,
+                       answer, answer > 0 ? "retry, which an event cannot do" : "stop");
+  }
+  return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
+}
+
+static double coordinate_of(baum_workspace *w, const baum_i_event *event)
+{
+  const baum_i_joint *joint = w->mechanism->joints[event->joint];
+  baum_i_coordinate coordinate;
+  joint->type->coordinate(joint, &w->point, &coordinate);
+  return coordinate.value - event->def.value;
+}
+
+static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_state *state)
+{
+  baum_workspace *w = run->workspace;
+  baum_i_event *event = &run->events->list[number];
+  const baum_event_def *def = &event->def;
+  int answer = 0;
+  event->next = 0.0;
+  if (event->joint >= 0) {
+    event->next = coordinate_of(w, event);
+  } else {
+    answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
+  }
+  bool fine = answer == 0 && isfinite(event->next);
+  return fine ? BAUM_OK : fail_value(run, number, answer, event->next, state->t);
+}
+
+baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state)
+{
+  baum_status status = BAUM_OK;
+  baum_i_point_set(&run->workspace->point, state->t, state->q, state->v);
+  for (int k = 0; k < run->events->count && status == BAUM_OK; k++) {
+    status = evaluate_one(run, k, state);
+  }
+  return status;
+}
+
+/* ---- where they begin ---- */
+
+/* Of 1/rate, for methods that go on from the very state they are given. */
+static const double NO_TIME = 1e-10;
+
+double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t)
+{
+  const baum_i_problem *p = &run->problem;
+  double share = run->integrator->solves_residuals && p->rtol > 0.0 ? 10.0 * p->rtol : NO_TIME;
+  double window = fmax(share / p->rate, 16.0 * DBL_EPSILON * fabs(t));
+  return event->def.tolerance > window ? event->def.tolerance : window;
+}
+
+static bool has_just_been(const baum_simulation *run, int k)
+{
+  double t = run->state.t;
+  double last = run->events->marks[k].last;
+  return fabs(t - last) <= baum_i_event_window(run, &run->events->list[k], t);
+}
+
+void baum_i_events_begin(baum_simulation *run)
+{
+  baum_i_events *events = run->events;
+  events->t = run->state.t;
+  events->begin = run->state.t;
+  events->from = run->state.t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    mark->value = events->list[k].next;
+    mark->side = baum_i_sign(mark->value);
+    mark->fresh = 1;
+  }
+}
+
+/* What has just happened may do so again at once only because a method begins a little beside the state, or
+ * because the run turns back; that is leaving zero. */
+void baum_i_events_go_on(baum_simulation *run)
+{
+  baum_i_events *events = run->events;
+  events->t = run->state.t;
+  events->begin = run->state.t;
+  events->from = run->state.t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    mark->value = events->list[k].next;
+    mark->side = mark->value == 0.0 ? mark->side : baum_i_sign(mark->value);
+    mark->fresh = has_just_been(run, k);
+  }
+}
+
+static baum_status begin_last(baum_simulation *run)
+{
+  baum_i_events *events = run->events;
+  int k = events->count;
+  baum_i_event *event = &events->list[k];
+  const baum_mechanism *m = run->workspace->mechanism;
+  event->joint = event->def.joint.index1 != 0 ? baum_i_joint_index(m, event->def.joint) : -1;
+  baum_i_point_set(&run->workspace->point, run->state.t, run->state.q, run->state.v);
+  baum_status status = evaluate_one(run, k, &run->state);
+  if (status != BAUM_OK) {
+    baum_i_free(event->def.name);
+    return status;
+  }
+  events->marks[k] = (baum_i_event_mark){
+    .value = event->next, .last = (double)NAN, .side = baum_i_sign(event->next), .fresh = 1};
+  events->count++;
+  return BAUM_OK;
+}
+
+/* ---- public ---- */
+
+static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
+{
+  const char *call = "baum_simulation_add_event";
+  if (!run || !def) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
+                       run ? "the definition is" : "the simulation is");
+  }
+  if (!baum_i_is_struct_size(def->struct_size, sizeof *def)) {
+    return baum_i_fail(BAUM_ERR_STRUCT,
+                       "%s: struct_size of the definition is %zu, must be %zu, or that of an older "
+                       "version; start from baum_event_def_default()",
+                       call, def->struct_size, sizeof *def);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,
+                                      int32_t *index)
+{
+  baum_status status = check_add(simulation, def);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_event_def given = baum_event_def_default();
+  memcpy(&given, def, def->struct_size); /* what an older version lacks has its default */
+  int number = simulation->events ? simulation->events->count : 0;
+  char label[BAUM_I_LABEL_SIZE];
+  label_of(number, given.name, label);
+  status = check(simulation->workspace->mechanism, &given, label);
+  if (status == BAUM_OK && !simulation->events) {
+    status = create(simulation);
+  }
+  if (status == BAUM_OK) {
+    status = make_room(simulation->events, &given);
+  }
+  if (status == BAUM_OK) {
+    status = begin_last(simulation);
+  }
+  if (status == BAUM_OK && index) {
+    *index = number;
+  }
+  return status;
+}
+
+int64_t baum_simulation_event_count(const baum_simulation *simulation)
+{
+  return simulation && simulation->events ? simulation->events->recorded : 0;
+}
+
+baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
+                                  baum_event_record *out, size_t caller_size)
+{
+  const char *call = "baum_simulation_event";
+  if (!simulation || !out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+  }
+  int64_t count = baum_simulation_event_count(simulation);
+  int64_t first = count > BAUM_I_EVENT_RECORDS ? count - BAUM_I_EVENT_RECORDS : 0;
+  if (k < first || k >= count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld, those kept",
+                       call, (long long)k, (long long)first, (long long)count - 1);
+  }
+  baum_event_record record = simulation->events->records[k % BAUM_I_EVENT_RECORDS];
+  record.struct_size = caller_size < sizeof record ? caller_size : sizeof record;
+  memcpy(out, &record, record.struct_size);
+  return BAUM_OK;
+}

@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Events of a run: which side of zero each is on, and the search for the times at which they pass it. */
+#ifndef BAUM_I_SIMULATE_EVENTS_H
+#define BAUM_I_SIMULATE_EVENTS_H
+
+#include <baum/events.h>
+
+#include "simulate/run.h"
+
+enum { BAUM_I_EVENT_RECORDS = 1024 };
+
+/* What is known of an event at the time up to which it has been looked at. */
+typedef struct baum_i_event_mark {
+  double value;
+  double last;   /* [s] time of its last record, NaN: none */
+  int32_t side;  /* of zero: -1, 1, or 0 where nothing but zero was seen */
+  int32_t fresh; /* 1: has not passed zero since the start, and may still leave it */
+} baum_i_event_mark;
+
+typedef struct baum_i_event {
+  baum_event_def def; /* with a copy of its name */
+  int joint;          /* of its coordinate, or -1 */
+  double next;        /* value at the state looked at */
+  double found;       /* time at which it passes zero in the stretch under way; NaN: does not */
+} baum_i_event;
+
+struct baum_i_events {
+  baum_i_event *list;       /* (count) */
+  baum_i_event_mark *marks; /* (count) */
+  int count;
+  double t;          /* looked at up to here */
+  double begin;      /* where fresh ones began */
+  double from;       /* variable step: start of the last one */
+  double *memory;    /* of look */
+  baum_i_state look; /* a state between */
+  int64_t recorded;
+  baum_event_record records[BAUM_I_EVENT_RECORDS]; /* the last ones, number k at k mod its size */
+};
+
+void baum_i_events_destroy(baum_i_events *events);
+
+/* What follows is called where run->events is not NULL. */
+
+/* Values at a state, into next. BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
+
+/* Begin at the present state, whose values have just been evaluated: a start, or a motion that goes on
+ * another way. A start may be where the run stands already, with other velocities. */
+void baum_i_events_begin(baum_simulation *run);
+void baum_i_events_go_on(baum_simulation *run);
+
+/* Look at the motion up to time `to`. Fixed step: the trial state is the end of a step to there, which is
+ * made again where it was needed otherwise. BAUM_OK; BAUM_STOP_EVENT, and the trial state is at the
+ * event; or a failure. */
+baum_status baum_i_events_watch(baum_simulation *run, double to);
+
+/* Times nearer than this are one time: of leaving zero and the start. */
+double baum_i_event_window(const baum_simulation *run, const baum_i_event *event, double t);
+
+static inline int32_t baum_i_sign(double x)
+{
+  return x > 0.0 ? 1 : (x < 0.0 ? -1 : 0);
+}
+
+#endif

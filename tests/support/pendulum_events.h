@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A body on a pin whose motion between events is known in closed form: it hangs at angle 0, is let go at rest at an
+ * angle below pi, and passes 0 at odd multiples of a quarter of its period. Include after cmocka.h. */
+#ifndef BAUM_TEST_PENDULUM_EVENTS_H
+#define BAUM_TEST_PENDULUM_EVENTS_H
+
+#include <math.h>
+
+#include <baum/baum.h>
+
+typedef struct swing {
+  baum_mechanism *mechanism;
+  baum_joint_id pin;
+  double quarter; /* [s] */
+} swing;
+
+/* K(sin(angle / 2)) = pi / (2 agm(1, cos(angle / 2))) (Abramowitz, Stegun 1964, 17.6.3). */
+static inline double quarter_of(double angle, double rate)
+{
+  double a = 1.0;
+  double b = cos(0.5 * angle);
+  for (int k = 0; k < 8; k++) {
+    double mean = 0.5 * (a + b);
+    b = sqrt(a * b);
+    a = mean;
+  }
+  return acos(-1.0) / (2.0 * a * rate);
+}
+
+/* A particle-like body of 1 kg at 1 m with 0.25 kg m^2: small swings at sqrt(9.81 / 1.25) rad/s. */
+static inline swing swing_make(double angle)
+{
+  swing s = {.mechanism = NULL};
+  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.mass = 1.0;
+  body.inertia = 0.25;
+  body.angle = angle;
+  body.position[0] = sin(angle);
+  body.position[1] = -cos(angle);
+  body.angular_velocity = 0.0;
+  baum_body_id bob;
+  assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &body, &bob), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = bob;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(s.mechanism, &pin, &s.pin), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(s.mechanism), BAUM_OK);
+  s.quarter = quarter_of(angle, sqrt(9.81 / 1.25));
+  return s;
+}
+
+#endif
