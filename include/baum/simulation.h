@@ -424,6 +424,12 @@ typedef struct baum_counters {
   double
     damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
                        beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise. */
+  int64_t near_singular_intervals; /**< [-] passages near singular poses, see
+                                        baum_simulation_near_singular(). */
+  int64_t branch_warnings; /**< [-] of these those behind which the motion is on another branch, or
+                                may be. */
+  int64_t forced_steps;    /**< [-] of rk8 and dp5, taken over a singular pose whatever their error
+                                estimate. */
 } baum_counters;
 
 /** Read the counters.
@@ -470,6 +476,38 @@ typedef struct baum_energy_account {
  */
 BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
                                                     baum_energy_account *out, size_t caller_size);
+
+/** What has become of a motion behind a singular pose, where several branches of motion cross. */
+typedef enum baum_branch {
+  BAUM_BRANCH_CONTINUED = 1, /**< It goes on smoothly. */
+  BAUM_BRANCH_LEFT = 2,      /**< Its velocity has jumped: it is on another branch. Do not trust it. */
+  BAUM_BRANCH_UNKNOWN = 3    /**< Cannot be told from the steps taken. */
+} baum_branch;
+
+/** One interval in which a run was near a singular pose. The pivot is the smallest of the equations
+ *  of motion against the largest of the run so far; it falls with the square of the distance from a
+ *  singular pose. Intervals with a pivot below 1e-3 are listed, when the run has come out of them. */
+typedef struct baum_near_singular {
+  size_t struct_size;  /**< Set by baum_simulation_near_singular(). */
+  double begin;        /**< [s] last step before it. */
+  double end;          /**< [s] first step behind it. */
+  double t;            /**< [s] of the smallest pivot, between steps too. */
+  double pivot;        /**< [-] smallest of the motion, of the usual one; also between steps. */
+  double jump;         /**< [-] change of the velocity against the smooth continuation of the motion
+                            before, of its size; NaN: not known. */
+  double jump_error;   /**< [-] estimated error of jump; NaN likewise. */
+  baum_branch branch;  /**< What has become of the motion. */
+  baum_joint_id joint; /**< With the smallest pivot; none where it is not known. */
+} baum_near_singular;
+
+/** Read a near-singular interval. Runs of baum_kinematics() have none.
+ *  @param      k            0 to counters.near_singular_intervals - 1; the first 64 are kept
+ *  @param[out] out          filled
+ *  @param      caller_size  sizeof *out
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
+ */
+BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simulation, int64_t k,
+                                                   baum_near_singular *out, size_t caller_size);
 
 /** Read a warning.
  *  @param      k     0 to counters.warnings - 1

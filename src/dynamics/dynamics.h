@@ -146,6 +146,18 @@ baum_status baum_i_need_jacobian(baum_workspace *workspace);
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
+/* ---- pivot.c: after a solution ---- */
+
+/* Below this share of what it usually is the pose is near a singular one: at a seventh of the distance of ordinary
+ * ones. */
+#define BAUM_I_NEAR_PIVOT 0.02
+
+/* How far from singular the last solution was: 1 for no rows, 0 for singular, and falling with the square of the
+ * distance. Its size depends on mechanism and solver: it is to be compared with itself. */
+double baum_i_smallest_pivot(const baum_workspace *workspace);
+/* The joint that has it, -1: none. */
+int baum_i_smallest_pivot_joint(const baum_workspace *workspace);
+
 /* ---- energy.c, reaction.c ---- */
 
 baum_status baum_i_energy(baum_workspace *workspace, double t, const double *q, const double *v,

@@ -43,6 +43,7 @@ typedef struct baum_i_statistics {
   int64_t factorizations;      /* of its own matrix */
   int64_t full_factorizations; /* those that chose pivots anew and may allocate */
   int64_t nonlinear_iterations;
+  int64_t forced; /* accepted whatever their error estimate, over a singular pose */
 } baum_i_statistics;
 
 struct baum_integrator {

@@ -52,11 +52,18 @@ typedef struct adaptive_run {
   bool has_dense;  /* F is of that step */
   bool unfinished; /* a start or step that failed must be begun anew */
   int64_t rejected;
+  int64_t forced;
+  double pivot;     /* at the start of the step, of the usual one */
+  double pivot_end; /* at its end */
+  double usual;     /* largest pivot so far */
   failure last;
 } adaptive_run;
 
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
+
+/* [rad] by which a mechanism moves in the least step over a singular pose. */
+static const double STEP_OVER = 0.05;
 
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
@@ -161,6 +168,14 @@ static double first_step(const adaptive_run *run, const baum_i_problem *problem)
   return pow(fmin(tolerance, 1.0), 1.0 / run->pair->error_order) / rate;
 }
 
+/* Of the last evaluation. */
+static double see_pivot(adaptive_run *run, const baum_i_problem *problem)
+{
+  double pivot = baum_i_smallest_pivot(problem->workspace);
+  run->usual = fmax(run->usual, pivot);
+  return pivot / run->usual;
+}
+
 baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem,
                                        const baum_i_state *state)
 {
@@ -177,6 +192,8 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
     remember(run, status);
     return fail_with_evaluation(run, run->t);
   }
+  run->usual = 0.0; /* no step before counts */
+  run->pivot = see_pivot(run, problem);
   baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
   run->unfinished = false;
   return BAUM_OK;
@@ -194,6 +211,7 @@ static void go_on(adaptive_run *run)
   const baum_i_rk *rk = &run->rk;
   size_t bytes = (size_t)rk->size * sizeof *rk->start;
   run->t = run->t_end;
+  run->pivot = run->pivot_end;
   memcpy(rk->start, run->end, bytes);
   memcpy(rk->rates, baum_i_rk_rate(rk, rk->table->stages), bytes);
   run->has_step = false;
@@ -231,8 +249,10 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
   return status;
 }
 
-/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most 1. */
-static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, double *error)
+/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most 1, or the step
+ * is forced. */
+static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, bool forced,
+                            double *error)
 {
   const baum_i_rk *rk = &run->rk;
   const baum_i_rk_table *table = rk->table;
@@ -245,7 +265,7 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
   if (!needs_end) {
     *error = estimate(run, run->h);
   }
-  if (*error <= 1.0) {
+  if (*error <= 1.0 || forced) {
     baum_i_rk_combine(rk, table->stages, table->b, run->h, run->end);
     status = finish_end(run, problem);
   }
@@ -267,10 +287,22 @@ static void accept(adaptive_run *run, double error, baum_i_state *state)
   memcpy(state->v, run->end + run->rk.nv, bytes);
 }
 
-/* The next length to try, from where the step begins. */
-static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem)
+/* Near a singular pose errors grow however small the step is, and small steps would end up in it. So none is shorter
+ * there than this, whatever its error: 0 elsewhere. */
+static double least_length(const adaptive_run *run, const baum_i_problem *problem)
 {
-  double length = fmin(run->control.step, problem->max_step);
+  if (run->pivot >= BAUM_I_NEAR_PIVOT) {
+    return 0.0;
+  }
+  const baum_i_rk *rk = &run->rk;
+  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  return fmin(STEP_OVER / fmax(rate, problem->rate), problem->max_step);
+}
+
+/* The next length to try, from where the step begins. */
+static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double least)
+{
+  double length = fmin(fmax(run->control.step, least), problem->max_step);
   double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
   run->t_end = run->t + problem->direction * length;
   run->h = run->t_end - run->t;
@@ -280,15 +312,19 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem)
 /* Tries until one is accepted. */
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
+  double least = least_length(run, problem);
   for (;;) {
     double error = 0.0;
-    baum_status status = choose_end(run, problem);
+    baum_status status = choose_end(run, problem, least);
     if (status != BAUM_OK) {
       return status;
     }
-    status = try_step(run, problem, &error);
-    if (status == BAUM_OK && error <= 1.0) {
-      accept(run, error, state);
+    bool forced = run->control.step <= least;
+    status = try_step(run, problem, forced, &error);
+    if (status == BAUM_OK && (error <= 1.0 || (forced && isfinite(error)))) {
+      run->forced += error > 1.0;
+      run->pivot_end = see_pivot(run, problem);
+      accept(run, fmin(error, 1.0), state);
       return BAUM_OK;
     }
     if (status != BAUM_OK) {
@@ -296,6 +332,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
       if (!may_shorten(problem, status)) {
         return fail_with_evaluation(run, run->t);
       }
+      least = 0.0; /* an evaluation may fail for another reason */
       baum_i_step_control_halve(&run->control, fabs(run->h));
     } else {
       baum_i_step_control_refuse(&run->control, fabs(run->h), error);
@@ -405,7 +442,7 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
 void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
 {
   const adaptive_run *run = self;
-  *out = (baum_i_statistics){.rejected = run->rejected};
+  *out = (baum_i_statistics){.rejected = run->rejected, .forced = run->forced};
 }
 
 baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,

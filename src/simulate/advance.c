@@ -13,6 +13,7 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/events.h"
+#include "simulate/passage.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
@@ -97,6 +98,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
     return explain_callback(run, status);
   }
   if (observe) {
+    baum_i_passages_note(run, state);
     baum_i_run_observe(run, state->t, true);
   }
   memcpy(run->acceleration, run->workspace->a,
@@ -127,6 +129,7 @@ static void keep_trial(baum_simulation *run)
   if (run->integrator->accept) {
     run->integrator->accept(run->self, &run->problem, &run->state);
   }
+  baum_i_passages_look(run);
 }
 
 /* ---- a fixed-step method to a target ---- */
@@ -240,6 +243,7 @@ static baum_status internal_step(baum_simulation *run)
     status = check_finite(run, &run->trial);
   }
   if (status == BAUM_OK) {
+    baum_i_passages_step(run, &run->trial);
   }
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
@@ -251,6 +255,7 @@ static baum_status internal_step(baum_simulation *run)
   }
   if (status == BAUM_OK) {
     baum_i_run_observe(run, run->ahead.t, false);
+    baum_i_passages_look(run);
   }
   return status;
 }

@@ -98,7 +98,7 @@ static void observe_singular(baum_simulation *run, double t)
     baum_i_run_warn(
       run,
       "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
-      "%s; the motion after it may be on another branch",
+      "%s",
       t, label);
   }
   run->near_singular_seen = w->near_singular;
@@ -213,6 +213,7 @@ static baum_i_work work_here(const baum_simulation *run)
     .full_factorizations = kkt.full_factorizations + statistics.full_factorizations,
     .rejected = statistics.rejected,
     .nonlinear_iterations = statistics.nonlinear_iterations,
+    .forced = statistics.forced,
   };
 }
 
@@ -226,6 +227,7 @@ void baum_i_run_count(baum_simulation *run)
   c->full_factorizations = run->before.full_factorizations + here.full_factorizations;
   c->rejected = run->before.rejected + here.rejected;
   c->nonlinear_iterations = run->before.nonlinear_iterations + here.nonlinear_iterations;
+  c->forced_steps = run->before.forced + here.forced;
 }
 
 void baum_i_run_count_from_here(baum_simulation *run)
@@ -237,6 +239,7 @@ void baum_i_run_count_from_here(baum_simulation *run)
     .full_factorizations = c->full_factorizations - here.full_factorizations,
     .rejected = c->rejected - here.rejected,
     .nonlinear_iterations = c->nonlinear_iterations - here.nonlinear_iterations,
+    .forced = c->forced_steps - here.forced,
   };
 }
 

@@ -29,9 +29,11 @@ typedef struct baum_i_work {
   int64_t full_factorizations;
   int64_t rejected;
   int64_t nonlinear_iterations;
+  int64_t forced;
 } baum_i_work;
 
 typedef struct baum_i_account baum_i_account;
+typedef struct baum_i_passages baum_i_passages;
 typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
@@ -46,6 +48,7 @@ struct baum_simulation {
   baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
   baum_i_events *events;   /* see events.h; NULL: there are none */
 
+  baum_i_passages *passages; /* through singular poses, see passage.h; NULL: not looked for */
 
   double *parameters;   /* own copy of the mechanism's once a driver is set, else NULL */
   double *memory;       /* all arrays below */

@@ -17,6 +17,7 @@
 #include "base/digest.h"
 #include "mechanism/fingerprint.h"
 #include "simulate/account.h"
+#include "simulate/passage.h"
 #include "simulate/saved.h"
 
 enum { WORD = 8 };
@@ -72,6 +73,7 @@ static size_t largest_size(const baum_i_saved *list)
 static void forget(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
+  baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_forget(run->account);
   }

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "dynamics/immobile.h"
 #include "simulate/account.h"
+#include "simulate/passage.h"
 
 /* ---- parts ---- */
 
@@ -147,6 +148,10 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
   BAUM_I_SAVED_ADD(list, "signalled", run->signalled);
+  if (run->passages) {
+    BAUM_I_SAVED_ADD(list, "usual pivot", run->passages->usual);
+    BAUM_I_SAVED_ADD(list, "near-singular intervals", run->passages->kept);
+  }
   baum_i_saved_part *warnings = add(list, "warnings", BAUM_I_SAVED_WARNINGS);
   warnings->place = run->warnings;
   warnings->size = sizeof run->warnings;

@@ -9,6 +9,7 @@
 #include "simulate/account.h"
 #include "simulate/events.h"
 #include "simulate/options.h"
+#include "simulate/passage.h"
 
 /* ---- memory ---- */
 
@@ -178,6 +179,9 @@ static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism
   if (status == BAUM_OK && o->energy_account) {
     status = baum_i_account_create(run);
   }
+  if (status == BAUM_OK && !run->integrator->without_freedom) {
+    status = baum_i_passages_create(run);
+  }
   if (status == BAUM_OK && run->integrator->create) {
     status = run->integrator->create(&run->problem, &run->trial, &run->self);
   }
@@ -262,6 +266,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   }
   baum_i_account_destroy(simulation->integrator, simulation->account);
   baum_i_events_destroy(simulation->events);
+  baum_i_passages_destroy(simulation->passages);
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);

@@ -7,6 +7,7 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/events.h"
+#include "simulate/passage.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A drawing further off is more likely to be mounted on a branch that its author did not
@@ -182,6 +183,7 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
+  baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_begin(run);
   }

@@ -212,6 +212,217 @@ class baum_sparse(Structure):
     ]
 
 
+class baum_gain_rule(enum.IntEnum):
+    BAUM_GAINS_DEFAULT = 0
+    BAUM_GAINS_FIXED = 1
+    BAUM_GAINS_SCALED = 2
+    BAUM_GAINS_TAYLOR = 3
+    BAUM_GAINS_FREQUENCY = 4
+    BAUM_GAINS_DEADBEAT = 5
+    BAUM_GAINS_AUTO = 6
+    BAUM_GAINS_BEST_DAMPING = 7
+
+
+class baum_gains(Structure):
+    _fields_ = [
+        ("rule", c_int32),
+        ("value", c_double * 2),
+    ]
+
+
+class baum_stability(enum.IntEnum):
+    BAUM_STABLE = 0
+    BAUM_MARGINAL = 1
+    BAUM_UNSTABLE = 2
+    BAUM_VARIABLE_STEP = 3
+    BAUM_WITHOUT_GAINS = 4
+
+
+class baum_amplification(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("stability", c_int),
+        ("spectral_radius", c_double),
+        ("z", (c_double * 2) * 2),
+        ("damping", c_double),
+    ]
+
+
+class baum_formulation(enum.IntEnum):
+    BAUM_FORMULATION_DEFAULT = 0
+    BAUM_FORMULATION_UNSTABILIZED = 1
+    BAUM_FORMULATION_BAUMGARTE = 2
+    BAUM_FORMULATION_PROJECTION = 3
+    BAUM_FORMULATION_INDEX2 = 4
+    BAUM_FORMULATION_GGL = 5
+    BAUM_FORMULATION_INDEX3 = 6
+
+
+class baum_start(enum.IntEnum):
+    BAUM_START_ASSEMBLE = 0
+    BAUM_START_EXACT = 1
+    BAUM_START_AS_GIVEN = 2
+
+
+class baum_solver(enum.IntEnum):
+    BAUM_SOLVER_AUTO = 0
+    BAUM_SOLVER_KLU = 1
+    BAUM_SOLVER_QR = 2
+    BAUM_SOLVER_BLOCK = 3
+
+
+baum_progress_fn = CFUNCTYPE(c_int, c_void_p, c_double, c_void_p)
+
+
+class baum_simulation_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("integrator", c_void_p),
+        ("formulation", c_int),
+        ("gains", baum_gains),
+        ("allow_unstable", c_bool),
+        ("step", c_double),
+        ("rtol", c_double),
+        ("atol", c_double),
+        ("max_step", c_double),
+        ("start_time", c_double),
+        ("start", c_int),
+        ("solver", c_int),
+        ("check_derivatives", c_bool),
+        ("max_steps", c_int64),
+        ("progress", baum_progress_fn),
+        ("progress_interval", c_double),
+        ("user", c_void_p),
+        ("tolerance_q", c_double),
+        ("tolerance_v", c_double),
+        ("tolerance_lambda", c_double),
+        ("energy_account", c_bool),
+        ("row_gains", c_void_p),
+        ("row_gain_count", c_int32),
+    ]
+
+
+class baum_quantity(enum.IntEnum):
+    BAUM_Q = 1
+    BAUM_V = 2
+    BAUM_A = 3
+    BAUM_LAMBDA = 4
+    BAUM_PHI = 5
+    BAUM_PHI_RATE = 6
+    BAUM_ENERGY = 7
+    BAUM_BODY_POSE = 8
+    BAUM_BODY_VELOCITY = 9
+    BAUM_JOINT_REACTION = 10
+    BAUM_JOINT_COORDINATE = 11
+    BAUM_BODY_ACCELERATION = 12
+    BAUM_DRIVE_EFFORT = 13
+    BAUM_ENERGY_ACCOUNT = 14
+
+
+class baum_channel(Structure):
+    _fields_ = [
+        ("quantity", c_int),
+        ("body", baum_body_id),
+        ("joint", baum_joint_id),
+        ("point", c_double * 2),
+    ]
+
+
+class baum_counters(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("steps", c_int64),
+        ("rejected", c_int64),
+        ("short_steps", c_int64),
+        ("evaluations", c_int64),
+        ("factorizations", c_int64),
+        ("full_factorizations", c_int64),
+        ("nonlinear_iterations", c_int64),
+        ("restarts", c_int64),
+        ("near_singular", c_int64),
+        ("warnings", c_int64),
+        ("wall", c_double),
+        ("max_phi", c_double),
+        ("max_phi_rate", c_double),
+        ("max_phi_joint", baum_joint_id),
+        ("max_phi_rate_joint", baum_joint_id),
+        ("predicted_phi", c_double),
+        ("predicted_phi_rate", c_double),
+        ("energy_change", c_double),
+        ("start_change", c_double),
+        ("alpha", c_double),
+        ("beta", c_double),
+        ("spectral_radius", c_double),
+        ("damping", c_double),
+        ("near_singular_intervals", c_int64),
+        ("branch_warnings", c_int64),
+        ("forced_steps", c_int64),
+    ]
+
+
+class baum_energy_account(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("kinetic", c_double),
+        ("potential", c_double),
+        ("start", c_double),
+        ("loads", c_double),
+        ("springs", c_double),
+        ("dampers", c_double),
+        ("user_forces", c_double),
+        ("bodies", c_double),
+        ("drivers", c_double),
+        ("violation", c_double),
+        ("projection", c_double),
+        ("gains", c_double),
+        ("residual", c_double),
+        ("evaluations", c_int64),
+    ]
+
+
+class baum_branch(enum.IntEnum):
+    BAUM_BRANCH_CONTINUED = 1
+    BAUM_BRANCH_LEFT = 2
+    BAUM_BRANCH_UNKNOWN = 3
+
+
+class baum_near_singular(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("begin", c_double),
+        ("end", c_double),
+        ("t", c_double),
+        ("pivot", c_double),
+        ("jump", c_double),
+        ("jump_error", c_double),
+        ("branch", c_int),
+        ("joint", baum_joint_id),
+    ]
+
+
+class baum_event_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("function", baum_force_fn),
+        ("joint", baum_joint_id),
+        ("value", c_double),
+        ("direction", c_int32),
+        ("terminal", c_bool),
+        ("tolerance", c_double),
+        ("user", c_void_p),
+    ]
+
+
+class baum_event_record(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("t", c_double),
+        ("event", c_int32),
+        ("direction", c_int32),
+    ]
+
+
 class baum_planar_body_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -394,171 +605,6 @@ class baum_planar_curve_def(Structure):
     ]
 
 
-class baum_gain_rule(enum.IntEnum):
-    BAUM_GAINS_DEFAULT = 0
-    BAUM_GAINS_FIXED = 1
-    BAUM_GAINS_SCALED = 2
-    BAUM_GAINS_TAYLOR = 3
-    BAUM_GAINS_FREQUENCY = 4
-    BAUM_GAINS_DEADBEAT = 5
-    BAUM_GAINS_AUTO = 6
-    BAUM_GAINS_BEST_DAMPING = 7
-
-
-class baum_gains(Structure):
-    _fields_ = [
-        ("rule", c_int32),
-        ("value", c_double * 2),
-    ]
-
-
-class baum_stability(enum.IntEnum):
-    BAUM_STABLE = 0
-    BAUM_MARGINAL = 1
-    BAUM_UNSTABLE = 2
-    BAUM_VARIABLE_STEP = 3
-    BAUM_WITHOUT_GAINS = 4
-
-
-class baum_amplification(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("stability", c_int),
-        ("spectral_radius", c_double),
-        ("z", (c_double * 2) * 2),
-        ("damping", c_double),
-    ]
-
-
-class baum_formulation(enum.IntEnum):
-    BAUM_FORMULATION_DEFAULT = 0
-    BAUM_FORMULATION_UNSTABILIZED = 1
-    BAUM_FORMULATION_BAUMGARTE = 2
-    BAUM_FORMULATION_PROJECTION = 3
-    BAUM_FORMULATION_INDEX2 = 4
-    BAUM_FORMULATION_GGL = 5
-    BAUM_FORMULATION_INDEX3 = 6
-
-
-class baum_start(enum.IntEnum):
-    BAUM_START_ASSEMBLE = 0
-    BAUM_START_EXACT = 1
-    BAUM_START_AS_GIVEN = 2
-
-
-class baum_solver(enum.IntEnum):
-    BAUM_SOLVER_AUTO = 0
-    BAUM_SOLVER_KLU = 1
-    BAUM_SOLVER_QR = 2
-    BAUM_SOLVER_BLOCK = 3
-
-
-baum_progress_fn = CFUNCTYPE(c_int, c_void_p, c_double, c_void_p)
-
-
-class baum_simulation_options(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("integrator", c_void_p),
-        ("formulation", c_int),
-        ("gains", baum_gains),
-        ("allow_unstable", c_bool),
-        ("step", c_double),
-        ("rtol", c_double),
-        ("atol", c_double),
-        ("max_step", c_double),
-        ("start_time", c_double),
-        ("start", c_int),
-        ("solver", c_int),
-        ("check_derivatives", c_bool),
-        ("max_steps", c_int64),
-        ("progress", baum_progress_fn),
-        ("progress_interval", c_double),
-        ("user", c_void_p),
-        ("tolerance_q", c_double),
-        ("tolerance_v", c_double),
-        ("tolerance_lambda", c_double),
-        ("energy_account", c_bool),
-        ("row_gains", c_void_p),
-        ("row_gain_count", c_int32),
-    ]
-
-
-class baum_quantity(enum.IntEnum):
-    BAUM_Q = 1
-    BAUM_V = 2
-    BAUM_A = 3
-    BAUM_LAMBDA = 4
-    BAUM_PHI = 5
-    BAUM_PHI_RATE = 6
-    BAUM_ENERGY = 7
-    BAUM_BODY_POSE = 8
-    BAUM_BODY_VELOCITY = 9
-    BAUM_JOINT_REACTION = 10
-    BAUM_JOINT_COORDINATE = 11
-    BAUM_BODY_ACCELERATION = 12
-    BAUM_DRIVE_EFFORT = 13
-    BAUM_ENERGY_ACCOUNT = 14
-
-
-class baum_channel(Structure):
-    _fields_ = [
-        ("quantity", c_int),
-        ("body", baum_body_id),
-        ("joint", baum_joint_id),
-        ("point", c_double * 2),
-    ]
-
-
-class baum_counters(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("steps", c_int64),
-        ("rejected", c_int64),
-        ("short_steps", c_int64),
-        ("evaluations", c_int64),
-        ("factorizations", c_int64),
-        ("full_factorizations", c_int64),
-        ("nonlinear_iterations", c_int64),
-        ("restarts", c_int64),
-        ("near_singular", c_int64),
-        ("warnings", c_int64),
-        ("wall", c_double),
-        ("max_phi", c_double),
-        ("max_phi_rate", c_double),
-        ("max_phi_joint", baum_joint_id),
-        ("max_phi_rate_joint", baum_joint_id),
-        ("predicted_phi", c_double),
-        ("predicted_phi_rate", c_double),
-        ("energy_change", c_double),
-        ("start_change", c_double),
-        ("alpha", c_double),
-        ("beta", c_double),
-        ("spectral_radius", c_double),
-        ("damping", c_double),
-    ]
-
-
-class baum_energy_account(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("kinetic", c_double),
-        ("potential", c_double),
-        ("start", c_double),
-        ("loads", c_double),
-        ("springs", c_double),
-        ("dampers", c_double),
-        ("user_forces", c_double),
-        ("bodies", c_double),
-        ("drivers", c_double),
-        ("violation", c_double),
-        ("projection", c_double),
-        ("gains", c_double),
-        ("residual", c_double),
-        ("evaluations", c_int64),
-    ]
-
-
 class baum_spline_driver_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -674,6 +720,86 @@ PROTOTYPES = {
         c_void_p, c_double, c_void_p, c_void_p, POINTER(baum_body_id), c_int32,
     ]),
     "baum_workspace_project": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_gains_fixed": (baum_gains, [c_double, c_double]),
+    "baum_gains_scaled": (baum_gains, [c_double, c_double]),
+    "baum_gains_taylor": (baum_gains, []),
+    "baum_gains_frequency": (baum_gains, [c_double, c_double]),
+    "baum_gains_deadbeat": (baum_gains, []),
+    "baum_gains_auto": (baum_gains, []),
+    "baum_gains_best_damping": (baum_gains, []),
+    "baum_stability_at": (c_int, [
+        c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
+    ]),
+    "baum_stability_statement": (c_char_p, [c_void_p]),
+    "baum_stability_limit": (c_int, [c_void_p, c_double, c_void_p]),
+    "baum_stability_intervals": (c_int, [
+        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
+    ]),
+    "baum_stability_best_on_ray": (c_int, [c_void_p, c_double, c_void_p]),
+    "baum_stability_best": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_stability_deadbeat": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_stability_nearest": (c_int, [c_void_p, c_double, c_double, c_void_p, c_void_p]),
+    "baum_stability_grid": (c_int, [c_void_p, c_void_p, c_void_p, c_int32, c_int32, c_void_p]),
+    "baum_stability_outline": (c_int, [
+        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
+    ]),
+    "baum_euler": (c_void_p, []),
+    "baum_semi_implicit_euler": (c_void_p, []),
+    "baum_rk2": (c_void_p, []),
+    "baum_rk3": (c_void_p, []),
+    "baum_rk4": (c_void_p, []),
+    "baum_dp5": (c_void_p, []),
+    "baum_rk8": (c_void_p, []),
+    "baum_ab2": (c_void_p, []),
+    "baum_ab3": (c_void_p, []),
+    "baum_ab4": (c_void_p, []),
+    "baum_rattle": (c_void_p, []),
+    "baum_generalized_alpha": (c_void_p, []),
+    "baum_cvode_adams": (c_void_p, []),
+    "baum_cvode_bdf": (c_void_p, []),
+    "baum_ida": (c_void_p, []),
+    "baum_kinematics": (c_void_p, []),
+    "baum_integrator_at": (c_void_p, [c_int32]),
+    "baum_integrator_name": (c_char_p, [c_void_p]),
+    "baum_integrator_order": (c_int32, [c_void_p]),
+    "baum_integrator_has_fixed_step": (c_bool, [c_void_p]),
+    "baum_integrator_has_variable_step": (c_bool, [c_void_p]),
+    "baum_formulation_name": (c_char_p, [c_int]),
+    "baum_integrator_offers": (c_bool, [c_void_p, c_int]),
+    "baum_simulation_options_init": (None, [POINTER(baum_simulation_options), c_size_t]),
+    "baum_simulation_create": (c_int, [
+        c_void_p, POINTER(baum_simulation_options), POINTER(c_void_p),
+    ]),
+    "baum_simulation_destroy": (None, [c_void_p]),
+    "baum_simulation_advance_to": (c_int, [c_void_p, c_double]),
+    "baum_simulation_step": (c_int, [c_void_p, c_int64]),
+    "baum_simulation_cancel": (None, [c_void_p]),
+    "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
+    "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),
+    "baum_simulation_set_driver": (c_int, [c_void_p, baum_joint_id, c_double, c_double, c_double]),
+    "baum_simulation_save": (c_int, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
+    "baum_simulation_restore": (c_int, [c_void_p, c_void_p, c_size_t]),
+    "baum_simulation_time": (c_double, [c_void_p]),
+    "baum_simulation_q": (c_void_p, [c_void_p]),
+    "baum_simulation_v": (c_void_p, [c_void_p]),
+    "baum_channels_width": (c_int32, [c_void_p, POINTER(baum_channel), c_int32]),
+    "baum_simulation_get": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_void_p]),
+    "baum_simulation_sample": (c_int, [
+        c_void_p, c_void_p, c_int64, POINTER(baum_channel), c_int32, c_void_p, POINTER(c_int64),
+    ]),
+    "baum_simulation_counters": (c_int, [c_void_p, POINTER(baum_counters), c_size_t]),
+    "baum_simulation_energy_account": (c_int, [c_void_p, POINTER(baum_energy_account), c_size_t]),
+    "baum_simulation_near_singular": (c_int, [
+        c_void_p, c_int64, POINTER(baum_near_singular), c_size_t,
+    ]),
+    "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
+    "baum_simulation_explain": (c_char_p, [c_void_p]),
+    "baum_simulation_message": (c_char_p, [c_void_p]),
+    "baum_event_def_init": (None, [POINTER(baum_event_def), c_size_t]),
+    "baum_simulation_add_event": (c_int, [c_void_p, POINTER(baum_event_def), POINTER(c_int32)]),
+    "baum_simulation_event_count": (c_int64, [c_void_p]),
+    "baum_simulation_event": (c_int, [c_void_p, c_int64, POINTER(baum_event_record), c_size_t]),
     "baum_planar_body_def_init": (None, [POINTER(baum_planar_body_def), c_size_t]),
     "baum_mechanism_add_planar_body": (c_int, [
         c_void_p, POINTER(baum_planar_body_def), POINTER(baum_body_id),
@@ -810,79 +936,6 @@ PROTOTYPES = {
     "baum_mechanism_set_planar_curve": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_planar_curve_def),
     ]),
-    "baum_gains_fixed": (baum_gains, [c_double, c_double]),
-    "baum_gains_scaled": (baum_gains, [c_double, c_double]),
-    "baum_gains_taylor": (baum_gains, []),
-    "baum_gains_frequency": (baum_gains, [c_double, c_double]),
-    "baum_gains_deadbeat": (baum_gains, []),
-    "baum_gains_auto": (baum_gains, []),
-    "baum_gains_best_damping": (baum_gains, []),
-    "baum_stability_at": (c_int, [
-        c_void_p, c_double, c_double, POINTER(baum_amplification), c_size_t,
-    ]),
-    "baum_stability_statement": (c_char_p, [c_void_p]),
-    "baum_stability_limit": (c_int, [c_void_p, c_double, c_void_p]),
-    "baum_stability_intervals": (c_int, [
-        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
-    ]),
-    "baum_stability_best_on_ray": (c_int, [c_void_p, c_double, c_void_p]),
-    "baum_stability_best": (c_int, [c_void_p, c_void_p, c_void_p]),
-    "baum_stability_deadbeat": (c_int, [c_void_p, c_void_p, c_void_p]),
-    "baum_stability_nearest": (c_int, [c_void_p, c_double, c_double, c_void_p, c_void_p]),
-    "baum_stability_grid": (c_int, [c_void_p, c_void_p, c_void_p, c_int32, c_int32, c_void_p]),
-    "baum_stability_outline": (c_int, [
-        c_void_p, c_double, c_int32, c_void_p, c_void_p, POINTER(c_int32),
-    ]),
-    "baum_euler": (c_void_p, []),
-    "baum_semi_implicit_euler": (c_void_p, []),
-    "baum_rk2": (c_void_p, []),
-    "baum_rk3": (c_void_p, []),
-    "baum_rk4": (c_void_p, []),
-    "baum_dp5": (c_void_p, []),
-    "baum_rk8": (c_void_p, []),
-    "baum_ab2": (c_void_p, []),
-    "baum_ab3": (c_void_p, []),
-    "baum_ab4": (c_void_p, []),
-    "baum_rattle": (c_void_p, []),
-    "baum_generalized_alpha": (c_void_p, []),
-    "baum_cvode_adams": (c_void_p, []),
-    "baum_cvode_bdf": (c_void_p, []),
-    "baum_ida": (c_void_p, []),
-    "baum_kinematics": (c_void_p, []),
-    "baum_integrator_at": (c_void_p, [c_int32]),
-    "baum_integrator_name": (c_char_p, [c_void_p]),
-    "baum_integrator_order": (c_int32, [c_void_p]),
-    "baum_integrator_has_fixed_step": (c_bool, [c_void_p]),
-    "baum_integrator_has_variable_step": (c_bool, [c_void_p]),
-    "baum_formulation_name": (c_char_p, [c_int]),
-    "baum_integrator_offers": (c_bool, [c_void_p, c_int]),
-    "baum_simulation_options_init": (None, [POINTER(baum_simulation_options), c_size_t]),
-    "baum_simulation_create": (c_int, [
-        c_void_p, POINTER(baum_simulation_options), POINTER(c_void_p),
-    ]),
-    "baum_simulation_destroy": (None, [c_void_p]),
-    "baum_simulation_advance_to": (c_int, [c_void_p, c_double]),
-    "baum_simulation_step": (c_int, [c_void_p, c_int64]),
-    "baum_simulation_cancel": (None, [c_void_p]),
-    "baum_simulation_set_state": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
-    "baum_simulation_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
-    "baum_simulation_input": (c_double, [c_void_p, baum_input_id]),
-    "baum_simulation_set_driver": (c_int, [c_void_p, baum_joint_id, c_double, c_double, c_double]),
-    "baum_simulation_save": (c_int, [c_void_p, c_void_p, c_size_t, POINTER(c_size_t)]),
-    "baum_simulation_restore": (c_int, [c_void_p, c_void_p, c_size_t]),
-    "baum_simulation_time": (c_double, [c_void_p]),
-    "baum_simulation_q": (c_void_p, [c_void_p]),
-    "baum_simulation_v": (c_void_p, [c_void_p]),
-    "baum_channels_width": (c_int32, [c_void_p, POINTER(baum_channel), c_int32]),
-    "baum_simulation_get": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_void_p]),
-    "baum_simulation_sample": (c_int, [
-        c_void_p, c_void_p, c_int64, POINTER(baum_channel), c_int32, c_void_p, POINTER(c_int64),
-    ]),
-    "baum_simulation_counters": (c_int, [c_void_p, POINTER(baum_counters), c_size_t]),
-    "baum_simulation_energy_account": (c_int, [c_void_p, POINTER(baum_energy_account), c_size_t]),
-    "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
-    "baum_simulation_explain": (c_char_p, [c_void_p]),
-    "baum_simulation_message": (c_char_p, [c_void_p]),
     "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
     "baum_mechanism_add_spline_driver": (c_int, [
         c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
@@ -904,6 +957,8 @@ DEFAULTS = {
     baum_driver_def: "baum_driver_def_init",
     baum_coupling_def: "baum_coupling_def_init",
     baum_user_force_def: "baum_user_force_def_init",
+    baum_simulation_options: "baum_simulation_options_init",
+    baum_event_def: "baum_event_def_init",
     baum_planar_body_def: "baum_planar_body_def_init",
     baum_planar_particle_def: "baum_planar_particle_def_init",
     baum_planar_revolute_def: "baum_planar_revolute_def_init",
@@ -917,7 +972,6 @@ DEFAULTS = {
     baum_planar_rack_and_pinion_def: "baum_planar_rack_and_pinion_def_init",
     baum_planar_gear_def: "baum_planar_gear_def_init",
     baum_planar_curve_def: "baum_planar_curve_def_init",
-    baum_simulation_options: "baum_simulation_options_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
 }
 
@@ -935,6 +989,15 @@ STRUCTS = [
     baum_report,
     baum_dae,
     baum_sparse,
+    baum_gains,
+    baum_amplification,
+    baum_simulation_options,
+    baum_channel,
+    baum_counters,
+    baum_energy_account,
+    baum_near_singular,
+    baum_event_def,
+    baum_event_record,
     baum_planar_body_def,
     baum_planar_particle_def,
     baum_planar_revolute_def,
@@ -948,11 +1011,5 @@ STRUCTS = [
     baum_planar_rack_and_pinion_def,
     baum_planar_gear_def,
     baum_planar_curve_def,
-    baum_gains,
-    baum_amplification,
-    baum_simulation_options,
-    baum_channel,
-    baum_counters,
-    baum_energy_account,
     baum_spline_driver_def,
 ]

@@ -1,0 +1,170 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which branch a motion is on behind a singular pose.
+ *
+ * At such a pose several branches of motion cross, each with a direction of its own; the smooth motion is the one whose
+ * velocity goes on. Polynomials through positions and velocities of the clear states before are taken to the first clear
+ * state behind, and what they say of v is compared with v, in the scales of the coordinates:
+ *
+ *   jump   max |v_i - p_i'| / s_i  over  max |v_i| / s_i
+ *   error  likewise the difference of two polynomials of degrees 2 m - 1 and 2 m - 3; m is chosen for the least one
+ *
+ * Whether branches cross at all depends on the mechanism: where it only comes close, the motion turns round sharply
+ * and a step that jumps over the turn goes on smoothly and wrongly. There no pose on the way is both singular and
+ * assembled. So the constraints are looked at where the motion has its least pivot: a violation that neither the run
+ * nor the polynomial accounts for is such a gap. Steps that go round the turn in small pieces are right.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "simulate/passage.h"
+
+static const double SMALL_JUMP = 0.1;
+static const double LARGE_JUMP =
+  0.3;                           /* directions of branches differ by the size of the velocity */
+static const double KNOWN = 0.1; /* largest error of a jump that is judged */
+static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
+static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing branches is 0 */
+
+/* ---- least pivot of the motion ---- */
+
+/* Of the usual one, at t of the motion through knots. */
+static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t)
+{
+  baum_i_passages *p = run->passages;
+  baum_i_hermite(knots, count, p->nv, t, p->at.q, p->at.v);
+  p->at.t = t;
+  if (baum_i_motion(run->workspace, t, p->at.q, p->at.v, 0.0, 0.0) != BAUM_OK) {
+    return run->workspace->point.retry ? (double)INFINITY : 0.0;
+  }
+  return baum_i_smallest_pivot(run->workspace) / p->usual;
+}
+
+/* Golden section until the time is known to a millionth of the span; then pivots are known to its square. */
+double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
+                                 const double span[2], double *at, int *joint)
+{
+  static const double GOLDEN = 0.6180339887498949;
+  double a = span[0];
+  double b = span[1];
+  double x[2] = {b - GOLDEN * (b - a), a + GOLDEN * (b - a)};
+  double p[2] = {pivot_at(run, knots, count, x[0]), pivot_at(run, knots, count, x[1])};
+  for (int k = 0; k < 30; k++) {
+    if (p[0] < p[1]) {
+      b = x[1];
+      x[1] = x[0];
+      p[1] = p[0];
+      x[0] = b - GOLDEN * (b - a);
+      p[0] = pivot_at(run, knots, count, x[0]);
+    } else {
+      a = x[0];
+      x[0] = x[1];
+      p[0] = p[1];
+      x[1] = a + GOLDEN * (b - a);
+      p[1] = pivot_at(run, knots, count, x[1]);
+    }
+  }
+  *at = p[0] < p[1] ? x[0] : x[1];
+  double least = pivot_at(run, knots, count, *at);
+  *joint = baum_i_smallest_pivot_joint(run->workspace);
+  return least;
+}
+
+/* ---- gap ---- */
+
+/* Largest violation as a displacement over the scales; INFINITY where it cannot be evaluated. */
+static double violation_at(baum_simulation *run, const baum_i_knot *at)
+{
+  baum_workspace *w = run->workspace;
+  double largest = 0.0;
+  if (baum_i_position_stage(w, at->t, at->q) != BAUM_OK) {
+    return (double)INFINITY;
+  }
+  double *distance = w->work_c;
+  baum_i_row_displacements(w, distance);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    largest = fmax(largest, fabs(w->phi[i]) / distance[i]);
+  }
+  return largest;
+}
+
+/* Largest difference of two positions, over the scales. */
+static double apart(const baum_simulation *run, const double *q, const double *p)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double most = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    most = fmax(most, fabs(q[i] - p[i]) / m->scale[i]);
+  }
+  return most;
+}
+
+/* Is there a violation on the way that is not the run's own, nor the polynomial's? */
+static bool has_gap(baum_simulation *run, double t)
+{
+  baum_i_passages *p = run->passages;
+  const baum_i_knot *last = p->recent + p->recent_count - 1;
+  if (p->clear_count == 0) {
+    return false;
+  }
+  const baum_i_knot *before = &p->clear[p->clear_count - 1];
+  double own = fmax(violation_at(run, last), violation_at(run, before));
+  baum_i_hermite(p->recent, p->recent_count, p->nv, t, p->at.q, p->at.v);
+  baum_i_hermite(p->recent + 1, p->recent_count - 1, p->nv, t, p->other.q, p->other.v);
+  double error = apart(run, p->at.q, p->other.q);
+  p->at.t = t;
+  return violation_at(run, &p->at) > GAP + 10.0 * (own + error);
+}
+
+/* ---- jump ---- */
+
+/* Largest difference of two velocities, over the scales. */
+static double difference(const baum_simulation *run, const double *v, const double *w)
+{
+  return apart(run, v, w);
+}
+
+static void find_jump(baum_simulation *run, double *jump, double *error)
+{
+  baum_i_passages *p = run->passages;
+  const baum_i_knot *behind = &p->recent[p->recent_count - 1];
+  const baum_i_knot *end = p->clear + p->clear_count;
+  double size = baum_i_scaled_size(run->workspace->mechanism, behind->v);
+  if (p->clear_count > 0) {
+    size = fmax(size, baum_i_scaled_size(run->workspace->mechanism, end[-1].v));
+  }
+  *jump = *error = (double)NAN;
+  for (int m = 2; m <= p->clear_count && size > 0.0; m++) {
+    baum_i_hermite(end - m + 1, m - 1, p->nv, behind->t, p->other.q, p->other.v);
+    baum_i_hermite(end - m, m, p->nv, behind->t, p->at.q, p->at.v);
+    double e = difference(run, p->at.v, p->other.v) / size;
+    if (!(e >= *error)) {
+      *error = e;
+      *jump = difference(run, behind->v, p->at.v) / size;
+    }
+  }
+}
+
+/* ---- decision ---- */
+
+static baum_branch judge(double jump, double error, bool gap, double largest_turn)
+{
+  if (gap) {
+    return largest_turn < SMALL_TURN ? BAUM_BRANCH_CONTINUED : BAUM_BRANCH_UNKNOWN;
+  }
+  if (!(error <= KNOWN)) {
+    return BAUM_BRANCH_UNKNOWN;
+  }
+  if (jump <= SMALL_JUMP) {
+    return BAUM_BRANCH_CONTINUED;
+  }
+  return jump > LARGE_JUMP ? BAUM_BRANCH_LEFT : BAUM_BRANCH_UNKNOWN;
+}
+
+void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
+                          baum_near_singular *out)
+{
+  out->t = passage->at;
+  out->pivot = passage->smallest;
+  find_jump(run, &out->jump, &out->jump_error);
+  out->branch = judge(out->jump, out->jump_error, has_gap(run, passage->at), passage->largest_turn);
+}

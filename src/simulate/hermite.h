@@ -1,0 +1,20 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Polynomial through positions and velocities at some times. */
+#ifndef BAUM_I_SIMULATE_HERMITE_H
+#define BAUM_I_SIMULATE_HERMITE_H
+
+enum { BAUM_I_HERMITE_MOST = 4 };
+
+/* q and v at a time of a motion. */
+typedef struct baum_i_knot {
+  double t;     /* [s] */
+  double pivot; /* [-] of the equations there, of the largest so far */
+  double *q;    /* (n) */
+  double *v;    /* (n) */
+} baum_i_knot;
+
+/* Value and rate at t of the polynomials of degree 2 count - 1 through `count` knots, from 1 to BAUM_I_HERMITE_MOST,
+ * at times of their own; q and v are (n) and none of theirs. */
+void baum_i_hermite(const baum_i_knot *knots, int count, int n, double t, double *q, double *v);
+
+#endif

@@ -1,0 +1,394 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Near-singular intervals of a run.
+ *
+ * Beside every accepted state stands the smallest pivot p of the equations there, of the largest p of the run so far.
+ * Near a singular pose p = (distance)^2 / (unit)^2, so that sqrt(p) runs down to zero and up again in straight lines.
+ *
+ *   p < NEAR            the run is inside; the last state before and the first one after are the ends of the interval
+ *   sqrt(p) has a least value among three states, and its slopes would let it reach zero between them: the least p of
+ *                       the motion through the three is looked for, for fixed steps may jump over a singular pose
+ *   least p < SINGULAR  it has been a passage: it is recorded, its branch decided (branch.c), and warned of; others
+ *                       are nothing but poses that are worse than usual
+ */
+#include "simulate/passage.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "mechanism/definition.h"
+
+/* Least pivot of a passage: distances within a thirtieth of those of ordinary poses. */
+static const double SINGULAR = 1e-3;
+
+/* Clear states are so far from each other that rounding and tolerances do not blow up in extrapolation [rad]. */
+static const double SPACING = 0.1;
+
+/* ---- memory ---- */
+
+static void place_knots(baum_i_knot *knots, int count, int nv, double **next)
+{
+  for (int k = 0; k < count; k++) {
+    knots[k].q = *next;
+    knots[k].v = *next + nv;
+    *next += 2 * (ptrdiff_t)nv;
+  }
+}
+
+baum_status baum_i_passages_create(baum_simulation *run)
+{
+  int nv = run->workspace->mechanism->nv; /* nq = nv so far */
+  size_t numbers = 2 * (size_t)nv * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 3);
+  baum_i_passages *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
+  if (!p) {
+    return baum_i_fail_memory();
+  }
+  double *next = (double *)(p + 1);
+  p->nv = nv;
+  place_knots(p->recent, BAUM_I_RECENT, nv, &next);
+  place_knots(p->clear, BAUM_I_HERMITE_MOST, nv, &next);
+  place_knots(&p->at, 1, nv, &next);
+  place_knots(&p->other, 1, nv, &next);
+  place_knots(&p->between, 1, nv, &next);
+  run->passages = p;
+  return BAUM_OK;
+}
+
+void baum_i_passages_destroy(baum_i_passages *passages)
+{
+  baum_i_free(passages);
+}
+
+void baum_i_passages_forget(baum_i_passages *p)
+{
+  if (!p) {
+    return;
+  }
+  p->recent_count = 0;
+  p->clear_count = 0;
+  p->open = false;
+}
+
+/* ---- lists of knots ---- */
+
+static void copy_knot(const baum_i_knot *from, int nv, baum_i_knot *to)
+{
+  to->t = from->t;
+  to->pivot = from->pivot;
+  memcpy(to->q, from->q, (size_t)nv * sizeof *to->q);
+  memcpy(to->v, from->v, (size_t)nv * sizeof *to->v);
+}
+
+/* A place for a new last one; when the list is full, that of the first. */
+static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
+{
+  if (*count < most) {
+    return &knots[(*count)++];
+  }
+  baum_i_knot first = knots[0];
+  memmove(knots, knots + 1, (size_t)(most - 1) * sizeof *knots);
+  knots[most - 1] = first;
+  return &knots[most - 1];
+}
+
+static void keep_clear(baum_simulation *run, const baum_i_knot *state)
+{
+  baum_i_passages *p = run->passages;
+  int n = p->clear_count;
+  double rate = baum_i_scaled_size(run->workspace->mechanism, state->v);
+  bool close = n >= 2 && fabs(p->clear[n - 1].t - p->clear[n - 2].t) * rate < SPACING;
+  baum_i_knot *place =
+    close ? &p->clear[n - 1] : make_last(p->clear, BAUM_I_HERMITE_MOST, &p->clear_count);
+  copy_knot(state, p->nv, place);
+}
+
+/* ---- states ---- */
+
+static void note(baum_simulation *run, const baum_i_state *state, double pivot, int joint)
+{
+  baum_i_passages *p = run->passages;
+  double since = p->recent_count > 0 ? state->t - p->recent[p->recent_count - 1].t : 0.0;
+  if (p->recent_count > 0 && since == 0.0) {
+    return;
+  }
+  if (since * run->problem.direction < 0.0) {
+    baum_i_passages_forget(p);
+  }
+  p->usual = fmax(p->usual, pivot);
+  baum_i_knot *last = make_last(p->recent, BAUM_I_RECENT, &p->recent_count);
+  last->t = state->t;
+  last->pivot = pivot / p->usual;
+  memcpy(last->q, state->q, (size_t)p->nv * sizeof *last->q);
+  memcpy(last->v, state->v, (size_t)p->nv * sizeof *last->v);
+  p->unseen = true;
+  p->joint_noted = joint;
+}
+
+void baum_i_passages_note(baum_simulation *run, const baum_i_state *state)
+{
+  if (run->passages) {
+    const baum_workspace *w = run->workspace;
+    note(run, state, baum_i_smallest_pivot(w), baum_i_smallest_pivot_joint(w));
+  }
+}
+
+/* ---- passages ---- */
+
+static bool is_near(const baum_i_knot *state)
+{
+  return state->pivot < BAUM_I_NEAR_PIVOT;
+}
+
+/* Could sqrt(p) have been zero between the last three? */
+static bool may_have_jumped(const baum_i_passages *p)
+{
+  const baum_i_knot *k = p->recent;
+  if (p->recent_count < BAUM_I_RECENT || k[1].pivot > k[0].pivot || k[1].pivot > k[2].pivot) {
+    return false;
+  }
+  double s[3] = {sqrt(k[0].pivot), sqrt(k[1].pivot), sqrt(k[2].pivot)};
+  double before = fabs(k[1].t - k[0].t);
+  double after = fabs(k[2].t - k[1].t);
+  double falls = (s[0] - s[1]) / before * after;
+  double grows = (s[2] - s[1]) / after * before;
+  return s[1] <= 2.0 * fmax(falls, grows);
+}
+
+static void see_turn(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  if (p->recent_count < 2) {
+    return;
+  }
+  double change = 0.0;
+  for (int i = 0; i < p->nv; i++) {
+    change = fmax(change, fabs(last->v[i] - last[-1].v[i]) / m->scale[i]);
+  }
+  double size = fmax(baum_i_scaled_size(m, last->v), baum_i_scaled_size(m, last[-1].v));
+  p->present.largest_turn = fmax(p->present.largest_turn, size > 0.0 ? change / size : 0.0);
+}
+
+static void begin(baum_i_passages *p, double from)
+{
+  p->open = true;
+  p->present =
+    (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
+}
+
+static void see_pivot(baum_i_passages *p, double pivot, double at, int joint)
+{
+  if (pivot < p->present.smallest) {
+    p->present.smallest = pivot;
+    p->present.at = at;
+    p->present.joint = joint >= 0 ? joint : p->present.joint;
+  }
+}
+
+/* Between the last three states. */
+static void search(baum_simulation *run, baum_i_passage *found)
+{
+  baum_i_passages *p = run->passages;
+  const double span[2] = {p->recent[0].t, p->recent[2].t};
+  found->smallest =
+    baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, span, &found->at, &found->joint);
+}
+
+static const char *const BRANCHES[] = {
+  [BAUM_BRANCH_CONTINUED] = "the motion goes on smoothly behind it",
+  [BAUM_BRANCH_LEFT] =
+    "the motion behind it is on another branch; prefer projection, with rk8 or a "
+    "step that does not end there",
+  [BAUM_BRANCH_UNKNOWN] = "whether the motion behind it is on the same branch cannot be told; "
+                          "compare with projection and another step",
+};
+
+static void record(baum_simulation *run, double to)
+{
+  baum_i_passages *p = run->passages;
+  baum_near_singular entry = {.struct_size = sizeof entry, .begin = p->present.from, .end = to};
+  baum_i_branch_decide(run, &p->present, &entry);
+  char label[BAUM_I_LABEL_SIZE] = "no joint";
+  if (p->present.joint >= 0) {
+    entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
+    (void)baum_i_joint_label(run->workspace->mechanism, p->present.joint, label);
+  }
+  baum_i_run_warn(run,
+                  "t = %.9g s to %.9g s: near a singular pose (pivot %.1e of the usual, %s): %s",
+                  entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
+  if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {
+    p->kept[run->counters.near_singular_intervals] = entry;
+  }
+  run->counters.near_singular_intervals++;
+  run->counters.branch_warnings += entry.branch != BAUM_BRANCH_CONTINUED;
+  if (entry.branch != BAUM_BRANCH_CONTINUED) {
+    p->clear_count = 0;
+  }
+}
+
+static void close_passage(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  if (p->present.smallest < SINGULAR) {
+    record(run, p->recent[p->recent_count - 1].t);
+  }
+  p->open = false;
+}
+
+static void look_inside(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  see_turn(run);
+  if (may_have_jumped(p)) {
+    baum_i_passage found = {.joint = -1};
+    search(run, &found);
+    see_pivot(p, found.smallest, found.at, found.joint);
+  }
+  if (is_near(last)) {
+    see_pivot(p, last->pivot, last->t, p->joint_noted);
+  } else {
+    close_passage(run);
+  }
+}
+
+/* The last state but one is clear, and was so far looked at as such. */
+static void look_outside(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  if (p->recent_count >= 2 && !is_near(last) && may_have_jumped(p)) {
+    baum_i_passage found = {.joint = -1};
+    search(run, &found);
+    if (found.smallest < SINGULAR) {
+      begin(p, p->recent[0].t);
+      see_pivot(p, found.smallest, found.at, found.joint);
+      see_turn(run);
+      close_passage(run);
+      return;
+    }
+  }
+  if (p->recent_count >= 2 && !is_near(last - 1)) {
+    keep_clear(run, last - 1);
+  }
+  if (is_near(last)) {
+    begin(p, p->recent_count >= 2 ? last[-1].t : last->t);
+    look_inside(run);
+  }
+}
+
+void baum_i_passages_look(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  if (!p || !p->unseen) {
+    return;
+  }
+  p->unseen = false;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  int64_t near_singular = run->workspace->near_singular; /* of the motion, not of looks at it */
+  if (p->open) {
+    look_inside(run);
+  } else {
+    look_outside(run);
+  }
+  run->workspace->near_singular = near_singular;
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+}
+
+/* ---- steps of variable length ---- */
+
+/* [rad] by which a mechanism may move in a step before states inside it are looked at: near singular poses, and
+ * elsewhere, where a step may lead across one. */
+static const double LONG_NEAR = 0.25;
+static const double LONG = 0.5;
+static const double PIVOT_NEAR = 0.3;
+static const double PIVOT = 0.5;
+
+enum { INSIDE = 16 }; /* at most */
+
+/* Into how many pieces the step to `end` is to be cut. */
+static int count_pieces(const baum_simulation *run, const baum_i_state *end, double pivot)
+{
+  const baum_i_passages *p = run->passages;
+  if (p->recent_count == 0) {
+    return 1;
+  }
+  const baum_i_knot *start = &p->recent[p->recent_count - 1];
+  const baum_mechanism *m = run->workspace->mechanism;
+  double rate = fmax(baum_i_scaled_size(m, start->v), baum_i_scaled_size(m, end->v));
+  double angle = rate * fabs(end->t - start->t);
+  double least = fmin(start->pivot, pivot / p->usual);
+  bool is_long = (angle > LONG && least < PIVOT) || (angle > LONG_NEAR && least < PIVOT_NEAR);
+  return is_long ? (int)fmin(ceil(angle / SPACING), INSIDE) : 1;
+}
+
+/* A state inside the last step, as the method has it. */
+static void look_between(baum_simulation *run, double t)
+{
+  baum_i_passages *p = run->passages;
+  baum_i_state between = {.t = t, .q = p->between.q, .v = p->between.v};
+  baum_status status =
+    run->integrator->interpolate(run->self, &run->problem, t, between.q, between.v);
+  if (status == BAUM_OK) {
+    status = baum_i_motion(run->workspace, t, between.q, between.v, 0.0, 0.0);
+  }
+  if (status == BAUM_OK) {
+    baum_i_passages_note(run, &between);
+    baum_i_passages_look(run);
+  }
+}
+
+/* Everything here is about the motion as it was; what fails, fails again in the next step, where it is told. */
+void baum_i_passages_step(baum_simulation *run, const baum_i_state *end)
+{
+  baum_i_passages *p = run->passages;
+  baum_workspace *w = run->workspace;
+  if (!p) {
+    return;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  int64_t near_singular = w->near_singular;
+  baum_status status = run->integrator->solves_residuals
+                         ? baum_i_motion(w, end->t, end->q, end->v, 0.0, 0.0)
+                         : BAUM_OK;
+  double pivot = baum_i_smallest_pivot(w);
+  int joint = baum_i_smallest_pivot_joint(w);
+  int pieces = status == BAUM_OK ? count_pieces(run, end, pivot) : 1;
+  double start = pieces > 1 ? p->recent[p->recent_count - 1].t : end->t;
+  for (int k = 1; k < pieces; k++) {
+    look_between(run, start + (end->t - start) * k / pieces);
+  }
+  if (status == BAUM_OK) {
+    note(run, end, pivot, joint);
+  }
+  w->near_singular = near_singular;
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+}
+
+/* ---- public ---- */
+
+baum_status baum_simulation_near_singular(const baum_simulation *simulation, int64_t k,
+                                          baum_near_singular *out, size_t caller_size)
+{
+  const char *call = "baum_simulation_near_singular";
+  if (!simulation || !out || caller_size < sizeof(size_t)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+  }
+  int64_t count = simulation->counters.near_singular_intervals;
+  int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
+  if (k < 0 || k >= most) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from 0 to %lld", call,
+                       (long long)k, (long long)most - 1);
+  }
+  baum_near_singular entry = simulation->passages->kept[k];
+  if (entry.joint.index1 > 0) { /* of a run that has been restored it may have another tag */
+    entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
+  }
+  entry.struct_size = caller_size < sizeof entry ? caller_size : sizeof entry;
+  memcpy(out, &entry, entry.struct_size);
+  return BAUM_OK;
+}

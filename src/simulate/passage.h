@@ -1,0 +1,66 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Passages: how a run comes through poses that are close to singular. */
+#ifndef BAUM_I_SIMULATE_PASSAGE_H
+#define BAUM_I_SIMULATE_PASSAGE_H
+
+#include "simulate/hermite.h"
+#include "simulate/run.h"
+
+enum {
+  BAUM_I_PASSAGES = 64, /* kept; more are counted */
+  BAUM_I_RECENT = 3     /* states */
+};
+
+/* One under way, or just found between two steps. */
+typedef struct baum_i_passage {
+  double from;         /* [s] last clear state before */
+  double at;           /* [s] of the smallest pivot */
+  double smallest;     /* [-] of the usual one */
+  double largest_turn; /* [-] change of the velocity in a step, of its size */
+  int joint;           /* of the smallest pivot, -1: none */
+} baum_i_passage;
+
+struct baum_i_passages {
+  int nv;
+  double usual; /* largest pivot so far */
+  int recent_count;
+  baum_i_knot recent[BAUM_I_RECENT]; /* last states, the last one last */
+  int clear_count;
+  baum_i_knot
+    clear[BAUM_I_HERMITE_MOST]; /* states away from singular poses, not too close together */
+  baum_i_knot at;               /* a state between two */
+  baum_i_knot other;
+  baum_i_knot between;
+  bool unseen;     /* the last recent state has not been looked at */
+  int joint_noted; /* of its smallest pivot, where it is near; -1: none */
+  bool open;
+  baum_i_passage present;
+  baum_near_singular kept[BAUM_I_PASSAGES];
+};
+
+baum_status baum_i_passages_create(baum_simulation *run);
+void baum_i_passages_destroy(baum_i_passages *passages); /* NULL is fine */
+
+/* From here on passages may be NULL: nothing is done.
+ * What comes next is not the motion that was before. */
+void baum_i_passages_forget(baum_i_passages *passages);
+
+/* A state of the run, at which the last solution was made. Evaluates nothing. */
+void baum_i_passages_note(baum_simulation *run, const baum_i_state *state);
+
+/* Look at the state that has been noted last; may evaluate. What functions of the user answer is not told. */
+void baum_i_passages_look(baum_simulation *run);
+
+/* Likewise a step of variable length that has just been taken. May evaluate; look at the end afterwards. */
+void baum_i_passages_step(baum_simulation *run, const baum_i_state *state);
+
+/* branch.c: what has become of the motion, from the clear states before to the last recent one, into *out. */
+void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
+                          baum_near_singular *out);
+
+/* branch.c: least pivot, of the usual one, of the motion through `knots` between two times; time and joint of it. The
+ * state there is left in passages->at. INFINITY where evaluations fail. */
+double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
+                                 const double span[2], double *at, int *joint);
+
+#endif
