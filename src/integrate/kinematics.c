@@ -467,6 +467,7 @@ static const baum_integrator KINEMATICS = {
   .name = "kinematics",
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEFAULT,
+  .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .without_freedom = true,
   .create = create,
   .destroy = destroy,

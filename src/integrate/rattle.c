@@ -153,7 +153,7 @@ static baum_status check_mechanism(const baum_i_problem *problem, const baum_i_s
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
     "simulation options: rattle is for forces of time and position, but that of %s "
-    "depends on velocities",
+    "depends on velocities; take rk4 or rk8, or generalized_alpha where it is stiff",
     label);
 }
 

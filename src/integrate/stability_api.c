@@ -25,6 +25,12 @@ static baum_status check_fixed_step(const baum_integrator *integrator)
   if (status != BAUM_OK) {
     return status;
   }
+  if (integrator->without_freedom) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "%s solves positions from the constraints, so there is nothing to stabilize "
+                       "and no region",
+                       integrator->name);
+  }
   if (integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "%s chooses its step, so it has no fixed region of stability",

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gains of a run, and the rate of the motion that the rule `auto` goes by. */
 #include <math.h>
+#include <stdio.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
@@ -105,6 +107,17 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
   all->max_step = fmin(all->max_step, own->max_step);
 }
 
+/* Says which row a refusal is about. */
+static baum_status name_row(const baum_simulation *run, int row, baum_status status)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  char why[BAUM_I_MESSAGE_SIZE];
+  (void)snprintf(why, sizeof why, "%s", baum_message());
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
+  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label, why);
+}
+
 /* Every factor that differs from that of the row before. */
 static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_context *context)
 {
@@ -119,7 +132,7 @@ static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_conte
     baum_i_gain_choice own;
     baum_status status = baum_i_gains_choose(&gains, context, &own);
     if (status != BAUM_OK) {
-      return status;
+      return name_row(run, i, status);
     }
     keep_worse(run, &own);
     if (own.doubtful) {

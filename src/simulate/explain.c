@@ -44,6 +44,13 @@ static void say_mechanism(baum_simulation *run)
   say(run, "scale         %.6g m, and 1 rad\n", m->length);
 }
 
+static void say_factor(baum_simulation *run, const char *name, double value, double without)
+{
+  if (value != without) {
+    say(run, ", %s %.3g", name, value);
+  }
+}
+
 static void say_integrator(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -61,6 +68,9 @@ static void say_integrator(baum_simulation *run)
   if (!isnan(o->atol)) {
     say(run, ", atol %.3g", o->atol);
   }
+  say_factor(run, "tolerance_q", o->tolerance_q, 1.0);
+  say_factor(run, "tolerance_v", o->tolerance_v, 1.0);
+  say_factor(run, "tolerance_lambda", o->tolerance_lambda, (double)INFINITY);
   say(run,
       "; positions relative to the scale, velocities to the scale times %.4g 1/s or the present "
       "velocity\n",

@@ -38,6 +38,21 @@ static baum_status refuse(const char *field, const char *unit, double value, con
                      unit[0] ? " " : "", unit, must);
 }
 
+/* Factors on tolerances where there is no tolerance. */
+static baum_status check_no_factors(const baum_simulation_options *o)
+{
+  const char *const fields[2] = {"tolerance_q", "tolerance_v"};
+  const double values[2] = {o->tolerance_q, o->tolerance_v};
+  for (int k = 0; k < 2; k++) {
+    if (values[k] != 1.0) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "simulation options: %s is %g, but %s takes no tolerance here; leave it 1",
+                         fields[k], values[k], o->integrator->name);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_step(const baum_simulation_options *o)
 {
   const char *name = o->integrator->name;
@@ -57,7 +72,7 @@ static baum_status check_step(const baum_simulation_options *o)
                          fields[k], values[k], name);
     }
   }
-  return BAUM_OK;
+  return check_no_factors(o);
 }
 
 static baum_status check_factors(const baum_simulation_options *o)
@@ -91,7 +106,8 @@ static baum_status check_neither(const baum_simulation_options *o)
                          fields[k], values[k], o->integrator->name);
     }
   }
-  return check_max_step(o);
+  baum_status status = check_no_factors(o);
+  return status == BAUM_OK ? check_max_step(o) : status;
 }
 
 static baum_status check_tolerance(const baum_simulation_options *o)

@@ -93,6 +93,8 @@ static const bad_option bad_options[] = {
   {false, OPTION(rtol), 1e-6, "rtol is 1e-06, but euler has a fixed step"},
   {false, OPTION(atol), 1e-9, "atol is 1e-09, but euler has a fixed step"},
   {false, OPTION(max_step), 0.1, "max_step is 0.1, but euler has a fixed step"},
+  {false, OPTION(tolerance_q), 2.0, "tolerance_q is 2, but euler takes no tolerance here"},
+  {false, OPTION(tolerance_v), (double)NAN, "tolerance_v is nan, but euler takes no tolerance"},
   {true, OPTION(max_step), 0.0, "max_step is 0 s, must be > 0"},
   {true, OPTION(tolerance_q), 0.0, "tolerance_q is 0, must be > 0"},
   {true, OPTION(tolerance_v), -1.0, "tolerance_v is -1, must be > 0"},
@@ -302,35 +304,6 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
     o.max_step = (double)NAN;
     o.tolerance_v = 0.0;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "tolerance_v is 0, must be > 0");
-  }
-  baum_mechanism_destroy(parts.mechanism);
-}
-
-/* Multipliers are tested by IDA at index 1 alone. */
-static void tolerances_of_multipliers_are_refused_where_nothing_tests_them(void **state)
-{
-  (void)state;
-  every_element parts = every_element_make(NULL);
-  for (int32_t k = 0; baum_integrator_at(k) != NULL; k++) {
-    baum_simulation_options o = good_options();
-    o.integrator = baum_integrator_at(k);
-    bool fixed = baum_integrator_has_fixed_step(o.integrator);
-    o.step = fixed ? 1e-3 : (double)NAN;
-    o.rtol = fixed ? (double)NAN : 1e-6;
-    o.tolerance_lambda = 10.0;
-    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
-      o.formulation = (baum_formulation)f;
-      if (!baum_integrator_offers(o.integrator, o.formulation)) {
-        continue;
-      }
-      if (o.integrator != baum_ida()) {
-        check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                      "tolerance_lambda is 10, but|has no multipliers among its unknowns");
-      } else if (f != BAUM_FORMULATION_UNSTABILIZED && f != BAUM_FORMULATION_BAUMGARTE) {
-        check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT,
-                      "tolerance_lambda is 10, but with the formulation|cannot be tested");
-      }
-    }
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -596,7 +569,6 @@ int main(void)
     cmocka_unit_test(gains_with_a_formulation_that_has_none_are_refused),
     cmocka_unit_test(gains_out_of_range_are_refused),
     cmocka_unit_test(pairs_take_either_a_step_or_a_tolerance),
-    cmocka_unit_test(tolerances_of_multipliers_are_refused_where_nothing_tests_them),
     cmocka_unit_test(unstable_gains_are_refused_and_the_nearest_good_pair_runs),
     cmocka_unit_test(unstable_gains_run_when_allowed_and_warn),
     cmocka_unit_test(targets_that_are_none_change_nothing),

@@ -6,6 +6,7 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -49,6 +50,21 @@ static reference_run run_with(const baum_integrator *integrator, baum_formulatio
   }
   model_destroy(&m);
   return out;
+}
+
+static void they_are_explained(void **state)
+{
+  (void)state;
+  model m = build_mechanism(PENDULUM);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk8();
+  options.rtol = 1e-6;
+  options.tolerance_v = 20.0;
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m.mechanism, &options, &run), BAUM_OK);
+  assert_non_null(strstr(baum_simulation_explain(run), "rtol 1e-06, tolerance_v 20; positions"));
+  baum_simulation_destroy(run);
+  model_destroy(&m);
 }
 
 static void compare(const char *what, const baum_integrator *integrator,
@@ -106,6 +122,7 @@ static void each_factor_governs_what_it_names(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(they_are_explained),
     cmocka_unit_test(each_factor_governs_what_it_names),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

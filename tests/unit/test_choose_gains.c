@@ -335,6 +335,7 @@ static void factors_that_make_no_sense_are_refused(void **state)
   double factors[2] = {1.0, 400.0}; /* alpha h = 0.01 x 400 */
   baum_mechanism *m = two_long_rods();
   baum_simulation_options o = with_factors(factors, 2, BAUM_SOLVER_AUTO);
+  refused(m, &o, BAUM_ERR_UNSTABLE, "row_gains[1] = 400, of joint");
   refused(m, &o, BAUM_ERR_UNSTABLE, "gains alpha = 4000 1/s, beta = 8000 1/s with euler");
   o.row_gain_count = 3;
   refused(m, &o, BAUM_ERR_ARGUMENT, "row_gain_count is 3, must be nc = 2");

@@ -180,7 +180,8 @@ static void every_integrator_has_a_statement(void **state)
 static void methods_without_a_region_are_refused(void **state)
 {
   (void)state;
-  static const char why[] = "kinematics chooses its step, so it has no fixed region of stability";
+  static const char why[] = "kinematics solves positions from the constraints, so there is nothing "
+                            "to stabilize and no region";
   const baum_integrator *k = baum_kinematics();
   double x = 7.0;
   double y = 7.0;
@@ -198,6 +199,8 @@ static void methods_without_a_region_are_refused(void **state)
   assert_int_equal(baum_stability_at(baum_rattle(), 1.0, 1.0, &out, sizeof out), BAUM_OK);
   assert_int_equal(out.stability, BAUM_WITHOUT_GAINS);
   assert_true(isnan(out.spectral_radius) && isnan(out.damping) && isnan(out.z[1][1]));
+  assert_int_equal(baum_stability_at(k, 1.0, 1.0, &out, sizeof out), BAUM_OK);
+  assert_int_equal(out.stability, BAUM_WITHOUT_GAINS);
   ASSERT_REFUSED(baum_stability_best(baum_rattle(), &x, &y), BAUM_ERR_UNSUPPORTED,
                  "rattle keeps the constraints by itself, without gains, so it has no region of "
                  "stability");
