@@ -4,7 +4,7 @@
  * a shorter step from the same start. docs/theory/events.md.
  *
  * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is looked at cheaply, on the
- * interpolant without projection or on the cubic of the two ends; where a sign has changed there, it is asked of g.
+ * interpolant without projection or on the cubic of the two ends; where it shows another side than known, g is asked.
  * Each event has a side that it keeps from look to look, also from step to step, where interpolants do not meet exactly:
  * nothing is found twice or lost there.
  *
@@ -287,6 +287,17 @@ static baum_status deliver(baum_simulation *run)
   return BAUM_OK;
 }
 
+/* Does a glance show another side than known? */
+static bool any_differs(const baum_i_events *events)
+{
+  for (int k = 0; k < events->count; k++) {
+    if (baum_i_sign(events->list[k].next) != events->marks[k].side) {
+      return true;
+    }
+  }
+  return false;
+}
+
 static bool any_has_passed(const baum_i_events *events)
 {
   for (int k = 0; k < events->count; k++) {
@@ -343,7 +354,7 @@ static baum_status look(baum_simulation *run, double t, bool exact)
   if (status == BAUM_OK) {
     status = baum_i_events_evaluate(run, exact ? &run->trial : &events->look);
   }
-  if (status == BAUM_OK && !exact && any_has_passed(events)) {
+  if (status == BAUM_OK && !exact && any_differs(events)) {
     status = value_at(run, t);
   }
   if (status == BAUM_OK && any_has_passed(events)) {
