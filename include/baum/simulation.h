@@ -249,6 +249,16 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
 
+/** Go on where another run stands, also one that has failed: time, state, inputs and laws of drivers are taken from it;
+ *  options, counters and warnings stay this run's own. Unless the option `start` is BAUM_START_AS_GIVEN, q and v are
+ *  changed by the least that fulfils the constraints. So another integrator, formulation, tolerance or solver takes over
+ *  from the last good step.
+ *  @param[in] from  of the same mechanism, or of one with the same elements and numbers; unchanged
+ *  @return          as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism
+ */
+BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
+                                              const baum_simulation *from);
+
 /** Change an input from the present time on; it is held until it is changed again, also by
  *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts
  *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step. A

@@ -50,6 +50,15 @@ static const baum_i_sundials_flag FLAGS[] = {
    "the iteration does not converge however small the step; stiff forces need cvode_bdf or ida, "
    "and near a singular position projection helps"},
   {CV_TOO_CLOSE, BAUM_ERR_STEP, "no first step can be found; the scales of time differ too much"},
+  {CV_LSETUP_FAIL, BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be factored; take a fixed-point method such as "
+   "cvode_adams, or rk8"},
+  {CV_LSOLVE_FAIL, BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be solved with; take rk8, or a smaller rtol"},
+  {CV_NLS_FAIL, BAUM_ERR_CONVERGENCE, "the iteration failed; take rk8, or a smaller rtol"},
+  {CV_ILL_INPUT, BAUM_ERR_NOT_FINITE,
+   "the state or its tolerances are not finite; the motion grows without bound, or rtol and atol "
+   "are too small"},
   {CV_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
   {0, BAUM_OK, NULL},
 };

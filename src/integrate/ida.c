@@ -65,6 +65,14 @@ static const baum_i_sundials_flag FLAGS[] = {
   {IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE,
    "the iteration does not converge however small the step; the position may be near singular, "
    "or rtol is too small for index 3"},
+  {IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
+  {IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be solved with; take rk8, or a smaller rtol"},
+  {IDA_NLS_FAIL, BAUM_ERR_CONVERGENCE, "the iteration failed; take rk8, or a smaller rtol"},
+  {IDA_ILL_INPUT, BAUM_ERR_NOT_FINITE,
+   "the state or its tolerances are not finite; the motion grows without bound, or rtol and atol "
+   "are too small"},
   {IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
   {0, BAUM_OK, NULL},
 };

@@ -95,7 +95,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   const baum_i_state *state = &run->state;
   baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
   if (status != BAUM_OK) {
-    return explain_callback(run, status);
+    return baum_i_run_explain_failure(run, explain_callback(run, status), state);
   }
   if (observe) {
     baum_i_passages_note(run, state);
@@ -116,7 +116,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
   }
-  return explain_callback(run, status);
+  return baum_i_run_explain_failure(run, explain_callback(run, status), state);
 }
 
 static void keep_trial(baum_simulation *run)
@@ -239,6 +239,7 @@ static baum_status internal_step(baum_simulation *run)
     run->events->from = run->ahead.t;
   }
   baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
+  status = baum_i_run_explain_failure(run, status, &run->ahead);
   if (status == BAUM_OK) {
     status = check_finite(run, &run->trial);
   }

@@ -118,6 +118,11 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 /* Remember the sentence of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
+/* failure.c: add to the sentence of a step that failed which joint and body to look at, at the last good state, and what
+ * may help. Returns the status. */
+baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
+                                       const baum_i_state *at);
+
 /* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
 

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run that goes on where another one stands, of the same mechanism and with options of its own. */
+#include "base/alloc.h"
+#include "dynamics/immobile.h"
+#include "simulate/run.h"
+
+/* Where a run stands, and what acts on it from outside. */
+typedef struct standing {
+  double *q;          /* (nq) */
+  double *v;          /* (nv) */
+  double *inputs;     /* (input_count) */
+  double *parameters; /* as of a run; NULL: the mechanism's */
+} standing;
+
+static baum_status copy_standing(const baum_simulation *from, standing *out)
+{
+  const baum_mechanism *m = from->workspace->mechanism;
+  *out = (standing){0};
+  out->q = baum_i_copy(from->state.q, (size_t)m->nq, sizeof *out->q);
+  out->v = baum_i_copy(from->state.v, (size_t)m->nv, sizeof *out->v);
+  out->inputs = baum_i_copy(from->workspace->inputs, (size_t)m->input_count, sizeof *out->inputs);
+  if (from->parameters) {
+    out->parameters =
+      baum_i_copy(from->parameters, (size_t)m->parameter_count, sizeof *out->parameters);
+  }
+  bool complete = out->q && out->v && out->inputs && (out->parameters || !from->parameters);
+  return complete ? BAUM_OK : baum_i_fail_memory();
+}
+
+static void clear_standing(standing *s)
+{
+  baum_i_free(s->q);
+  baum_i_free(s->v);
+  baum_i_free(s->inputs);
+  baum_i_free(s->parameters);
+}
+
+/* The run gets what acts from outside, and gives its own. */
+static void exchange(baum_simulation *run, standing *s)
+{
+  baum_workspace *w = run->workspace;
+  double *parameters = run->parameters;
+  for (int k = 0; k < w->mechanism->input_count; k++) {
+    double input = w->inputs[k];
+    w->inputs[k] = s->inputs[k];
+    s->inputs[k] = input;
+  }
+  run->parameters = s->parameters;
+  s->parameters = parameters;
+  w->point.parameters = run->parameters ? run->parameters : w->mechanism->parameters;
+}
+
+/* A method that lets violations be may have left some, which this one may not take: then q and v are changed by the least
+ * that does. */
+static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
+{
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  if (run->options.start != BAUM_START_AS_GIVEN) {
+    baum_i_look_at_immobile(run->workspace, theirs->q, theirs->v);
+    baum_status status = baum_i_project(run->workspace, t, theirs->q, theirs->v);
+    if (status != BAUM_OK) {
+      baum_i_look_at_immobile(run->workspace, run->state.q, run->state.v);
+      return baum_i_run_fail(run, status);
+    }
+  }
+  return baum_i_message_settle(baum_simulation_set_state(run, t, theirs->q, theirs->v), &kept);
+}
+
+static baum_status check_both(const baum_simulation *run, const baum_simulation *from)
+{
+  const char *call = "baum_simulation_continue";
+  if (!run || !from) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
+                       run ? "the run to go on from" : "the simulation");
+  }
+  bool same = run->fingerprint.structure == from->fingerprint.structure &&
+              run->fingerprint.numbers == from->fingerprint.numbers;
+  if (!same) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the two runs are of different mechanisms", call);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_simulation_continue(baum_simulation *simulation, const baum_simulation *from)
+{
+  standing theirs;
+  baum_status status = check_both(simulation, from);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = copy_standing(from, &theirs);
+  if (status == BAUM_OK) {
+    exchange(simulation, &theirs);
+    status = take_over(simulation, from->state.t, &theirs);
+    if (status != BAUM_OK) {
+      exchange(simulation, &theirs);
+    }
+  }
+  clear_standing(&theirs);
+  return status;
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is added to the sentence of a step that failed: where the run stands, which joint and body to look at first, and
+ * what may help. The sentence itself has time and step, from whoever failed.
+ *
+ * At the last good step, by one solution of (5):
+ *   the joint that is violated most, if that shows, else the one that bears the largest load
+ *   the body that accelerates most
+ *
+ * both relative to the scales.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/text.h"
+#include "simulate/run.h"
+
+/* A violation as a displacement that shows. */
+static const double VIOLATED = 1e-3;
+
+typedef struct advice {
+  baum_status status;
+  const char *text;
+} advice;
+
+static const advice ADVICE[] = {
+  {BAUM_ERR_SINGULAR,
+   "a run with another step may pass a single pose like this; no step passes a dead end"},
+  {BAUM_ERR_CONVERGENCE, "take a smaller step or tolerance"},
+  {BAUM_ERR_STEP, "look at what acts there, or take a larger rtol"},
+  {BAUM_ERR_NOT_FINITE, "look at functions and numbers there, or, where a run blows up, take a "
+                        "smaller step or other gains"},
+  {BAUM_ERR_INTEGRATOR, "another integrator may get over it"},
+  {BAUM_OK, NULL},
+};
+
+static const char *advice_for(baum_status status)
+{
+  const advice *a = ADVICE;
+  while (a->text && a->status != status) {
+    a++;
+  }
+  return a->text;
+}
+
+/* The largest of |x_i| / n_i, or of |x_i| n_i where n is a displacement. */
+static int find_largest(const double *x, const double *n, int count, bool times, double *largest)
+{
+  int row = -1;
+  *largest = 0.0;
+  for (int i = 0; i < count; i++) {
+    double size = times ? fabs(x[i]) * n[i] : fabs(x[i]) / n[i];
+    if (size > *largest) {
+      *largest = size;
+      row = i;
+    }
+  }
+  return row;
+}
+
+static void say_joint(baum_workspace *w, char *text, size_t size)
+{
+  const baum_mechanism *m = w->mechanism;
+  char label[BAUM_I_LABEL_SIZE];
+  double *displacement = w->work_c;
+  double violation = 0.0;
+  double load = 0.0;
+  baum_i_row_displacements(w, displacement);
+  int violated = find_largest(w->phi, displacement, m->nc, false, &violation);
+  int loaded = find_largest(w->lambda, displacement, m->nc, true, &load);
+  if (violated >= 0 && violation > VIOLATED) {
+    (void)baum_i_joint_label(m, baum_i_row_joint(m, violated), label);
+    baum_i_append(text, size, ", %s is violated by %.2g of the scales", label, violation);
+  } else if (loaded >= 0) {
+    (void)baum_i_joint_label(m, baum_i_row_joint(m, loaded), label);
+    baum_i_append(text, size, ", %s bears the largest load", label);
+  }
+}
+
+static void say_body(const baum_workspace *w, char *text, size_t size)
+{
+  const baum_mechanism *m = w->mechanism;
+  char label[BAUM_I_LABEL_SIZE];
+  double largest = 0.0;
+  int column = find_largest(w->a, m->scale, m->nv, false, &largest);
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (column >= body->v && column < body->v + body->nv) {
+      (void)baum_i_label(&body->element, "body", label);
+      baum_i_append(text, size, ", %s accelerates most", label);
+    }
+  }
+}
+
+/* Where not even that can be solved. */
+static void say_history(const baum_simulation *run, char *text, size_t size)
+{
+  const baum_counters *c = &run->counters;
+  char label[BAUM_I_LABEL_SIZE];
+  if (c->max_phi_joint.index1 > 0) {
+    (void)baum_i_joint_label(run->workspace->mechanism, c->max_phi_joint.index1 - 1, label);
+    baum_i_append(text, size, ", %s has been violated most, by %.3g", label, c->max_phi);
+  }
+}
+
+/* The state where the run stands; what is evaluated for this sentence is not counted. */
+static void say_where(baum_simulation *run, const baum_i_state *at, char *text, size_t size)
+{
+  baum_workspace *w = run->workspace;
+  int64_t evaluations = w->evaluations;
+  int64_t near_singular = w->near_singular;
+  baum_status status = baum_i_acceleration(w, at->t, at->q, at->v, 0.0, 0.0);
+  if (status == BAUM_OK) {
+    status = baum_i_need_jacobian(w);
+  }
+  baum_i_append(text, size, "; at the last good step, t = %.9g s", at->t);
+  if (status == BAUM_OK) {
+    say_joint(w, text, size);
+    say_body(w, text, size);
+  } else {
+    say_history(run, text, size);
+  }
+  w->evaluations = evaluations;
+  w->near_singular = near_singular;
+}
+
+baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
+                                       const baum_i_state *at)
+{
+  const char *help = advice_for(status);
+  if (!help) {
+    return status;
+  }
+  baum_i_sentence reason;
+  char text[BAUM_I_MESSAGE_SIZE / 2] = "";
+  baum_i_message_keep(&reason);
+  say_where(run, at, text, sizeof text);
+  return baum_i_fail(status, "%.500s%s; %s", reason.text, text, help);
+}

@@ -1,0 +1,344 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every way in which a run can end before its time: a sentence with time, step, joint or body, and advice; the last good
+ * step stays readable; and another run goes on from there.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "driven.h"
+#include "every_element.h"
+#include "step_mode.h"
+
+/* ---- a pendulum with a force that can go wrong ---- */
+
+typedef enum fault {
+  FAULT_NONE,
+  FAULT_STOPS,   /* answers that the run shall stop */
+  FAULT_RETRIES, /* asks for smaller steps for ever */
+  FAULT_NAN,
+  FAULT_NOISE,  /* another large force at every place */
+  FAULT_GROWTH, /* grows without bound: the motion ends in finite time */
+  FAULT_COUNT
+} fault;
+
+static const double AFTER = 0.1; /* [s] when it goes wrong */
+
+/* A large number that says nothing of x. */
+static double noise(double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  bits = (bits ^ (bits >> 29)) * UINT64_C(0xbf58476d1ce4e5b9);
+  return 1e20 * ((double)(bits >> 11) * 0x1p-53 - 0.5);
+}
+
+static int force(double t, const double *q, const double *v, const double *inputs, double *out,
+                 void *user)
+{
+  const fault *now = user;
+  (void)inputs;
+  out[0] = 0.0;
+  out[1] = 0.0;
+  if (t <= AFTER) {
+    return 0;
+  }
+  switch (*now) {
+  case FAULT_STOPS: return -3;
+  case FAULT_RETRIES: return 2;
+  case FAULT_NAN: out[0] = NAN; break;
+  case FAULT_NOISE: out[0] = noise(q[0] + t); break;
+  case FAULT_GROWTH:
+    out[0] = 1e3 * v[0] * (v[0] * v[0] + v[1] * v[1]);
+    out[1] = 1e3 * v[1] * (v[0] * v[0] + v[1] * v[1]);
+    break;
+  case FAULT_NONE:
+  case FAULT_COUNT:
+  default: break;
+  }
+  return 0;
+}
+
+static baum_mechanism *pendulum(fault *user)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  bob.name = "bob";
+  bob.position[0] = 1.0;
+  baum_body_id body;
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.name = "rod";
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = body;
+  rod.point_a[0] = 0.0;
+  rod.point_a[1] = 0.0;
+  rod.point_b[0] = 0.0;
+  rod.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
+  baum_user_force_def f = baum_user_force_def_default();
+  f.name = "gust";
+  f.bodies = &body;
+  f.body_count = 1;
+  f.force = force;
+  f.user = user;
+  assert_int_equal(baum_mechanism_add_user_force(m, &f, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* A crank that turns on and on, with a rod too short for it. */
+static baum_mechanism *locking_crank(void)
+{
+  const drive motor = {.angle = 0.4, .rate = 1.0};
+  const slider_crank data = {0.3, 0.1501, 0.05, 1, motor};
+  return slider_crank_make(&data);
+}
+
+/* ---- what comes of it ---- */
+
+enum { CONVERGENCE = 1, STEP = 2, NOT_FINITE = 4, SINGULAR = 8, CALLBACK = 16 };
+
+static int flag_of(baum_status status)
+{
+  switch ((int)status) {
+  case BAUM_ERR_CONVERGENCE: return CONVERGENCE;
+  case BAUM_ERR_STEP: return STEP;
+  case BAUM_ERR_NOT_FINITE: return NOT_FINITE;
+  case BAUM_ERR_SINGULAR: return SINGULAR;
+  case BAUM_ERR_CALLBACK: return CALLBACK;
+  default: return 0;
+  }
+}
+
+typedef struct expectation {
+  fault fault;         /* FAULT_COUNT: the locking crank */
+  int statuses;        /* one of these */
+  const char *element; /* named */
+  const char *words;   /* in the sentence */
+} expectation;
+
+static const expectation EXPECTED[] = {
+  {FAULT_STOPS, CALLBACK, "\"gust\"", "returned -3 (stop)"},
+  {FAULT_RETRIES, CALLBACK, "\"gust\"", "returned 2 (retry)"},
+  {FAULT_NAN, NOT_FINITE, "\"gust\"", "is nan at t = "},
+  {FAULT_NOISE, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
+  /* fixed steps end where the force is infinite, which names it */
+  {FAULT_GROWTH, NOT_FINITE | CONVERGENCE | STEP, "\"rod\"", "at the last good step, t = "},
+  {FAULT_COUNT, NOT_FINITE | CONVERGENCE | STEP | SINGULAR, "joint ",
+   "at the last good step, t = "},
+};
+enum { EXPECTATIONS = sizeof EXPECTED / sizeof *EXPECTED };
+
+/* The sentence of a failure: time, where it was, whose fault, and what to do. */
+static void check_sentence(const baum_simulation *run, const expectation *e, const char *name)
+{
+  const char *sentence = baum_simulation_message(run);
+  bool fine = strstr(sentence, "t = ") && strstr(sentence, e->element) &&
+              strstr(sentence, e->words) && strlen(sentence) < 1000;
+  bool advises = strstr(sentence, "take ") || strstr(sentence, "look at") ||
+                 strstr(sentence, "another step") || e->statuses == CALLBACK;
+  if (!fine || !advises) {
+    fail_msg("%s, fault %d: %s", name, e->fault, sentence);
+  }
+}
+
+static bool reached(baum_status status)
+{
+  return status == BAUM_OK || status == BAUM_WARNED;
+}
+
+/* A run of fixed steps may have left its mechanism before it fails, or be too fast for any step. */
+static bool is_still_a_pendulum(const baum_simulation *run)
+{
+  const double *q = baum_simulation_q(run);
+  const double *v = baum_simulation_v(run);
+  return fabs(hypot(q[0], q[1]) - 1.0) < 0.1 && hypot(v[0], v[1]) < 10.0;
+}
+
+/* Another method takes over where the run stands, and so does the run itself, now that the reason has gone. */
+static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  baum_simulation *next = NULL;
+  assert_int_equal(baum_simulation_create(mechanism, &o, &next), BAUM_OK);
+  if (baum_simulation_continue(next, run) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  double t = baum_simulation_time(run);
+  assert_true(baum_simulation_time(next) == t);
+  assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
+  assert_true(reached(baum_simulation_advance_to(next, t + 0.01)));
+  assert_true(reached(baum_simulation_advance_to(run, t + 0.01)));
+  /* both fall freely on from there; what differs is the error of the loosest method in 10 ms */
+  assert_true(fabs(baum_simulation_q(next)[0] - baum_simulation_q(run)[0]) < 0.1);
+  baum_simulation_destroy(next);
+}
+
+static void check_failure(const baum_simulation_options *o, const expectation *e)
+{
+  fault now = FAULT_NONE;
+  char name[80];
+  (void)snprintf(name, sizeof name, "%s %s %s", baum_integrator_name(o->integrator),
+                 isnan(o->step) ? "variable" : "fixed", baum_formulation_name(o->formulation));
+  baum_mechanism *m = e->fault == FAULT_COUNT ? locking_crank() : pendulum(&now);
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m, o, &run), BAUM_OK);
+  now = e->fault;
+  baum_status status = baum_simulation_advance_to(run, 2.0);
+  double t = baum_simulation_time(run);
+  if ((flag_of(status) & e->statuses) == 0) {
+    fail_msg("%s, fault %d: %s at %g s: %s", name, e->fault, baum_status_name(status), t,
+             baum_simulation_message(run));
+  }
+  bool infinite = strstr(baum_simulation_message(run), "inf at t = ");
+  if (!(e->fault == FAULT_GROWTH && infinite)) {
+    check_sentence(run, e, name);
+  }
+  assert_in_range(1e6 * t, 1, 1999999);
+  assert_true(isfinite(baum_simulation_q(run)[0]) && isfinite(baum_simulation_v(run)[0]));
+  now = FAULT_NONE;
+  if (e->fault != FAULT_COUNT && is_still_a_pendulum(run)) {
+    check_goes_on(run, m);
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* Not these: they go through. */
+static bool gets_over(const baum_simulation_options *o, fault f)
+{
+  bool semi_implicit = o->integrator == baum_semi_implicit_euler();
+  /* steps of IDA at index 3 do not test velocities, and so do not see noise in forces */
+  bool blind = isnan(o->step) && o->formulation == BAUM_FORMULATION_INDEX3;
+  bool random = f == FAULT_NOISE || f == FAULT_GROWTH;
+  return (semi_implicit && o->formulation == BAUM_FORMULATION_UNSTABILIZED && f == FAULT_NOISE) ||
+         (blind && random);
+}
+
+static void every_failure_names_time_place_and_remedy(void **state)
+{
+  (void)state;
+  int checked = 0;
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      baum_formulation formulation = (baum_formulation)f;
+      if (!baum_integrator_offers(mode.integrator, formulation)) {
+        continue;
+      }
+      double rtol = formulation == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
+      baum_simulation_options o = step_mode_options(mode, 1e-3, rtol);
+      o.formulation = formulation;
+      for (int k = 0; k < EXPECTATIONS; k++) {
+        if (!gets_over(&o, EXPECTED[k].fault)) {
+          check_failure(&o, &EXPECTED[k]);
+          checked++;
+        }
+      }
+    }
+  }
+  assert_true(checked > 100);
+}
+
+static void more_digits_than_there_are_are_refused(void **state)
+{
+  (void)state;
+  fault none = FAULT_NONE;
+  baum_mechanism *m = pendulum(&none);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    if (mode.fixed) {
+      continue;
+    }
+    baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-18);
+    baum_simulation *run = NULL;
+    baum_status status = baum_simulation_create(m, &o, &run);
+    status = status >= BAUM_OK ? baum_simulation_advance_to(run, 1.0) : status;
+    assert_int_equal(status, BAUM_ERR_STEP);
+    assert_non_null(strstr(baum_message(), "more digits than double precision has; raise rtol"));
+    assert_non_null(strstr(baum_message(), "t = 0 s"));
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* ---- going on ---- */
+
+static void inputs_and_laws_go_on_too(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  baum_simulation *runs[2] = {NULL, NULL};
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(baum_simulation_create(parts.mechanism, &o, &runs[k]), BAUM_OK);
+  }
+  assert_true(reached(baum_simulation_advance_to(runs[0], 0.02)));
+  assert_int_equal(baum_simulation_set_input(runs[0], parts.throttle, 0.25), BAUM_OK);
+  assert_int_equal(baum_simulation_set_driver(runs[0], parts.motor, 0.5403, 2.006, 5.0), BAUM_OK);
+  if (baum_simulation_continue(runs[1], runs[0]) != BAUM_OK) {
+    fail_msg("%s", baum_message());
+  }
+  assert_true(baum_simulation_input(runs[1], parts.throttle) == 0.25);
+  for (int k = 0; k < 2; k++) {
+    assert_true(reached(baum_simulation_advance_to(runs[k], 0.05)));
+  }
+  /* assembled on the way, to rounding */
+  assert_true(fabs(baum_simulation_q(runs[1])[2] - baum_simulation_q(runs[0])[2]) < 1e-9);
+  double driven = 0.5403 + 0.03 * (2.006 + 0.03 * 2.5);
+  const baum_channel angle = {.quantity = BAUM_JOINT_COORDINATE, .joint = parts.pin};
+  double coordinate[2];
+  assert_int_equal(baum_simulation_get(runs[1], &angle, 1, coordinate), BAUM_OK);
+  assert_true(fabs(coordinate[0] - driven) < 1e-9); /* projected to rounding */
+  for (int k = 0; k < 2; k++) {
+    baum_simulation_destroy(runs[k]);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void only_runs_of_the_same_mechanism_go_on(void **state)
+{
+  (void)state;
+  fault none = FAULT_NONE;
+  baum_mechanism *m[2] = {pendulum(&none), locking_crank()};
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  baum_simulation *runs[2] = {NULL, NULL};
+  for (int k = 0; k < 2; k++) {
+    assert_int_equal(baum_simulation_create(m[k], &o, &runs[k]), BAUM_OK);
+  }
+  assert_int_equal(baum_simulation_continue(NULL, runs[0]), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_simulation_continue(runs[0], NULL), BAUM_ERR_ARGUMENT);
+  assert_true(reached(baum_simulation_advance_to(runs[1], 0.1)));
+  assert_int_equal(baum_simulation_continue(runs[0], runs[1]), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "different mechanisms"));
+  assert_true(baum_simulation_time(runs[0]) == 0.0);
+  for (int k = 0; k < 2; k++) {
+    baum_simulation_destroy(runs[k]);
+    baum_mechanism_destroy(m[k]);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_failure_names_time_place_and_remedy),
+    cmocka_unit_test(more_digits_than_there_are_are_refused),
+    cmocka_unit_test(inputs_and_laws_go_on_too),
+    cmocka_unit_test(only_runs_of_the_same_mechanism_go_on),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
