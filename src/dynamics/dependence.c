@@ -49,7 +49,8 @@ static void choose_pose(search *s, int pose)
 static void choose_velocities(search *s, int speed)
 {
   const baum_mechanism *m = s->w->mechanism;
-  double size = s->probe->rate * pow(10.0, speed - SPEEDS / 2);
+  int power = speed - SPEEDS / 2;
+  double size = s->probe->rate * pow(10.0, power);
   for (int i = 0; i < m->nv; i++) {
     s->v[i] = size * m->scale[i] * irregular(s);
   }

@@ -7,7 +7,7 @@
 
 /* The x of (I - gamma df/dy) x = r at y = (q, v), as a run of baum_cvode_bdf() solves it; all (nq + nv). As an acceleration,
  * and BAUM_ERR_SINGULAR without a sentence. */
-baum_status baum_i_cvode_solve_newton(void *run, double t, const double *y, double gamma,
+baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, double gamma,
                                       const double *r, double *x);
 
 #endif
