@@ -33,7 +33,7 @@ class Gains(unittest.TestCase):
 class RowGains(unittest.TestCase):
     def test_factors_of_joints(self):
         m = slider_crank()
-        with self.assertRaisesRegex(baum.Error, "alpha = 4000 1/s"):
+        with self.assertRaisesRegex(baum.Error, 'row_gains.*"B".*alpha = 4000 1/s'):
             m.simulation("rk4", step=1e-3, formulation="baumgarte", gains=baum.fixed(10, 10),
                          row_gains={"B": 400})
         run = m.simulation("rk4", step=1e-3, formulation="baumgarte", gains=baum.fixed(10, 10),
@@ -41,6 +41,16 @@ class RowGains(unittest.TestCase):
         self.assertIn("times the factors of row_gains", run.explain)
         self.assertAlmostEqual(run.counters.spectral_radius, math.exp(-0.01), 10)
         self.assertAlmostEqual(run.counters.damping, 10, 6)
+
+    def test_what_is_no_factor_is_named(self):
+        m = slider_crank()
+        for factors, why in (
+            ([1, 2], "row_gains: {joint: factor} is wanted"),
+            ({"B": (1, 2, 3)}, 'row_gains of "B": 2 numbers are wanted, not 3'),
+            ({"B": "x"}, 'row_gains of "B": a number is wanted'),
+        ):
+            with self.assertRaisesRegex((TypeError, ValueError), why):
+                m.simulation("rk4", step=1e-3, formulation="baumgarte", row_gains=factors)
 
 
 class Stability(unittest.TestCase):
@@ -67,6 +77,8 @@ class Stability(unittest.TestCase):
         best = baum.stability_best("ab2")
         self.assertAlmostEqual(best[0], 2 / 3)
         self.assertAlmostEqual(baum.stability_best_on_ray("ab2"), best[0])
+        with self.assertRaisesRegex(ValueError, "alpha_h: 2 numbers are wanted, not 3"):
+            baum.stability_grid("rk4", (0, 1, 2), (0, 3))
         radius = baum.stability_grid("rk4", (0, 2), (0, 3), (4, 3))
         self.assertEqual(radius.shape, (4, 3))
         for row, column in ((0, 0), (1, 2), (3, 1)):

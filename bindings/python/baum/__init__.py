@@ -14,7 +14,7 @@ The library that does the work is found beside this package, in the build tree, 
 loader; the environment variable BAUM_LIBRARY names another.
 """
 from . import _abi, _lib
-from .channels import Channel, a, energy, lambda_, phi, phi_rate, q, v
+from .channels import Channel, a, energy, energy_account, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
 from .errors import Error, Retry, Status, Warning
 from .gains import Gains, auto, best_damping, deadbeat, fixed, frequency, scaled, taylor
@@ -24,7 +24,7 @@ from .integrators import (
     stability_outline, stability_statement,
 )
 from .mechanism import Mechanism, Mobility, Report, Sizes
-from .run import Counters, Run
+from .run import Counters, EnergyAccount, Run
 from .simulation import Simulation
 from .workspace import Workspace
 
@@ -39,9 +39,10 @@ def has(feature):
 
 
 __all__ = [
-    "Amplification", "Body", "Channel", "Counters", "Error", "Force", "Gains", "Input",
-    "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
+    "Amplification", "Body", "Channel", "Counters", "EnergyAccount", "Error", "Force", "Gains",
+    "Input", "Integrator", "Joint", "Mechanism", "Mobility", "Report", "Retry", "Run", "Simulation",
     "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy",
+    "energy_account",
     "fixed", "frequency", "has", "integrators", "lambda_", "library", "library_version",
     "phi", "phi_rate",
     "q", "scaled", "stability", "stability_best", "stability_best_on_ray",

@@ -8,7 +8,7 @@ import numpy as np
 
 from . import _abi, _calls
 from ._lib import lib
-from ._values import number
+from ._values import number, vector
 
 
 def names(enum, prefix):
@@ -53,7 +53,8 @@ _ALL = _find_all()
 
 
 def integrators():
-    """All integrators by name."""
+    """All integrators by name: euler, semi_implicit_euler, rk2, rk3, rk4, dp5, rk8, ab2, ab3, ab4,
+    rattle, generalized_alpha, kinematics, and with SUNDIALS cvode_adams, cvode_bdf, ida."""
     return dict(_ALL)
 
 
@@ -137,12 +138,14 @@ def stability_grid(integrator, alpha_h, beta2_h2, shape=(100, 100)):
     Array of `shape` (rows of beta2_h2, columns of alpha_h).
     """
     rows, columns = shape
+    columns_range = vector(alpha_h, 2, "alpha_h")
+    rows_range = vector(beta2_h2, 2, "beta2_h2")
     radius = np.empty((rows, columns))
     _calls.make(
         lib.baum_stability_grid,
         lookup(integrator).address,
-        (ctypes.c_double * 2)(*alpha_h),
-        (ctypes.c_double * 2)(*beta2_h2),
+        columns_range.ctypes.data,
+        rows_range.ctypes.data,
         columns,
         rows,
         radius.ctypes.data,

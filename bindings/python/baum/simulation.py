@@ -73,7 +73,8 @@ def make_options(method, values):
     for name, value in values.items():
         if name not in CONVERT:
             raise TypeError(
-                f"no option {name!r}; there are: integrator, progress, {', '.join(CONVERT)}"
+                f"no option {name!r}; there are: integrator, progress, "
+                + ", ".join([*CONVERT, "row_gains"])
             )
         if value is not None:
             setattr(options, name, CONVERT[name](value))
@@ -96,25 +97,43 @@ def _progress(holder):
 
 def _row_gains(mechanism, factors):
     """Factors of all rows from those of some joints."""
-    values = np.ones(mechanism.sizes[2])
+    if not hasattr(factors, "items"):
+        raise TypeError(f"row_gains: {{joint: factor}} is wanted, not {factors!r}")
+    values = np.ones(mechanism.sizes.nc)
     for joint, factor in factors.items():
-        values[mechanism.rows(joint)] = factor
+        joint = mechanism.find("joint", joint)
+        rows = mechanism.rows(joint)
+        label = f'row_gains of "{joint.name}"'
+        if np.ndim(factor) == 0:
+            values[rows] = number(factor, label)
+        else:
+            values[rows] = vector(factor, rows.stop - rows.start, label)
     return values
 
 
 class Simulation:
     """One run.
 
-    integrator: a name, see baum.integrators(). formulation: "default", "unstabilized", "baumgarte",
-    "projection", "index3". gains: baum.fixed(alpha, beta) and the like, for "baumgarte";
-    row_gains: {joint or its name: factor on alpha and beta}, numbers or one per row of the joint;
-    allow_unstable: run with gains that are known to be unstable. step [s] for fixed-step methods;
-    rtol, atol for the others, tolerance_q, tolerance_v, tolerance_lambda for factors on them, and
-    max_step [s] where a force begins late; "kinematics", for
-    mechanisms whose drivers leave no freedom, takes neither. start_time [s], default 0. start:
-    "assemble", "exact", "as_given". solver: "auto", "klu", "qr", "block". check_derivatives: compare
-    given derivatives with differences first. max_steps of one call. progress(t) is called every
-    progress_interval seconds of wall time, and cancels when it returns something true.
+    integrator, and what it takes (baum.integrators() has them with order and formulations):
+        "euler", "semi_implicit_euler", "rk2", "rk3", "rk4", "ab2", "ab3", "ab4", "rattle",
+        "generalized_alpha"                  step [s]
+        "dp5", "rk8"                         step or rtol
+        "cvode_adams", "cvode_bdf", "ida"    rtol
+        "kinematics"                         neither: drivers leave no freedom, nothing is integrated
+    formulation: "default", the first that the integrator offers; "unstabilized", "baumgarte",
+        "projection"; of IDA also "index2", "ggl", "index3"; "rattle" and "generalized_alpha" have
+        "index3" alone.
+    gains: baum.fixed(alpha, beta), scaled, frequency, taylor, deadbeat, best_damping, auto; for
+        "baumgarte". row_gains: {joint or its name: factor on alpha and beta}, a number or one per row
+        of the joint. allow_unstable: run with gains that are known to be unstable.
+    atol, added to rtol; tolerance_q, tolerance_v, tolerance_lambda: factors on both for positions,
+        velocities and multipliers (these of IDA with "baumgarte" or "unstabilized" only); max_step
+        [s], for variable steps where a force begins late.
+    energy_account: keep the works of Simulation.energy_account and of the channel "energy_account".
+    start_time [s], default 0. start: "assemble", "exact", "as_given". solver: "auto", "klu", "qr",
+        "block". check_derivatives: compare given derivatives with differences first. max_steps of
+        one call. progress(t) is called every progress_interval seconds of wall time, and cancels
+        when it returns something true.
 
     Warnings of the run become Python warnings of the category baum.Warning. One thread at a time
     may use it, but for cancel().
