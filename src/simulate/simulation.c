@@ -103,7 +103,7 @@ static double difference_noise(const baum_mechanism *m)
   return noise;
 }
 
-static void warn_settings(baum_simulation *run)
+static baum_status warn_settings(baum_simulation *run)
 {
   double noise = difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
@@ -119,6 +119,7 @@ static void warn_settings(baum_simulation *run)
                     "index 3 is for comparison: its velocities are outside of the error test and "
                     "the motion error is far above rtol");
   }
+  return BAUM_OK;
 }
 
 /* ---- create ---- */
@@ -156,45 +157,54 @@ static baum_status choose_solver(baum_simulation *run)
   return status;
 }
 
+static baum_status start_as_drawn(baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  return baum_i_run_start(run, run->options.start_time, m->drawn_q, m->drawn_v);
+}
+
+static baum_status make_account(baum_simulation *run)
+{
+  return run->options.energy_account ? baum_i_account_create(run) : BAUM_OK;
+}
+
+static baum_status make_passages(baum_simulation *run)
+{
+  return run->integrator->without_freedom ? BAUM_OK : baum_i_passages_create(run);
+}
+
+static baum_status make_integrator(baum_simulation *run)
+{
+  return run->integrator->create ? run->integrator->create(&run->problem, &run->trial, &run->self)
+                                 : BAUM_OK;
+}
+
+static baum_status accept_start(baum_simulation *run)
+{
+  double energy = 0.0;
+  baum_status status = baum_i_run_measure(run, &energy);
+  if (status == BAUM_OK) {
+    baum_i_run_accept(run, energy);
+    run->fingerprint = baum_i_mechanism_fingerprint(run->workspace->mechanism);
+  }
+  return status;
+}
+
+/* One after the other, each on what the ones before have made. */
+static baum_status (*const STAGES[])(baum_simulation *run) = {
+  make_states,   start_as_drawn,  choose_solver,   choose_problem, make_account,
+  make_passages, make_integrator, warn_redundancy, warn_settings,  accept_start,
+};
+
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
 {
   const baum_simulation_options *o = &run->options;
-  double energy = 0.0;
   baum_status status = o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
   if (status == BAUM_OK) {
     status = baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace);
   }
-  if (status == BAUM_OK) {
-    status = make_states(run);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_run_start(run, o->start_time, mechanism->drawn_q, mechanism->drawn_v);
-  }
-  if (status == BAUM_OK) {
-    status = choose_solver(run);
-  }
-  if (status == BAUM_OK) {
-    status = choose_problem(run);
-  }
-  if (status == BAUM_OK && o->energy_account) {
-    status = baum_i_account_create(run);
-  }
-  if (status == BAUM_OK && !run->integrator->without_freedom) {
-    status = baum_i_passages_create(run);
-  }
-  if (status == BAUM_OK && run->integrator->create) {
-    status = run->integrator->create(&run->problem, &run->trial, &run->self);
-  }
-  if (status == BAUM_OK) {
-    status = warn_redundancy(run);
-  }
-  if (status == BAUM_OK) {
-    warn_settings(run);
-    status = baum_i_run_measure(run, &energy);
-  }
-  if (status == BAUM_OK) {
-    baum_i_run_accept(run, energy);
-    run->fingerprint = baum_i_mechanism_fingerprint(mechanism);
+  for (size_t k = 0; k < sizeof STAGES / sizeof STAGES[0] && status == BAUM_OK; k++) {
+    status = STAGES[k](run);
   }
   return status;
 }
