@@ -256,11 +256,11 @@ static baum_status check_grid(const double alpha_h[2], const double beta2_h2[2],
   return status == BAUM_OK ? check_out(radius, "radius") : status;
 }
 
-/* Point k of n, both ends included. */
+/* Point k of n, both ends included; their difference may be beyond double. */
 static double share(const double range[2], int32_t k, int32_t n)
 {
   double part = n > 1 ? (double)k / (n - 1) : 0.0;
-  return range[0] + (range[1] - range[0]) * part;
+  return range[0] * (1.0 - part) + range[1] * part;
 }
 
 baum_status baum_stability_grid(const baum_integrator *integrator, const double alpha_h[2],

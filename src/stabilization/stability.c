@@ -14,6 +14,7 @@
 static const double SCAN_RATIO = 1.01; /* of neighbouring b */
 static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
 static const double OVERDAMPED = 1e9;  /* zeta beyond which nothing changes any more */
+static const double LEAST = 1e-300;    /* b that still grows by SCAN_RATIO; its square is 0 */
 static const double EQUAL = 1e-13;     /* of radii: rounding */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
@@ -47,7 +48,8 @@ static ray make_ray(double damping_ratio)
 {
   damping_ratio = fmin(damping_ratio, OVERDAMPED);
   double steepest = fmax(1.0, 2.0 * damping_ratio); /* |mu| / b, at most */
-  return (ray){damping_ratio, 1e-3 * fmin(damping_ratio, 1.0 / steepest), SCAN_END / steepest};
+  double begin = fmax(1e-3 * fmin(damping_ratio, 1.0 / steepest), LEAST);
+  return (ray){damping_ratio, begin, SCAN_END / steepest};
 }
 
 /* Where from b on, which is stable or not as told, this changes; infinite when it does not. */

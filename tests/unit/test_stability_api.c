@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public questions about stability: what they answer and what they refuse. */
+#include <float.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -123,6 +124,27 @@ static void a_grid_has_the_radii_of_its_points(void **state)
   }
   assert_int_equal(baum_stability_grid(baum_rk4(), alpha_h, beta2_h2, 1, 1, radius), BAUM_OK);
   ASSERT_NEAR(radius[0], radius_at(baum_rk4(), 0.1, 0.2), 1e-14, 0.0);
+}
+
+/* Rays along the axis, and a grid whose width is beyond double. */
+static void the_ends_of_double_are_answered(void **state)
+{
+  (void)state;
+  const double all[2] = {-1.5e308, 1.5e308};
+  double radius[3];
+  for (int k = 0; k < FACT_COUNT; k++) {
+    const baum_integrator *integrator = FACTS[k].integrator();
+    double alpha_h = 7.0;
+    int32_t count = 0;
+    assert_int_equal(baum_stability_limit(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300); /* 1e3 times the ratio at most */
+    assert_int_equal(baum_stability_intervals(integrator, DBL_TRUE_MIN, 0, NULL, NULL, &count),
+                     BAUM_OK);
+    assert_int_equal(baum_stability_best_on_ray(integrator, DBL_TRUE_MIN, &alpha_h), BAUM_OK);
+    assert_true(alpha_h >= 0.0 && alpha_h < 1e-300);
+    assert_int_equal(baum_stability_grid(integrator, all, all, 3, 1, radius), BAUM_OK);
+    assert_true(radius[0] > 1.0 && radius[1] > 1.0 && radius[2] > 1.0);
+  }
 }
 
 static void outlines_are_counted_and_cut(void **state)
@@ -269,6 +291,7 @@ int main(void)
     cmocka_unit_test(the_best_points_are_at_least_as_good_as_those_of_a_ray),
     cmocka_unit_test(known_best_points_are_found_too),
     cmocka_unit_test(a_grid_has_the_radii_of_its_points),
+    cmocka_unit_test(the_ends_of_double_are_answered),
     cmocka_unit_test(outlines_are_counted_and_cut),
     cmocka_unit_test(every_integrator_has_a_statement),
     cmocka_unit_test(methods_without_a_region_are_refused),
