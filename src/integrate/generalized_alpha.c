@@ -40,9 +40,12 @@ static const double BETA = 25.0 / 81.0;
 enum { ITERATIONS = 20 };
 
 /* A change of the positions by this share of what the accelerations do in a step is the last: multipliers and
- * accelerations are then right to that share. It is not asked for less than some roundings of the positions. */
+ * accelerations are then right to that share. It is not asked for less than some roundings of the positions, or of
+ * their scale where they are small beside it, as those of a body at the origin. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
+/* Changes that have stopped falling, and are no more than so many of these roundings, are rounding, too. */
+static const double STALLED = 64.0;
 
 /* Of a step, for the derivative of the acceleration by a difference: truncation is this share of terms of second order,
  * rounding its inverse of one unit. */
@@ -197,12 +200,23 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, double
 }
 
 /* Changes of positions that need no further one. */
-static double tolerance(const alpha_run *run, const baum_i_problem *problem,
-                        const baum_i_state *state, double h)
+typedef struct limits {
+  double enough;
+  double stalled; /* when they have stopped falling */
+} limits;
+
+static limits find_limits(const alpha_run *run, const baum_i_problem *problem,
+                          const baum_i_state *state, double h)
 {
   const baum_mechanism *m = problem->workspace->mechanism;
   double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
-  return fmax(CONVERGED * BETA * h * h * acceleration, ROUNDINGS * baum_i_scaled_size(m, state->q));
+  double rounding = ROUNDINGS * fmax(1.0, baum_i_scaled_size(m, state->q));
+  return (limits){fmax(CONVERGED * BETA * h * h * acceleration, rounding), STALLED * rounding};
+}
+
+static bool is_last(const limits *last, double size, double before)
+{
+  return size <= last->enough || (size > 0.5 * before && size <= last->stalled);
 }
 
 static baum_status fail(double t, double size)
@@ -223,7 +237,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     .by_a = (1.0 - ALPHA_M) / ((1.0 - ALPHA_F) * BETA * h * h),
     .scale = BETA * h * h,
   };
-  double enough = tolerance(run, problem, state, h);
+  limits last = find_limits(run, problem, state, h);
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     double before = size;
@@ -231,7 +245,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (status != BAUM_OK) {
       return status;
     }
-    if (size <= enough) {
+    if (is_last(&last, size, before)) {
       return BAUM_OK;
     }
     /* The first may be larger than the prediction was wrong. */

@@ -27,7 +27,8 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes below so many roundings of the coordinates are rounding. */
+/* Changes below so many roundings of the coordinates, or of their scale where they are small beside it, as those of a
+ * body at the origin, are rounding. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
 /* Changes that have stopped falling, and are no more than so many of these, too. */
 static const double STALLED = 256.0;
@@ -81,7 +82,7 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
       run->change[i] += w->a[i];
     }
     double size = baum_i_scaled_size(m, w->a);
-    if (is_last(size, before, ROUNDING * baum_i_scaled_size(m, run->q))) {
+    if (is_last(size, before, ROUNDING * fmax(1.0, baum_i_scaled_size(m, run->q)))) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * before)) {
