@@ -80,8 +80,10 @@ static baum_status check_factors(const baum_simulation_options *o)
   const char *const fields[3] = {"tolerance_q", "tolerance_v", "tolerance_lambda"};
   const double values[3] = {o->tolerance_q, o->tolerance_v, o->tolerance_lambda};
   for (int k = 0; k < 3; k++) {
-    if (!(values[k] > 0.0)) {
-      return refuse(fields[k], "", values[k], "must be > 0");
+    bool may_be_infinite = k == 2; /* without any test of q and v there is no step to choose */
+    if (!(values[k] > 0.0 && (may_be_infinite || isfinite(values[k])))) {
+      return refuse(fields[k], "", values[k],
+                    may_be_infinite ? "must be > 0" : "must be > 0 and finite");
     }
   }
   return BAUM_OK;

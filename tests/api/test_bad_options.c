@@ -98,6 +98,8 @@ static const bad_option bad_options[] = {
   {true, OPTION(max_step), 0.0, "max_step is 0 s, must be > 0"},
   {true, OPTION(tolerance_q), 0.0, "tolerance_q is 0, must be > 0"},
   {true, OPTION(tolerance_v), -1.0, "tolerance_v is -1, must be > 0"},
+  {true, OPTION(tolerance_q), (double)INFINITY, "tolerance_q is inf, must be > 0 and finite"},
+  {true, OPTION(tolerance_v), (double)INFINITY, "tolerance_v is inf, must be > 0 and finite"},
   {true, OPTION(tolerance_lambda), (double)NAN, "tolerance_lambda is nan, must be > 0"},
   {true, OPTION(max_step), -1.0, "max_step is -1 s, must be > 0"},
   {false, OPTION(start_time), (double)NAN, "start_time is nan s, must be finite"},
