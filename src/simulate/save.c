@@ -17,6 +17,7 @@
 #include "base/digest.h"
 #include "mechanism/fingerprint.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 #include "simulate/passage.h"
 #include "simulate/saved.h"
 
@@ -73,13 +74,23 @@ static size_t largest_size(const baum_i_saved *list)
 static void forget(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
-  baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_forget(run->account);
   }
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
     run->integrator->forget(run->self);
   }
+}
+
+/* Values there have been asked for before; should one fail now, what is known of them stays. */
+static void go_on_with_events(baum_simulation *run)
+{
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  if (baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
+    baum_i_events_go_on(run);
+  }
+  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 /* The state that is reported becomes the one from which the next step goes. */
@@ -93,6 +104,9 @@ static void begin_anew(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
+    if (run->events) {
+      go_on_with_events(run);
+    }
     run->counters.restarts++;
   }
   forget(run);
@@ -101,8 +115,8 @@ static void begin_anew(baum_simulation *run)
 /* ---- save ---- */
 
 /* Bytes of a part, of which it has at most BAUM_I_SAVED_TEXT of its own. */
-static const void *bytes_of(const baum_simulation *run, const baum_i_saved_part *part,
-                            char own[BAUM_I_SAVED_TEXT], size_t *size)
+static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED_TEXT],
+                            size_t *size)
 {
   *size = part->size;
   switch (part->kind) {
@@ -113,11 +127,7 @@ static const void *bytes_of(const baum_simulation *run, const baum_i_saved_part 
     memcpy(own, part->place, strnlen(part->place, BAUM_I_SAVED_TEXT - 1));
     return own;
   case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
-  case BAUM_I_SAVED_WARNINGS: {
-    int64_t kept = run->counters.warnings;
-    *size = (size_t)(kept < BAUM_I_WARNINGS ? kept : BAUM_I_WARNINGS) * BAUM_I_WARNING_SIZE;
-    return part->place;
-  }
+  case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
   case BAUM_I_SAVED_CHOICE:
   case BAUM_I_SAVED_STATE:
   default: return part->place;
@@ -139,7 +149,7 @@ static size_t write_all(const baum_simulation *run, const baum_i_saved *list, un
   for (int k = 0; k < list->count; k++) {
     char own[BAUM_I_SAVED_TEXT];
     size_t size = 0;
-    const void *bytes = bytes_of(run, &list->parts[k], own, &size);
+    const void *bytes = bytes_of(&list->parts[k], own, &size);
     uint64_t length = size;
     next = put(next, &length, sizeof length);
     next = put(next, bytes, size);
@@ -177,6 +187,7 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
   }
   begin_anew(simulation);
   baum_i_run_count(simulation);
+  baum_i_saved_list(simulation, &list); /* there may be more of them now */
   *size = write_all(simulation, &list, buffer);
   return BAUM_OK;
 }
@@ -293,7 +304,7 @@ static bool has_length(const baum_i_saved_part *part, size_t length)
 {
   switch (part->kind) {
   case BAUM_I_SAVED_NUMBERS: return length == 0 || length == part->size;
-  case BAUM_I_SAVED_WARNINGS: return length <= part->size && length % BAUM_I_WARNING_SIZE == 0;
+  case BAUM_I_SAVED_SOME: return length <= part->size && length % part->unit == 0;
   case BAUM_I_SAVED_NUMBER:
   case BAUM_I_SAVED_INTEGER:
   case BAUM_I_SAVED_TEXT_OF:
@@ -320,7 +331,7 @@ static baum_status check_part(const baum_i_saved_part *part, const unsigned char
     return BAUM_OK;
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_NUMBERS:
-  case BAUM_I_SAVED_WARNINGS:
+  case BAUM_I_SAVED_SOME:
   default: return BAUM_OK;
   }
 }
@@ -375,7 +386,7 @@ static baum_status check(reader *r, const baum_simulation *run, const baum_i_sav
 
 static bool is_put_back(const baum_i_saved_part *part)
 {
-  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_WARNINGS;
+  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_SOME;
 }
 
 /* A run without numbers of its own gets them when the buffer has some. */
@@ -399,13 +410,19 @@ static void put_numbers_back(baum_simulation *run, const unsigned char *at, size
 }
 
 /* Ids of another process have other tags. */
+static void own_id(const baum_simulation *run, baum_joint_id *id)
+{
+  if (id->index1 > 0) {
+    *id = baum_i_joint_id(run->workspace->mechanism, id->index1 - 1);
+  }
+}
+
 static void own_ids(baum_simulation *run)
 {
-  baum_joint_id *ids[] = {&run->counters.max_phi_joint, &run->counters.max_phi_rate_joint};
-  for (size_t k = 0; k < sizeof ids / sizeof *ids; k++) {
-    if (ids[k]->index1 != 0) {
-      *ids[k] = baum_i_joint_id(run->workspace->mechanism, ids[k]->index1 - 1);
-    }
+  own_id(run, &run->counters.max_phi_joint);
+  own_id(run, &run->counters.max_phi_rate_joint);
+  for (int k = 0; run->passages && k < BAUM_I_PASSAGES; k++) {
+    own_id(run, &run->passages->kept[k].joint);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "dynamics/immobile.h"
 #include "simulate/account.h"
+#include "simulate/events.h"
 #include "simulate/passage.h"
 
 /* ---- parts ---- */
@@ -27,6 +28,16 @@ void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t 
   part->size = size;
 }
 
+void baum_i_saved_add_some(baum_i_saved *list, const char *name, void *place, size_t unit,
+                           int64_t count, int64_t most)
+{
+  baum_i_saved_part *part = add(list, name, BAUM_I_SAVED_SOME);
+  part->place = place;
+  part->unit = unit;
+  part->size = (size_t)most * unit;
+  part->used = (size_t)(count < most ? count : most) * unit;
+}
+
 static void add_array(baum_i_saved *list, const char *name, double *values, int count)
 {
   baum_i_saved_add(list, name, values, (size_t)count * sizeof *values);
@@ -41,7 +52,7 @@ static void add_number(baum_i_saved *list, const char *name, double value)
   part->size = sizeof value;
 }
 
-static void add_integer(baum_i_saved *list, const char *name, int64_t value)
+void baum_i_saved_compare(baum_i_saved *list, const char *name, int64_t value)
 {
   baum_i_saved_part *part = add(list, name, BAUM_I_SAVED_INTEGER);
   part->integer = value;
@@ -78,12 +89,12 @@ static void list_options(const baum_simulation *run, baum_i_saved *list)
   add_number(list, "tolerance_q", o->tolerance_q);
   add_number(list, "tolerance_v", o->tolerance_v);
   add_number(list, "tolerance_lambda", o->tolerance_lambda);
-  add_integer(list, "the rule of the gains", o->gains.rule);
+  baum_i_saved_compare(list, "the rule of the gains", o->gains.rule);
   add_number(list, "the first number of the gains", o->gains.value[0]);
   add_number(list, "the second number of the gains", o->gains.value[1]);
   add_choice(list, "row_gains", run->row_gains, (size_t)nc * sizeof *run->row_gains);
-  add_integer(list, "solver", o->solver);
-  add_integer(list, "energy_account", run->account != NULL);
+  baum_i_saved_compare(list, "solver", o->solver);
+  baum_i_saved_compare(list, "energy_account", run->account != NULL);
 }
 
 /* Found at the start, and built into the solvers. */
@@ -92,9 +103,9 @@ static void list_structure(const baum_simulation *run, baum_i_saved *list)
   const baum_workspace *w = run->workspace;
   const baum_i_immobile *immobile = w->immobile;
   size_t still = immobile ? (size_t)immobile->count : 0;
-  add_integer(list, "the rank of the constraints", w->redundancy.rank);
+  baum_i_saved_compare(list, "the rank of the constraints", w->redundancy.rank);
   add_choice(list, "which rows are redundant", w->redundancy.dropped, (size_t)w->mechanism->nc);
-  add_integer(list, "whether blocks suit", w->path != NULL);
+  baum_i_saved_compare(list, "whether blocks suit", w->path != NULL);
   add_choice(list, "which bodies cannot move", immobile ? immobile->velocity : NULL,
              still * sizeof *immobile->velocity);
 }
@@ -148,13 +159,61 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
   BAUM_I_SAVED_ADD(list, "signalled", run->signalled);
-  if (run->passages) {
-    BAUM_I_SAVED_ADD(list, "usual pivot", run->passages->usual);
-    BAUM_I_SAVED_ADD(list, "near-singular intervals", run->passages->kept);
+  baum_i_saved_add_some(list, "warnings", run->warnings, BAUM_I_WARNING_SIZE,
+                        run->counters.warnings, BAUM_I_WARNINGS);
+}
+
+static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots, int count, int nv)
+{
+  for (int k = 0; k < count; k++) {
+    baum_i_saved_add(list, name, &knots[k].t, sizeof knots[k].t);
+    baum_i_saved_add(list, name, &knots[k].pivot, sizeof knots[k].pivot);
+    add_array(list, name, knots[k].q, nv);
+    add_array(list, name, knots[k].v, nv);
   }
-  baum_i_saved_part *warnings = add(list, "warnings", BAUM_I_SAVED_WARNINGS);
-  warnings->place = run->warnings;
-  warnings->size = sizeof run->warnings;
+}
+
+static void list_passages(baum_simulation *run, baum_i_saved *list)
+{
+  baum_i_passages *p = run->passages;
+  BAUM_I_SAVED_ADD(list, "usual pivot", p->usual);
+  BAUM_I_SAVED_ADD(list, "recent count", p->recent_count);
+  list_knots(list, "recent states", p->recent, BAUM_I_RECENT, p->nv);
+  BAUM_I_SAVED_ADD(list, "clear count", p->clear_count);
+  list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, p->nv);
+  BAUM_I_SAVED_ADD(list, "state not looked at", p->unseen);
+  BAUM_I_SAVED_ADD(list, "joint noted", p->joint_noted);
+  BAUM_I_SAVED_ADD(list, "passage open", p->open);
+  BAUM_I_SAVED_ADD(list, "passage", p->present);
+  baum_i_saved_add_some(list, "near-singular intervals", p->kept, sizeof *p->kept,
+                        run->counters.near_singular_intervals, BAUM_I_PASSAGES);
+}
+
+static void add_event(const baum_i_event *event, baum_i_digest *sum)
+{
+  baum_i_digest_add_integer(sum, event->joint);
+  baum_i_digest_add_integer(sum, event->def.direction);
+  baum_i_digest_add_integer(sum, event->def.terminal);
+  baum_i_digest_add(sum, &event->def.value, sizeof event->def.value);
+  baum_i_digest_add(sum, &event->def.tolerance, sizeof event->def.tolerance);
+}
+
+/* What the events are must agree, but for functions and names. */
+static void list_events(baum_i_events *events, baum_i_saved *list)
+{
+  baum_i_digest sum = {0};
+  for (int k = 0; k < events->count; k++) {
+    add_event(&events->list[k], &sum);
+  }
+  int64_t what = (int64_t)(sum.value >> 1);
+  baum_i_saved_compare(list, "the sum over what the events are", what);
+  baum_i_saved_add(list, "events", events->marks, (size_t)events->count * sizeof *events->marks);
+  BAUM_I_SAVED_ADD(list, "events looked at", events->t);
+  BAUM_I_SAVED_ADD(list, "events begun", events->begin);
+  BAUM_I_SAVED_ADD(list, "events from", events->from);
+  BAUM_I_SAVED_ADD(list, "events recorded", events->recorded);
+  baum_i_saved_add_some(list, "records of events", events->records, sizeof *events->records,
+                        events->recorded, BAUM_I_EVENT_RECORDS);
 }
 
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
@@ -167,5 +226,12 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   list_monitors(run, list);
   if (run->account) {
     baum_i_account_saved(run->account, list);
+  }
+  if (run->passages) {
+    list_passages(run, list);
+  }
+  baum_i_saved_compare(list, "the number of events", run->events ? run->events->count : 0);
+  if (run->events) {
+    list_events(run->events, list);
   }
 }

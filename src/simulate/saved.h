@@ -9,7 +9,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 1, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 1, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */
@@ -20,7 +20,7 @@ typedef enum baum_i_saved_kind {
   /* is put back: */
   BAUM_I_SAVED_STATE,   /* bytes */
   BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
-  BAUM_I_SAVED_WARNINGS /* as many as there are */
+  BAUM_I_SAVED_SOME     /* as many of a list as there are */
 } baum_i_saved_kind;
 
 typedef struct baum_i_saved_part {
@@ -28,6 +28,8 @@ typedef struct baum_i_saved_part {
   baum_i_saved_kind kind;
   void *place; /* not written to where it must agree */
   size_t size; /* at most, in bytes */
+  size_t used; /* of SOME, in bytes */
+  size_t unit; /* of SOME, one of the list */
   double number;
   int64_t integer;
 } baum_i_saved_part;
@@ -39,6 +41,13 @@ struct baum_i_saved {
 
 /* Bytes that are put back. */
 void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t size);
+
+/* Likewise the first `count` of a list that has room for `most`, or all of these where there were more. */
+void baum_i_saved_add_some(baum_i_saved *list, const char *name, void *place, size_t unit,
+                           int64_t count, int64_t most);
+
+/* What must be here as it was there. */
+void baum_i_saved_compare(baum_i_saved *list, const char *name, int64_t value);
 
 /* For one object. */
 #define BAUM_I_SAVED_ADD(list, name, object) \

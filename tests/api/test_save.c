@@ -31,8 +31,29 @@ typedef struct outcome {
   double v[SAVED_NV_MAX];
   baum_counters counters;
   baum_energy_account account;
+  int64_t events;
+  double last_event;
+  double last_singular;
   char warning[320];
 } outcome;
+
+/* What the run remembers of events and singular poses. */
+static void look_back(baum_simulation *run, outcome *out)
+{
+  baum_event_record record;
+  baum_near_singular interval;
+  int64_t intervals = out->counters.near_singular_intervals;
+  out->events = baum_simulation_event_count(run);
+  if (out->events > 0) {
+    assert_int_equal(baum_simulation_event(run, out->events - 1, &record, sizeof record), BAUM_OK);
+    out->last_event = record.t;
+  }
+  if (intervals > 0) {
+    assert_int_equal(baum_simulation_near_singular(run, intervals - 1, &interval, sizeof interval),
+                     BAUM_OK);
+    out->last_singular = interval.t;
+  }
+}
 
 static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
 {
@@ -49,6 +70,7 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
     int64_t last = out->counters.warnings - 1;
     (void)baum_simulation_warning(run, last, out->warning, sizeof out->warning);
   }
+  look_back(run, out);
   out->counters.wall = 0.0;
   out->counters.max_phi_joint.tag = 0; /* of each mechanism its own */
   out->counters.max_phi_rate_joint.tag = 0;
@@ -178,6 +200,10 @@ static void check_scene(int number, const saved_scene *scene)
                scene->name, k, got.t, want[k].t, got.q[0], want[k].q[0],
                (long long)got.counters.evaluations, (long long)want[k].counters.evaluations);
     }
+  }
+  if (scene->watched.index1 != 0) {
+    assert_true(want[count - 1].events > 1);
+    assert_true(want[count - 1].counters.near_singular_intervals > 1);
   }
   (void)fclose(buffers);
   (void)fclose(outcomes);

@@ -95,6 +95,31 @@ static bool open_pair(saved_scene *scene, int *number)
   return false;
 }
 
+/* Four-bars in a row that pass singular poses twice a turn, looked at by events, too. */
+static bool open_singular(saved_scene *scene, int number)
+{
+  const baum_integrator *const methods[] = {baum_rk4(), baum_rk8(), baum_ab4(), baum_ida()};
+  if (number >= 3 + (baum_has("sundials") ? 1 : 0)) {
+    return false;
+  }
+  baum_simulation_options *o = &scene->options;
+  model m;
+  const model_n_four_bar data = model_n_four_bar_a02(2);
+  assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
+  bool fixed = number % 2 == 0;
+  o->integrator = methods[number];
+  o->step = fixed ? 2e-3 : (double)NAN;
+  o->rtol = fixed ? (double)NAN : 1e-7;
+  scene->watched = m.joints[0];
+  scene->mechanism = m.mechanism;
+  m.mechanism = NULL;
+  model_destroy(&m);
+  assert_int_equal(baum_mechanism_sizes(scene->mechanism, NULL, &scene->nv, NULL), BAUM_OK);
+  scene->passes = 1.0;
+  scene->span = 0.2;
+  return true;
+}
+
 /* Further ones: other solvers, redundant rows, immobile bodies, the energy account, kinematics. */
 static bool open_other(saved_scene *scene, int number)
 {
@@ -127,7 +152,7 @@ static bool open_other(saved_scene *scene, int number)
     o->integrator = baum_kinematics();
     o->step = NAN;
     return true;
-  default: return false;
+  default: return open_singular(scene, number - 9);
   }
 }
 
@@ -158,6 +183,13 @@ baum_simulation *saved_scene_start(const saved_scene *scene)
   baum_status status = baum_simulation_create(scene->mechanism, &scene->options, &run);
   if (status != BAUM_OK) {
     fail_msg("%s: %s", scene->name, baum_message());
+  }
+  if (scene->watched.index1 != 0) {
+    baum_event_def event = baum_event_def_default();
+    event.joint = scene->watched;
+    event.value = scene->passes;
+    event.terminal = false;
+    assert_int_equal(baum_simulation_add_event(run, &event, NULL), BAUM_OK);
   }
   return run;
 }

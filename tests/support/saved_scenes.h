@@ -20,6 +20,8 @@ struct saved_scene {
   double span; /* [s] most between two of them */
   bool has_input;
   baum_input_id input;
+  baum_joint_id watched; /* an event counts where its coordinate passes this; none: no event */
+  double passes;
   baum_joint_id motor; /* of the law */
   /* Give the motor another law, from where it is; NULL: there is none. */
   baum_status (*law)(baum_simulation *run, const saved_scene *scene);
