@@ -456,8 +456,9 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  the residual is an error of the method, of its order in the step or of the size of its
  *  tolerance. An evaluation that fails ends the account with a warning; works and residual are NaN
  *  from there on. The motion is the same with and without an account.
- *  Cost: two evaluations of (7) a step, and one more at its end; 3 and 4 with steps of dp5 and rk8,
- *  each after a shorter step; 4 with variable steps; with BAUMGARTE each twice. */
+ *  Cost, in evaluations of (7) or (5) a step: 3 with a fixed step, but 18 with dp5 and 48 with rk8,
+ *  which take shorter steps for it; 4 with variable steps, of rk8 7 with those of its interpolant;
+ *  BAUMGARTE adds 2 to 4. */
 typedef struct baum_energy_account {
   size_t struct_size; /**< Set by baum_simulation_energy_account(). */
   double kinetic;     /**< [J] v^T M v / 2 at present. */
