@@ -64,6 +64,8 @@ static const double SHARE_OF_ERROR3 = 0.01;
 
 /* [rad] by which a mechanism moves in the least step over a singular pose. */
 static const double STEP_OVER = 0.05;
+/* [rad] Error of such a step, of the scales, above which it is refused all the same. */
+static const double LARGEST_FORCED = 0.01;
 
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
@@ -304,7 +306,12 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
 {
   double length = fmin(fmax(run->control.step, least), problem->max_step);
   double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
-  run->t_end = run->t + problem->direction * length;
+  double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
+  if (length < left && 2.0 * length > left) {
+    length = 0.5 * left; /* two of a length, not a last one that is tiny */
+  }
+  run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
+  length = fmin(length, left);
   run->h = run->t_end - run->t;
   return length < shortest ? fail_short(run, problem, length) : BAUM_OK;
 }
@@ -313,6 +320,7 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   double least = least_length(run, problem);
+  double most = LARGEST_FORCED / problem->rtol;
   for (;;) {
     double error = 0.0;
     baum_status status = choose_end(run, problem, least);
@@ -321,7 +329,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     }
     bool forced = run->control.step <= least;
     status = try_step(run, problem, forced, &error);
-    if (status == BAUM_OK && (error <= 1.0 || (forced && isfinite(error)))) {
+    if (status == BAUM_OK && (error <= 1.0 || (forced && error <= most))) {
       run->forced += error > 1.0;
       run->pivot_end = see_pivot(run, problem);
       accept(run, fmin(error, 1.0), state);
@@ -332,9 +340,10 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
       if (!may_shorten(problem, status)) {
         return fail_with_evaluation(run, run->t);
       }
-      least = 0.0; /* an evaluation may fail for another reason */
+      least = 0.0; /* for another reason, perhaps */
       baum_i_step_control_halve(&run->control, fabs(run->h));
     } else {
+      least = forced ? 0.0 : least;
       baum_i_step_control_refuse(&run->control, fabs(run->h), error);
     }
     run->rejected++;
