@@ -1,0 +1,132 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Saving and restoring allocate nothing, nor do the steps after them where nothing but blocks is factored; taking over from
+ * another run may run out of memory without harm. */
+#define _GNU_SOURCE /* of heap.h */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "heap.h"
+#include "saved_scenes.h"
+
+static unsigned char buffer[1 << 17];
+
+/* Whether steps after a restore may have to choose pivots anew. */
+static bool chooses_pivots(const saved_scene *scene)
+{
+  const baum_simulation_options *o = &scene->options;
+  bool by_blocks = o->solver == BAUM_SOLVER_AUTO || o->solver == BAUM_SOLVER_BLOCK;
+  /* user coordinates have a varying mass, but go by blocks too; others factor matrices of their own */
+  bool explicit = isnan(o->rtol) && baum_integrator_has_fixed_step(o->integrator) &&
+                  o->integrator != baum_generalized_alpha() && o->integrator != baum_rattle();
+  return !(by_blocks && explicit);
+}
+
+static void check_scene(const saved_scene *scene)
+{
+  size_t size = 0;
+  baum_simulation *run = saved_scene_start(scene);
+  assert_true(saved_reached(baum_simulation_advance_to(run, 2.5 * scene->span)));
+  if (scene->law) {
+    assert_int_equal(scene->law(run, scene), BAUM_OK);
+  }
+  heap_watch();
+  for (int k = 0; k < 5; k++) {
+    assert_int_equal(baum_simulation_save(run, buffer, sizeof buffer, &size), BAUM_OK);
+    if (!chooses_pivots(scene)) {
+      assert_true(saved_reached(baum_simulation_step(run, 3)));
+    }
+    assert_int_equal(baum_simulation_restore(run, buffer, size), BAUM_OK);
+  }
+  long allocations = heap_stop();
+  if (allocations != 0) {
+    fail_msg("%s: %ld allocations", scene->name, allocations);
+  }
+  baum_simulation_destroy(run);
+}
+
+static void saving_and_restoring_allocate_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  saved_scene scene;
+  for (int number = 0; saved_scene_open(&scene, number); number++) {
+    check_scene(&scene);
+    saved_scene_close(&scene);
+  }
+}
+
+/* ---- where memory is needed ---- */
+
+static void going_on_without_memory_changes_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  saved_scene scene;
+  assert_true(saved_scene_open(&scene, 0));
+  baum_simulation *from = saved_scene_start(&scene);
+  baum_simulation *to = saved_scene_start(&scene);
+  assert_true(saved_reached(baum_simulation_advance_to(from, 5e-3)));
+  assert_int_equal(scene.law(from, &scene), BAUM_OK);
+  baum_status status = BAUM_ERR_MEMORY;
+  long failures = 0;
+  for (; status == BAUM_ERR_MEMORY; failures++) {
+    assert_true(baum_simulation_time(to) == 0.0);
+    long blocks = heap_blocks();
+    heap_fail(failures, false);
+    status = baum_simulation_continue(to, from);
+    (void)heap_stop();
+    assert_true(status != BAUM_ERR_MEMORY || heap_blocks() == blocks);
+  }
+  assert_int_equal(status, BAUM_OK);
+  assert_true(failures > 3); /* q, v, inputs, numbers of drivers */
+  assert_true(baum_simulation_time(to) == baum_simulation_time(from));
+  baum_simulation_destroy(from);
+  baum_simulation_destroy(to);
+  saved_scene_close(&scene);
+}
+
+/* Into a run that has no law of its own yet. */
+static void a_law_restored_without_memory_changes_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  saved_scene scene;
+  size_t size = 0;
+  assert_true(saved_scene_open(&scene, 0));
+  baum_simulation *from = saved_scene_start(&scene);
+  baum_simulation *to = saved_scene_start(&scene);
+  assert_int_equal(scene.law(from, &scene), BAUM_OK);
+  assert_true(saved_reached(baum_simulation_step(from, 2)));
+  assert_int_equal(baum_simulation_save(from, buffer, sizeof buffer, &size), BAUM_OK);
+  heap_fail(0, false);
+  baum_status status = baum_simulation_restore(to, buffer, size);
+  (void)heap_stop();
+  assert_int_equal(status, BAUM_ERR_MEMORY);
+  assert_true(baum_simulation_time(to) == 0.0);
+  assert_int_equal(baum_simulation_restore(to, buffer, size), BAUM_OK);
+  assert_true(baum_simulation_time(to) == baum_simulation_time(from));
+  baum_simulation_destroy(from);
+  baum_simulation_destroy(to);
+  saved_scene_close(&scene);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(saving_and_restoring_allocate_nothing),
+    cmocka_unit_test(going_on_without_memory_changes_nothing),
+    cmocka_unit_test(a_law_restored_without_memory_changes_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
