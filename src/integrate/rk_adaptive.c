@@ -62,7 +62,8 @@ typedef struct adaptive_run {
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
-/* [rad] by which a mechanism moves in the least step over a singular pose. */
+/* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
+static const double SHORT = 0.002;
 static const double STEP_OVER = 0.05;
 /* [rad] Error of such a step, of the scales, above which it is refused all the same. */
 static const double LARGEST_FORCED = 0.01;
@@ -289,8 +290,8 @@ static void accept(adaptive_run *run, double error, baum_i_state *state)
   memcpy(state->v, run->end + run->rk.nv, bytes);
 }
 
-/* Near a singular pose errors grow however small the step is, and small steps would end up in it. So none is shorter
- * there than this, whatever its error: 0 elsewhere. */
+/* Near a singular pose errors grow however small the step is, and small steps would end up in it. So where even this
+ * length is too long there, the step goes over the pose, whatever its error. 0 elsewhere. */
 static double least_length(const adaptive_run *run, const baum_i_problem *problem)
 {
   if (run->pivot >= BAUM_I_NEAR_PIVOT) {
@@ -298,13 +299,14 @@ static double least_length(const adaptive_run *run, const baum_i_problem *proble
   }
   const baum_i_rk *rk = &run->rk;
   double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
-  return fmin(STEP_OVER / fmax(rate, problem->rate), problem->max_step);
+  return SHORT / fmax(rate, problem->rate);
 }
 
 /* The next length to try, from where the step begins. */
 static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double least)
 {
-  double length = fmin(fmax(run->control.step, least), problem->max_step);
+  bool over = run->control.step < least;
+  double length = fmin(over ? STEP_OVER / SHORT * least : run->control.step, problem->max_step);
   double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
@@ -327,7 +329,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     if (status != BAUM_OK) {
       return status;
     }
-    bool forced = run->control.step <= least;
+    bool forced = run->control.step < least;
     status = try_step(run, problem, forced, &error);
     if (status == BAUM_OK && (error <= 1.0 || (forced && error <= most))) {
       run->forced += error > 1.0;

@@ -18,7 +18,7 @@
 
 #include "simulate/passage.h"
 
-static const double SMALL_JUMP = 0.1;
+static const double SMALL_JUMP = 0.02;
 static const double LARGE_JUMP =
   0.3;                           /* directions of branches differ by the size of the velocity */
 static const double KNOWN = 0.1; /* largest error of a jump that is judged */
@@ -98,21 +98,29 @@ static double apart(const baum_simulation *run, const double *q, const double *p
   return most;
 }
 
-/* Is there a violation on the way that is not the run's own, nor the polynomial's? */
-static bool has_gap(baum_simulation *run, double t)
+/* A state of the run is singular as far as its violation allows, or it is not. */
+bool baum_i_branch_has_gap_at_end(baum_simulation *run)
+{
+  const baum_i_passages *p = run->passages;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  return last->pivot > GAP && last->pivot > 10.0 * violation_at(run, last);
+}
+
+/* Between states: a violation that is not the run's own, nor the polynomial's. */
+bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
   baum_i_passages *p = run->passages;
-  const baum_i_knot *last = p->recent + p->recent_count - 1;
-  if (p->clear_count == 0) {
-    return false;
+  double own = 0.0;
+  for (int k = 0; k < p->recent_count; k++) {
+    own = fmax(own, violation_at(run, &p->recent[k]));
   }
-  const baum_i_knot *before = &p->clear[p->clear_count - 1];
-  double own = fmax(violation_at(run, last), violation_at(run, before));
   baum_i_hermite(p->recent, p->recent_count, p->nv, t, p->at.q, p->at.v);
   baum_i_hermite(p->recent + 1, p->recent_count - 1, p->nv, t, p->other.q, p->other.v);
   double error = apart(run, p->at.q, p->other.q);
   p->at.t = t;
-  return violation_at(run, &p->at) > GAP + 10.0 * (own + error);
+  double violation = violation_at(run, &p->at);
+  double noise = GAP + 10.0 * (own + error);
+  return violation > noise || (pivot > noise && pivot > 10.0 * violation);
 }
 
 /* ---- jump ---- */
@@ -154,7 +162,7 @@ static baum_branch judge(double jump, double error, bool gap, double largest_tur
   if (!(error <= KNOWN)) {
     return BAUM_BRANCH_UNKNOWN;
   }
-  if (jump <= SMALL_JUMP) {
+  if (jump <= fmax(SMALL_JUMP, 2.0 * error)) {
     return BAUM_BRANCH_CONTINUED;
   }
   return jump > LARGE_JUMP ? BAUM_BRANCH_LEFT : BAUM_BRANCH_UNKNOWN;
@@ -166,5 +174,5 @@ void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
   out->t = passage->at;
   out->pivot = passage->smallest;
   find_jump(run, &out->jump, &out->jump_error);
-  out->branch = judge(out->jump, out->jump_error, has_gap(run, passage->at), passage->largest_turn);
+  out->branch = judge(out->jump, out->jump_error, passage->gap, passage->largest_turn);
 }

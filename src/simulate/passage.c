@@ -177,22 +177,35 @@ static void begin(baum_i_passages *p, double from)
     (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
 }
 
-static void see_pivot(baum_i_passages *p, double pivot, double at, int joint)
-{
-  if (pivot < p->present.smallest) {
-    p->present.smallest = pivot;
-    p->present.at = at;
-    p->present.joint = joint >= 0 ? joint : p->present.joint;
-  }
-}
-
 /* Between the last three states. */
-static void search(baum_simulation *run, baum_i_passage *found)
+static void search(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
   const double span[2] = {p->recent[0].t, p->recent[2].t};
-  found->smallest =
-    baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, span, &found->at, &found->joint);
+  baum_i_passage *present = &p->present;
+  double at = 0.0;
+  int joint = -1;
+  double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, span, &at, &joint);
+  if (pivot < present->smallest) {
+    present->smallest = pivot;
+    present->at = at;
+    present->joint = joint;
+    present->gap = baum_i_branch_has_gap(run, at, pivot);
+  }
+}
+
+/* At the last state, which is near. */
+static void see_last(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  baum_i_passage *present = &p->present;
+  if (last->pivot < present->smallest) {
+    present->smallest = last->pivot;
+    present->at = last->t;
+    present->joint = p->joint_noted;
+    present->gap = last->pivot < SINGULAR && baum_i_branch_has_gap_at_end(run);
+  }
 }
 
 static const char *const BRANCHES[] = {
@@ -239,42 +252,47 @@ static void close_passage(baum_simulation *run)
 static void look_inside(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
   see_turn(run);
   if (may_have_jumped(p)) {
-    baum_i_passage found = {.joint = -1};
-    search(run, &found);
-    see_pivot(p, found.smallest, found.at, found.joint);
+    search(run);
   }
-  if (is_near(last)) {
-    see_pivot(p, last->pivot, last->t, p->joint_noted);
+  if (is_near(&p->recent[p->recent_count - 1])) {
+    see_last(run);
   } else {
     close_passage(run);
   }
 }
 
-/* The last state but one is clear, and was so far looked at as such. */
+/* Has a passage just been found between the last three states? */
+static bool has_jumped(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  if (is_near(&p->recent[p->recent_count - 1]) || !may_have_jumped(p)) {
+    return false;
+  }
+  begin(p, p->recent[0].t);
+  search(run);
+  p->open = p->present.smallest < SINGULAR;
+  return p->open;
+}
+
+/* The last state but one is clear. */
 static void look_outside(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
-  if (p->recent_count >= 2 && !is_near(last) && may_have_jumped(p)) {
-    baum_i_passage found = {.joint = -1};
-    search(run, &found);
-    if (found.smallest < SINGULAR) {
-      begin(p, p->recent[0].t);
-      see_pivot(p, found.smallest, found.at, found.joint);
-      see_turn(run);
-      close_passage(run);
-      return;
-    }
+  if (has_jumped(run)) {
+    see_turn(run);
+    close_passage(run);
+    return;
   }
   if (p->recent_count >= 2 && !is_near(last - 1)) {
     keep_clear(run, last - 1);
   }
   if (is_near(last)) {
     begin(p, p->recent_count >= 2 ? last[-1].t : last->t);
-    look_inside(run);
+    see_turn(run);
+    see_last(run);
   }
 }
 

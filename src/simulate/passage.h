@@ -16,6 +16,7 @@ typedef struct baum_i_passage {
   double from;         /* [s] last clear state before */
   double at;           /* [s] of the smallest pivot */
   double smallest;     /* [-] of the usual one */
+  bool gap;            /* no singular pose is on the way, as far as can be seen there */
   double largest_turn; /* [-] change of the velocity in a step, of its size */
   int joint;           /* of the smallest pivot, -1: none */
 } baum_i_passage;
@@ -62,5 +63,10 @@ void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
  * state there is left in passages->at. INFINITY where evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  const double span[2], double *at, int *joint);
+
+/* branch.c: is there no singular pose near the last recent state, or near the motion through the recent ones at t, where
+ * its pivot is given? */
+bool baum_i_branch_has_gap_at_end(baum_simulation *run);
+bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 
 #endif
