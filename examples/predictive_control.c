@@ -1,0 +1,125 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rollback: every two milliseconds a controller tries two torques on the run itself, a turn of the crank ahead each,
+ * goes back to where it was by what it has saved, and takes the torque whose end has the better speed. Saving and
+ * restoring allocate nothing, and with a one-step method and blocks the run goes on as if nothing had been tried. */
+#include <time.h>
+
+#include "slider_crank_model.h"
+
+enum { STEPS = 20 /* of one interval */, AHEAD = 420, INTERVALS = 125 /* of one row */, ROWS = 8 };
+
+static const double STEP = 1e-4;   /* [s] */
+static const double SPEED = 150.0; /* [rad/s] wanted; the run starts with it */
+static const double BRAKE = -0.1;  /* [N m] always on */
+static const double FULL = 0.6;    /* [N m] of the motor, which can be on or off */
+
+typedef struct plant {
+  baum_simulation *run;
+  baum_joint_id pin;
+  baum_input_id motor;
+  unsigned char *buffer;
+  size_t capacity;
+  long tries;
+  double seconds; /* wall time of saving and restoring */
+} plant;
+
+static double now(void)
+{
+  struct timespec t;
+  (void)timespec_get(&t, TIME_UTC);
+  return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static double angle(const plant *p)
+{
+  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = p->pin};
+  double crank[2];
+  CHECK(baum_simulation_get(p->run, &channel, 1, crank));
+  return crank[0];
+}
+
+/* How far off the mean speed is when a torque acts for a while from here; the run is put back. */
+static double try_torque(plant *p, double torque)
+{
+  size_t size = 0;
+  double begun = now();
+  CHECK(baum_simulation_save(p->run, p->buffer, p->capacity, &size));
+  double saved = now();
+  double from = angle(p);
+  CHECK(baum_simulation_set_input(p->run, p->motor, torque));
+  CHECK(baum_simulation_step(p->run, AHEAD));
+  double speed = (angle(p) - from) / (STEP * AHEAD);
+  double tried = now();
+  CHECK(baum_simulation_restore(p->run, p->buffer, size));
+  p->seconds += saved - begun + now() - tried;
+  p->tries++;
+  return fabs(speed - SPEED);
+}
+
+static baum_mechanism *build(slider_crank *s, plant *p)
+{
+  baum_mechanism *mechanism = NULL; /* a copy, for that of s is frozen */
+  CHECK(baum_mechanism_copy(s->mechanism, &mechanism));
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = s->crank;
+  load.torque = BRAKE;
+  CHECK(baum_mechanism_add_planar_load(mechanism, &load, NULL));
+  load.torque = 1.0;
+  CHECK(baum_mechanism_add_input(mechanism, "motor", 0.0, &load.input));
+  CHECK(baum_mechanism_add_planar_load(mechanism, &load, NULL));
+  CHECK(baum_mechanism_freeze(mechanism));
+  p->pin = s->pin_a;
+  p->motor = load.input;
+  return mechanism;
+}
+
+int main(int argc, char **argv)
+{
+  example_begin(argc, argv, "predictive_control");
+  slider_crank s = slider_crank_build(false);
+  plant p = {0};
+  baum_mechanism *mechanism = build(&s, &p);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_semi_implicit_euler();
+  options.step = STEP;
+  CHECK(baum_simulation_create(mechanism, &options, &p.run));
+  CHECK(baum_simulation_save(p.run, NULL, 0, &p.capacity)); /* the size that is always enough */
+  p.buffer = malloc(p.capacity);
+  if (!p.buffer) {
+    return EXIT_FAILURE;
+  }
+  printf("slider-crank against a brake, its motor on or off\n\n");
+  static const example_column columns[] = {{"t", "t [s]", 'f', 2},
+                                           {"speed", "mean speed [rad/s]", 'f', 2},
+                                           {"on", "motor on [%]", 'f', 0}};
+  example_table("speed", columns, 3, true);
+  double speed = 0.0;
+  for (int row = 0; row < ROWS; row++) {
+    double begun = angle(&p);
+    int on = 0;
+    for (int k = 0; k < INTERVALS; k++) {
+      bool full = try_torque(&p, FULL) < try_torque(&p, 0.0);
+      on += full;
+      CHECK(baum_simulation_set_input(p.run, p.motor, full ? FULL : 0.0));
+      CHECK(baum_simulation_step(p.run, STEPS));
+    }
+    speed = (angle(&p) - begun) / (STEP * STEPS * INTERVALS);
+    example_number(baum_simulation_time(p.run));
+    example_number(speed);
+    example_number(100.0 * on / INTERVALS);
+  }
+  baum_counters c;
+  CHECK(baum_simulation_counters(p.run, &c, sizeof c));
+  example_counters(p.run);
+  printf("%ld tries; saving and restoring take %.1f us together\n", p.tries,
+         1e6 * p.seconds / (double)p.tries);
+  example_expect("speed at the end, off by [rad/s]", fabs(speed - SPEED), 0.03 * SPEED);
+  example_expect("steps that are not of the motion", (double)c.steps - ROWS * INTERVALS * STEPS,
+                 0.0);
+  example_expect("largest violation max|Phi| [m]", c.max_phi, 1e-4);
+  free(p.buffer);
+  baum_simulation_destroy(p.run);
+  baum_mechanism_destroy(mechanism);
+  baum_mechanism_destroy(s.mechanism);
+  return example_end();
+}
