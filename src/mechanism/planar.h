@@ -37,6 +37,12 @@ typedef struct baum_i_marker {
   double w;     /* angular velocity of the body */
 } baum_i_marker;
 
+/* p alone, as a pair. */
+static inline baum_i_pair baum_i_arm_on(const baum_i_frame *f, const double *s)
+{
+  return f->c * baum_i_load(s) + f->s * baum_i_turned(baum_i_load(s));
+}
+
 static inline baum_i_marker baum_i_marker_on(const baum_i_frame *f, const double *s)
 {
   baum_i_marker m;
@@ -128,6 +134,18 @@ BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const 
     baum_i_planar_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
   } else {
     baum_i_planar_scatter_any(mechanism, span, six, x);
+  }
+}
+
+/* Three numbers of a span of one body. */
+BAUM_I_INLINE void baum_i_planar_scatter_one(const baum_mechanism *mechanism,
+                                             const baum_i_span *span, const double *three,
+                                             double *x)
+{
+  if (span->nl == 3) {
+    baum_i_planar_add_three(three, x + span->columns[0]);
+  } else {
+    baum_i_planar_scatter_any(mechanism, span, three, x);
   }
 }
 

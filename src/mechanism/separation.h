@@ -30,11 +30,17 @@ static inline baum_i_separation baum_i_separation_of(const baum_i_marker *a, con
   };
 }
 
-/* |d|, by way of hypot() only where squares could overflow or vanish. */
+/* By way of hypot() only where squares could overflow or vanish. */
+static inline double baum_i_length_of(double x, double y)
+{
+  double square = x * x + y * y;
+  return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(x, y);
+}
+
+/* |d| */
 static inline double baum_i_separation_length(const baum_i_separation *s)
 {
-  double square = s->d[0] * s->d[0] + s->d[1] * s->d[1];
-  return square > 1e-280 && square < 1e280 ? sqrt(square) : hypot(s->d[0], s->d[1]);
+  return baum_i_length_of(s->d[0], s->d[1]);
 }
 
 /* G^T x (6) */

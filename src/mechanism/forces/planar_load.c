@@ -133,24 +133,32 @@ typedef struct load {
   bool has_potential;
 } load;
 
+/* f, in ground axes and with the input; returns what the input is. */
+static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
+                               const baum_i_frame *frame, const double *numbers, double f[2])
+{
+  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  f[0] = scale * numbers[FORCE];
+  f[1] = scale * numbers[FORCE + 1];
+  if (def->follows_body) {
+    double x = f[0];
+    f[0] = frame->c * x - frame->s * f[1];
+    f[1] = frame->s * x + frame->c * f[1];
+  }
+  return scale;
+}
+
 static load load_at(const baum_i_force *element, const baum_i_point *point)
 {
   const baum_planar_load_def *def = element->element.def;
   const double *numbers = point->parameters + element->element.parameter;
   const baum_i_frame *frame = &point->frames[element->span.bodies[0]];
-  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
-  const double f[2] = {scale * numbers[FORCE], scale * numbers[FORCE + 1]};
   load l = {
     .at = baum_i_marker_on(frame, numbers + POINT),
-    .force = {f[0], f[1]},
-    .torque = scale * numbers[TORQUE],
     .follows_body = def->follows_body,
     .has_potential = !def->follows_body && numbers[TORQUE] == 0.0 && !has_input(def),
   };
-  if (l.follows_body) {
-    l.force[0] = frame->c * f[0] - frame->s * f[1];
-    l.force[1] = frame->s * f[0] + frame->c * f[1];
-  }
+  l.torque = numbers[TORQUE] * set_force(def, point, frame, numbers, l.force);
   return l;
 }
 
@@ -166,14 +174,18 @@ static void set_force_q(const load *l, double out[9])
 
 /* ---- type ---- */
 
+/* Without what only energy and derivatives need. */
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_force *element = group->forces[i];
-    load l = load_at(element, point);
-    double moment = l.at.arm[0] * l.force[1] - l.at.arm[1] * l.force[0] + l.torque;
-    const double three[3] = {l.force[0], l.force[1], moment};
-    baum_i_planar_scatter_any(point->mechanism, &element->span, three, out);
+    const double *numbers = point->parameters + element->element.parameter;
+    const baum_i_frame *frame = &point->frames[element->span.bodies[0]];
+    double f[2];
+    double torque = numbers[TORQUE] * set_force(element->element.def, point, frame, numbers, f);
+    baum_i_pair arm = baum_i_arm_on(frame, numbers + POINT);
+    const double three[3] = {f[0], f[1], arm[0] * f[1] - arm[1] * f[0] + torque};
+    baum_i_planar_scatter_one(point->mechanism, &element->span, three, out);
   }
   return BAUM_OK;
 }

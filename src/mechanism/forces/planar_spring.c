@@ -142,25 +142,29 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* -T h */
+/* -T h, as pairs: T e and its moment on body a, the opposite on b. Of all that springs do this alone
+ * is done in every evaluation. */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;
-  baum_i_marker a = baum_i_marker_at(point, element->span.bodies[0], numbers);
-  baum_i_marker b = baum_i_marker_at(point, element->span.bodies[1], numbers + 2);
-  baum_i_separation line = baum_i_separation_of(&a, &b);
-  double length = baum_i_separation_length(&line);
+  const baum_i_frame *f = &point->frames[element->span.bodies[0]];
+  const baum_i_frame *g = &point->frames[element->span.bodies[1]];
+  baum_i_pair p = baum_i_arm_on(f, numbers);
+  baum_i_pair s = baum_i_arm_on(g, numbers + 2);
+  baum_i_pair d = baum_i_load(&g->x) + s - (baum_i_load(&f->x) + p);
+  baum_i_pair rate =
+    baum_i_load(&g->vx) + g->w * baum_i_turned(s) - (baum_i_load(&f->vx) + f->w * baum_i_turned(p));
+  double length = baum_i_length_of(d[0], d[1]);
   if (length < DBL_MIN) {
     return BAUM_OK;
   }
-  const double e[2] = {line.d[0] / length, line.d[1] / length};
+  baum_i_pair e = d / length;
   baum_i_spring_law law = law_of(element, point);
   baum_i_tension t;
-  baum_status status =
-    baum_i_tension_at(&law, point, length, e[0] * line.rate[0] + e[1] * line.rate[1], &t);
-  const double pull[2] = {-t.value * e[0], -t.value * e[1]};
-  double six[6];
-  baum_i_separation_spread(&line, pull, six);
+  baum_status status = baum_i_tension_at(&law, point, length, baum_i_dot(e, rate), &t);
+  baum_i_pair pull = t.value * e;
+  const double six[6] = {pull[0],  pull[1],  baum_i_dot(baum_i_turned(p), pull),
+                         -pull[0], -pull[1], -baum_i_dot(baum_i_turned(s), pull)};
   baum_i_planar_scatter(point->mechanism, &element->span, six, out);
   return status;
 }
