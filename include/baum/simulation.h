@@ -161,7 +161,8 @@ typedef struct baum_simulation_options {
   baum_progress_fn *progress; /**< Default: NULL, none. */
   double progress_interval;   /**< [s] of wall time, >= 0. Default: 0.05. */
   void *user;                 /**< Passed to progress, not owned. Default: NULL. */
-  double tolerance_q;         /**< [-] > 0, finite; on rtol and atol for positions. Default: 1. */
+  double tolerance_q;         /**< [-] > 0, finite, factor on rtol and atol for positions; refused
+                                with a fixed step. Default: 1. */
   double tolerance_v;         /**< [-] > 0, likewise for velocities. Default: 1. */
   double tolerance_lambda;    /**< [-] > 0, factor on rtol for multipliers; finite only for IDA with
                                 BAUMGARTE or UNSTABILIZED. Row i with displacement n_i (the norm

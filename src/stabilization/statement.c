@@ -2,7 +2,7 @@
 /* What gains do with a method, in words.
  *
  * Explicit with its own step: outside of the region of stability violations grow until the error
- * test sees them, so the step settles where h s is at the edge (Hairer, Wanner 1996, IV.2).
+ * test sees them (Hairer, Wanner 1996, IV.2), so gains.c gives such a run a longest step.
  * Adams-Moulton, the constraints' stiffness solved implicitly: orders 1 and 2 are A-stable, orders 3,
  * 4, 5, 6 stable on the real axis to -6, -3, -90/49, -45/38 (there z = -1), so that the error test has
  * to lower the order or the step, as with explicit methods.
@@ -47,9 +47,9 @@ const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_f
   }
   if (chooses_step) {
     return "With a fixed step violations decay where the spectral radius at (alpha h, beta^2 h^2) "
-           "is "
-           "below 1. With steps of its own the same region caps the step: the error test keeps the "
-           "method inside, h up to (limit of alpha h) / alpha, and high gains cost steps.";
+           "is below 1. With steps of its own the same region caps the step, at 0.9 of the limit "
+           "on "
+           "the ray of the gains: violations decay for any gains, and high gains cost steps.";
   }
   return "Fixed step: violations decay where the spectral radius at (alpha h, beta^2 h^2) is below "
          "1, and grow where it is above.";

@@ -54,7 +54,8 @@ def _open():
         except OSError as error:
             failures.append(f"  {candidate}: {error}")
     raise ImportError(
-        "baum: the C library could not be loaded; install it, or name it in BAUM_LIBRARY. "
+        "baum: the C library could not be loaded; install it (and run ldconfig), or name its file "
+        "in BAUM_LIBRARY. "
         "Tried:\n" + "\n".join(failures)
     )
 
