@@ -79,15 +79,16 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
                                 unsigned char *is_done)
 {
   const baum_i_block *block = path->block;
-  path->points = baum_i_alloc(4 * (size_t)block->pin_count, sizeof *path->points);
+  size_t count = baum_i_even((size_t)block->pin_count);
+  path->points = baum_i_alloc(4 * count, sizeof *path->points);
   if (!path->points) {
     return BAUM_ERR_MEMORY;
   }
-  for (int i = 0; i < block->pin_count; i++) {
+  for (size_t i = 0; i < count; i++) {
     int joint = baum_i_row_joint(w->mechanism, block->pins[i].row);
     is_done[joint] = 1;
     const double *points = w->point.parameters + w->mechanism->joints[joint]->element.parameter;
-    memcpy(path->points + 4 * (size_t)i, points, 4 * sizeof *points);
+    memcpy(path->points + 4 * i, points, 4 * sizeof *points);
   }
   return BAUM_OK;
 }
@@ -201,8 +202,8 @@ static void see(range *r, double x)
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;
-  range moves = {.least = INFINITY};
-  range turns = {.least = INFINITY};
+  range moves = {.least = (double)INFINITY};
+  range turns = {.least = (double)INFINITY};
   for (int i = 0; i < 2 * b->pin_count; i++) {
     const double *w = b->weight + 2 * (size_t)b->pins[i / 2].triple[i % 2];
     const double *p = path->points + 2 * (size_t)i;
@@ -436,8 +437,11 @@ static baum_status solve(baum_i_block_path *path, bool last, double *lambda)
   kernel->substitute(block, lambda);
   bool look = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
               (path->uneven && has_cancelled(block));
-  baum_status status = look ? refine(path, pivots) : BAUM_OK;
-  kernel->read_lambda(block, look, lambda);
+  if (!look) {
+    return BAUM_OK;
+  }
+  baum_status status = refine(path, pivots);
+  kernel->read_lambda(block, lambda);
   return status;
 }
 

@@ -17,7 +17,7 @@ struct baum_i_block_path {
   const baum_i_block_kernel *kernel;
   const baum_i_block_sides_kernel *sides_kernel;
   const baum_i_pins_kernel *pins_kernel;
-  double *points;              /* (pin_count x 4) */
+  double *points;              /* (even pin_count x 4) */
   int group_count;             /* joints that are not pins of the block */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* behind the groups */

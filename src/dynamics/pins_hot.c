@@ -10,79 +10,129 @@
  * No J is formed. Arms and gamma are rounded as where J and gamma are reported: fused products would
  * give another J, by a last digit, which close to a singular pose counts.
  */
-#include "base/hot.h"
-#include "base/pair.h"
+#include "base/four.h"
 #include "dynamics/pins.h"
 
-/* A point of a body: arm p, its turn k x p, place, velocity, and p w^2. */
-typedef struct marker {
-  baum_i_pair turned;
-  baum_i_pair place;
-  baum_i_pair rate;
-  baum_i_pair bend;
-} marker;
+/* Two pins are done at a time, one in either half of a vector. What belongs to them alone: */
+typedef struct two_pins {
+  const baum_i_pin_node *pin;
+  const double *points;
+  const double *weight;
+  double *arm;
+} two_pins;
 
-static inline marker marker_on(const baum_i_frame *f, const double *point)
+/* A point of a body: k x p, place, velocity, and p w^2. */
+typedef struct markers {
+  baum_i_four turned;
+  baum_i_four place;
+  baum_i_four rate;
+  baum_i_four bend;
+} markers;
+
+/* s: on the bodies. */
+BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, baum_i_four s)
 {
-  baum_i_pair s = baum_i_load(point);
-  baum_i_pair p = baum_i_rounded(f->c * s) + baum_i_rounded(f->s * baum_i_turned(s));
-  marker m;
-  m.turned = baum_i_turned(p);
-  m.place = baum_i_load(&f->x) + p;
-  m.rate = baum_i_load(&f->vx) + f->w * m.turned;
-  m.bend = baum_i_rounded(p * (f->w * f->w));
+  baum_i_four along = baum_i_four_times(baum_i_four_spread(&f->c, &g->c), s);
+  baum_i_four across =
+    baum_i_four_times(baum_i_four_spread(&f->s, &g->s), baum_i_four_exchanged(s));
+  baum_i_four p = baum_i_four_minus_plus(baum_i_four_rounded(along), baum_i_four_rounded(across));
+  baum_i_four exchanged = baum_i_four_exchanged(p);
+  baum_i_four w = baum_i_four_spread(&f->w, &g->w);
+  markers m;
+  m.turned = baum_i_four_times(exchanged, baum_i_four_in_turns(-1.0, 1.0));
+  m.place = baum_i_four_plus(baum_i_four_gathered(&f->x, &g->x), p);
+  m.rate = baum_i_four_plus(baum_i_four_gathered(&f->vx, &g->vx), baum_i_four_times(w, m.turned));
+  m.bend = baum_i_four_rounded(baum_i_four_times(p, baum_i_four_times(w, w)));
   return m;
 }
 
-/* w: weights of both triples. */
-static inline baum_i_square pivot_of(const marker *a, const marker *b, const double w[4])
+/* Body 0 or 1 of both. */
+BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  baum_i_pair weighted_a = w[1] * a->turned;
-  baum_i_pair weighted_b = w[3] * b->turned;
-  baum_i_pair on = weighted_a * a->turned + weighted_b * b->turned + (w[0] + w[2]);
-  double off = weighted_a[0] * a->turned[1] + weighted_b[0] * b->turned[1];
-  return (baum_i_square){{{on[0], off}, {off, on[1]}}};
+  /* Triples of planar bodies have the numbers of the bodies. */
+  return markers_on(&frames[(ptrdiff_t)two->pin[0].triple[body]],
+                    &frames[(ptrdiff_t)two->pin[1].triple[body]],
+                    baum_i_four_gathered(two->points + 2 * body, two->points + 4 + 2 * body));
 }
 
+BAUM_I_INLINE void put(double *low, double *high, baum_i_four x)
+{
+  baum_i_store(low, baum_i_four_low(x));
+  baum_i_store(high, baum_i_four_high(x));
+}
+
+/* J a0 */
+BAUM_I_INLINE baum_i_four push_of(const two_pins *two, const double *free, const markers *a,
+                                  const markers *b)
+{
+  const double *x = free + two->pin[0].place[0];
+  const double *y = free + two->pin[0].place[1];
+  const double *z = free + two->pin[1].place[0];
+  const double *u = free + two->pin[1].place[1];
+  baum_i_four of_a = baum_i_four_times(baum_i_four_spread(x + 2, z + 2), a->turned);
+  baum_i_four of_b = baum_i_four_times(baum_i_four_spread(y + 2, u + 2), b->turned);
+  baum_i_four moving = baum_i_four_minus(baum_i_four_gathered(x, z), baum_i_four_gathered(y, u));
+  return baum_i_four_minus(baum_i_four_plus(moving, of_a), of_b);
+}
+
+BAUM_I_INLINE void put_pivot(baum_i_node *node, baum_i_pair on, baum_i_pair off, baum_i_pair miss)
+{
+  baum_i_store(node->pivot, (baum_i_pair){on[0], off[0]});
+  baum_i_store(node->pivot + 2, (baum_i_pair){off[0], on[1]});
+  baum_i_store(node->lambda, miss);
+  node->size = on[0] * on[1];
+}
+
+BAUM_I_INLINE void set_nodes(const two_pins *two, baum_i_four c_a, baum_i_four c_b,
+                             baum_i_four miss, baum_i_node *nodes)
+{
+  baum_i_node *node[2] = {&nodes[(ptrdiff_t)two->pin[0].node], &nodes[(ptrdiff_t)two->pin[1].node]};
+  const double *w = two->weight;
+  baum_i_four moving =
+    baum_i_four_plus(baum_i_four_spread(w, w + 4), baum_i_four_spread(w + 2, w + 6));
+  baum_i_four weighted_a = baum_i_four_times(baum_i_four_spread(w + 1, w + 5), c_a);
+  baum_i_four weighted_b = baum_i_four_times(baum_i_four_spread(w + 3, w + 7), c_b);
+  baum_i_four on = baum_i_four_plus(moving, baum_i_four_plus(baum_i_four_times(weighted_a, c_a),
+                                                             baum_i_four_times(weighted_b, c_b)));
+  baum_i_four off = baum_i_four_plus(baum_i_four_times(weighted_a, baum_i_four_exchanged(c_a)),
+                                     baum_i_four_times(weighted_b, baum_i_four_exchanged(c_b)));
+  put_pivot(node[0], baum_i_four_low(on), baum_i_four_low(off), baum_i_four_low(miss));
+  put_pivot(node[1], baum_i_four_high(on), baum_i_four_high(off), baum_i_four_high(miss));
+}
+
+BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const baum_i_block *block)
+{
+  ptrdiff_t row[2] = {two->pin[0].row, two->pin[1].row};
+  ptrdiff_t node[2] = {two->pin[0].node, two->pin[1].node};
+  markers a = markers_of(two, at->frames, 0);
+  markers b = markers_of(two, at->frames, 1);
+  baum_i_four phi = baum_i_four_minus(a.place, b.place);
+  baum_i_four rate = baum_i_four_minus(a.rate, b.rate);
+  baum_i_four gamma = baum_i_four_minus(a.bend, b.bend);
+  baum_i_four right = baum_i_four_times(baum_i_four_all(at->bending), gamma);
+  right = baum_i_four_minus(right, baum_i_four_times(baum_i_four_all(at->damping), rate));
+  right = baum_i_four_minus(right, baum_i_four_times(baum_i_four_all(at->stiffness), phi));
+  baum_i_four miss = baum_i_four_minus(push_of(two, block->from, &a, &b), right);
+  set_nodes(two, a.turned, b.turned, miss, block->nodes);
+  put(at->phi + row[0], at->phi + row[1], phi);
+  put(at->phi_rate + row[0], at->phi_rate + row[1], rate);
+  put(at->gamma + row[0], at->gamma + row[1], gamma);
+  put(block->right + 2 * node[0], block->right + 2 * node[1], right);
+  put(two->arm, two->arm + 4, a.turned);
+  put(two->arm + 2, two->arm + 6, baum_i_four_minus(baum_i_four_all(0.0), b.turned));
+}
+
+/* An odd number is made even by a copy of the last one. */
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
+  const baum_i_block to = *block; /* in registers: nothing that is stored can change it */
   const baum_i_pins at = *pins;
-  const double *weight = block->pin_weight;
-  const double *free = block->from;
-  const double *point = at.points;
-  double *arm = block->arm;
-  double *rights = block->right;
-  baum_i_node *nodes = block->nodes;
-  const baum_i_pin_node *end = block->pins + block->pin_count;
-  for (const baum_i_pin_node *pin = block->pins; pin < end; pin++) {
-    ptrdiff_t row = pin->row;
-    ptrdiff_t k = pin->node;
-    size_t ta = (size_t)pin->triple[0];
-    size_t tb = (size_t)pin->triple[1];
-    /* Triples of planar bodies have the numbers of the bodies. */
-    marker a = marker_on(&at.frames[ta], point);
-    marker b = marker_on(&at.frames[tb], point + 2);
-    baum_i_pair phi = a.place - b.place;
-    baum_i_pair rate = a.rate - b.rate;
-    baum_i_pair gamma = a.bend - b.bend;
-    baum_i_pair right = at.bending * gamma - at.damping * rate - at.stiffness * phi;
-    const double *x = free + pin->place[0];
-    const double *y = free + pin->place[1];
-    baum_i_pair miss = baum_i_load(x) - baum_i_load(y) + x[2] * a.turned - y[2] * b.turned - right;
-    baum_i_square pivot = pivot_of(&a, &b, weight);
-    baum_i_store(at.phi + row, phi);
-    baum_i_store(at.phi_rate + row, rate);
-    baum_i_store(at.gamma + row, gamma);
-    baum_i_node *node = &nodes[k];
-    baum_i_store(rights + 2 * k, right);
-    baum_i_store(arm, a.turned);
-    baum_i_store(arm + 2, -b.turned);
-    baum_i_store_square(node->pivot, pivot);
-    baum_i_store(node->lambda, miss);
-    node->size = pivot.column[0][0] * pivot.column[1][1];
-    point += 4;
-    arm += 4;
-    weight += 4;
+  two_pins two = {to.pins, at.points, to.pin_weight, to.arm};
+  for (const baum_i_pin_node *end = to.pins + to.pin_count; two.pin < end; two.pin += 2) {
+    set_two(&two, &at, &to);
+    two.points += 8;
+    two.weight += 8;
+    two.arm += 8;
   }
 }
 

@@ -29,14 +29,15 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
 {
   size_t motion = (size_t)b->motion_size;
   size_t nodes = (size_t)b->node_count;
+  size_t pins = baum_i_even((size_t)b->pin_count);
   const array all[ARRAY_COUNT] = {
     {&b->nodes, sizeof(baum_i_node) / sizeof(double) * nodes},
     {&b->weight, 2 * (size_t)b->triple_count},
     {&b->free, motion},
     {&b->motion, motion},
     {&b->response, motion},
-    {&b->arm, 4 * (size_t)b->pin_count},
-    {&b->pin_weight, 4 * (size_t)b->pin_count},
+    {&b->arm, 4 * pins},
+    {&b->pin_weight, 4 * pins},
     {&b->side, 6 * (size_t)b->side_count},
     {&b->right, 2 * nodes},
     {&b->off, 4 * (size_t)b->off_count},
@@ -138,10 +139,10 @@ void baum_i_block_destroy(baum_i_block *block)
   if (!block) {
     return;
   }
-  const void *arrays[] = {
-    block->pins,     block->fulls,       block->side_triple, block->entries, block->alike,
-    block->opposite, block->first_pairs, block->full_pairs,  block->zeros,   block->target,
-    block->place,    block->dense,       block->dense_sides, block->still,   block->numbers};
+  const void *arrays[] = {block->pins,  block->fulls,       block->side_triple, block->entries,
+                          block->alike, block->opposite,    block->first_pairs, block->full_pairs,
+                          block->zeros, block->target,      block->place,       block->side_from,
+                          block->dense, block->dense_sides, block->still,       block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -166,8 +167,8 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
       block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = weight;
     }
   }
-  for (int i = 0; i < block->pin_count; i++) {
-    double *to = block->pin_weight + 4 * (size_t)i;
+  for (size_t i = 0; i < baum_i_even((size_t)block->pin_count); i++) {
+    double *to = block->pin_weight + 4 * i;
     memcpy(to, block->weight + 2 * (size_t)block->pins[i].triple[0], 2 * sizeof *to);
     memcpy(to + 2, block->weight + 2 * (size_t)block->pins[i].triple[1], 2 * sizeof *to);
   }

@@ -39,13 +39,19 @@ typedef struct baum_i_block_layout {
                                     ground; diagonal ones only */
 } baum_i_block_layout;
 
-/* A node with two sides of the shape of a pin. */
+/* A node with two sides of the shape of a pin. They are set two at a time: of an odd number the
+ * last one stands twice in arrays that are said to have an even one. */
 typedef struct baum_i_pin_node {
   int32_t node;
   int32_t row;       /* first of its two */
   int32_t triple[2]; /* of body a and b */
   int32_t place[2];  /* of these triples */
 } baum_i_pin_node;
+
+static inline size_t baum_i_even(size_t count)
+{
+  return count + count % 2;
+}
 
 /* A node of any other shape. */
 typedef struct baum_i_full_node {
@@ -55,7 +61,7 @@ typedef struct baum_i_full_node {
   int32_t side_count;
 } baum_i_full_node;
 
-/* One column of J in a full side. */
+/* One column of J in a full side that is not taken from there as a whole. */
 typedef struct baum_i_side_entry {
   int32_t to;      /* in side[] */
   int32_t from[2]; /* in the values of J; the second -1: the node has one row */
@@ -123,9 +129,11 @@ typedef struct baum_i_block {
 
   unsigned char *still; /* (mass_block_count) W = 0 */
 
-  baum_i_pin_node *pins;         /* (pin_count) */
+  baum_i_pin_node *pins;         /* (even pin_count) */
   baum_i_full_node *fulls;       /* (full_count) */
   int32_t *side_triple;          /* (side_count) */
+  int32_t *side_from;            /* (side_count x 2) where its columns are in the values of J,
+                                    row by row; -1: no second row; both: by entries */
   baum_i_side_entry *entries;    /* (entry_count) */
   baum_i_pin_pair *alike;        /* (alike_count) set their block */
   baum_i_pin_pair *opposite;     /* (opposite_count) likewise */
@@ -143,8 +151,8 @@ typedef struct baum_i_block {
   double *free;       /* (motion_size) a0 = W f */
   double *motion;     /* (motion_size) a */
   double *response;   /* (motion_size) W, where free[] is */
-  double *arm;        /* (pin_count x 4) c_a, c_b */
-  double *pin_weight; /* (pin_count x 4) weights of both triples once more, side by side */
+  double *arm;        /* (even pin_count x 4) c_a, c_b */
+  double *pin_weight; /* (even pin_count x 4) weights of both triples once more, side by side */
   double *side;       /* (side_count x 6) column by column */
   double *right;      /* (node_count x 2) r */
   double *off;        /* (off_count x 4) S below the diagonal, then L^T, column by column */
@@ -221,7 +229,8 @@ typedef struct baum_i_block_kernel {
   void (*couple)(baum_i_block *block);
   /* L D L^T, and the right side forward; the motion is a0. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
-  /* The right side backward, which gives lambda, also into the rows (nc) of pins; and the motion. */
+  /* The right side backward, which gives lambda, also into its rows (nc) but for dropped ones;
+   * and the motion. */
   void (*substitute)(baum_i_block *block, double *lambda);
   /* Whether every row of r - J a is rounding. */
   bool (*check)(const baum_i_block *block);
@@ -230,8 +239,8 @@ typedef struct baum_i_block_kernel {
   double (*correct)(baum_i_block *block);
   /* a (nv); whether all of it is finite. */
   bool (*read_motion)(const baum_i_block *block, double *a);
-  /* lambda (nc) but for dropped rows, and, unless they are wanted again, for those of pins. */
-  void (*read_lambda)(const baum_i_block *block, bool pins, double *lambda);
+  /* lambda once more, after corrections. */
+  void (*read_lambda)(const baum_i_block *block, double *lambda);
 } baum_i_block_kernel;
 
 extern const baum_i_block_kernel baum_i_block_kernel_plain;

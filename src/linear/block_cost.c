@@ -14,10 +14,11 @@ enum {
   SCATTER_SIDE = 15, /* motion -= W G^T lambda */
   SCATTER_PIN = 18,
   PIN_PAIR = 9,
-  FULL_PAIR = 30, /* 16 with a pin */
-  PIVOT = 14,    /* 6 of det D and its judgement, 8 of D^-1 r */
-  COUPLING = 46, /* U 12, U X^T 12, U r 6, three updates 12, L 4 */
-  BACKWARD = 8,  /* of a coupling */
+  FULL_PAIR = 30,
+  MIXED_PAIR = 16, /* of a full side with a pin's */
+  PIVOT = 14,      /* 6 of det D and its judgement, 8 of D^-1 r */
+  COUPLING = 46,   /* U 12, U X^T 12, U r 6, three updates 12, L 4 */
+  BACKWARD = 8,    /* of a coupling */
   TARGET = 16,
 };
 
@@ -58,22 +59,34 @@ static baum_i_cost cost_of_dense(const baum_i_block *block)
   return cost;
 }
 
+/* Of full sides, with each other or with a pin's. */
+static double flops_of_pairs(const baum_i_full_pair *pairs, int count)
+{
+  double flops = 0.0;
+  for (int i = 0; i < count; i++) {
+    bool mixed = (pairs[i].side[0] < 0) != (pairs[i].side[1] < 0);
+    flops += mixed ? MIXED_PAIR : FULL_PAIR;
+  }
+  return flops;
+}
+
 static double count_flops(const baum_i_block *b)
 {
   double couplings = b->off_count;
   double pin_pairs = (double)b->alike_count + b->opposite_count;
-  double full_pairs = (double)b->first_count + b->full_pair_count;
+  double full_pairs = flops_of_pairs(b->first_pairs, b->first_count) +
+                      flops_of_pairs(b->full_pairs, b->full_pair_count);
   return SET_ROW * full_rows(b) + (SET_SIDE + SCATTER_SIDE) * (double)b->side_count +
-         b->full_count + SCATTER_PIN * (double)b->pin_count + PIN_PAIR * pin_pairs +
-         FULL_PAIR * full_pairs + PIVOT * (double)b->node_count +
-         (COUPLING + BACKWARD) * couplings + TARGET * baum_i_block_target_count(b);
+         b->full_count + SCATTER_PIN * (double)b->pin_count + PIN_PAIR * pin_pairs + full_pairs +
+         PIVOT * (double)b->node_count + (COUPLING + BACKWARD) * couplings +
+         TARGET * baum_i_block_target_count(b);
 }
 
 static double count_bytes(const baum_i_block *b)
 {
   double pins = (double)sizeof *b->pins + NUMBER * 8.0; /* arms and weights */
   double nodes = (double)sizeof *b->nodes + NUMBER * 2.0 + INDEX * 2.0;
-  double sides = NUMBER * 6.0 + INDEX;
+  double sides = NUMBER * 6.0 + INDEX * 3.0;
   double entries = (double)sizeof *b->entries + NUMBER;
   double rows = NUMBER * 5.0; /* Phi, Phi', nu, gamma, lambda */
   double couplings = NUMBER * 4.0 + INDEX;

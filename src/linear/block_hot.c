@@ -38,16 +38,30 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-static void scatter_full(const baum_i_block *b, const baum_i_full_node *full)
+/* The same of all full nodes, and their rows of lambda, where these are wanted (NULL: nowhere). */
+BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
-  baum_i_pair lambda = baum_i_load(b->nodes[full->node].lambda);
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-    double *x = b->motion + b->place[b->side_triple[s]];
-    const double *w = b->weight + 2 * (size_t)b->side_triple[s];
-    baum_i_square moving = {{g.c[0], g.c[1]}};
-    baum_i_store(x, baum_i_load(x) - w[0] * baum_i_transposed_times(moving, lambda));
-    x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
+  const int32_t *triples = b->side_triple;
+  const int32_t *place = b->place;
+  const double *weight = b->weight;
+  double *motion = b->motion;
+  const baum_i_full_node *end = b->fulls + b->full_count;
+  for (const baum_i_full_node *full = b->fulls; full < end; full++) {
+    baum_i_pair lambda = baum_i_load(b->nodes[full->node].lambda);
+    const double *side = b->side + 6 * (ptrdiff_t)full->first_side;
+    for (ptrdiff_t s = full->first_side; s < full->first_side + full->side_count; s++, side += 6) {
+      baum_i_columns g = baum_i_load_full(side);
+      double *x = motion + place[triples[s]];
+      const double *w = weight + 2 * (ptrdiff_t)triples[s];
+      baum_i_square moving = {{g.c[0], g.c[1]}};
+      baum_i_store(x, baum_i_load(x) - w[0] * baum_i_transposed_times(moving, lambda));
+      x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
+    }
+    for (int k = 0; rows && k < 2; k++) {
+      if (full->row[k] >= 0) {
+        rows[full->row[k]] = lambda[k];
+      }
+    }
   }
 }
 
@@ -179,7 +193,7 @@ static inline void eliminate_many(const turn *t, double *x, const int32_t *later
 /* The smallest det D against the product of the diagonal that S had. */
 static double weakest(const baum_i_block *b)
 {
-  double least = INFINITY;
+  double least = (double)INFINITY;
   for (int k = 0; k < b->node_count; k++) {
     double ratio = 1.0 / (b->nodes[k].inverse * b->nodes[k].size);
     least = ratio < least ? ratio : least;
@@ -198,7 +212,7 @@ static baum_i_pivots eliminate(baum_i_block *b)
   double *off = b->off;
   double *x = off;
   double weak = b->weak_pivot;
-  double margin = INFINITY;
+  double margin = (double)INFINITY;
   for (ptrdiff_t k = 0; k < b->node_count; k++) {
     baum_i_node *node = &nodes[k];
     turn t = {
@@ -251,8 +265,8 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
 }
 
 /* From the last node to the first, and what each lambda does to the motion, which fills the time that
- * the next one waits for it. rows (nc), where lambda of pins is wanted, or NULL. */
-static inline void backward(const baum_i_block *b, double *rows)
+ * the next one waits for it. rows (nc), where lambda is wanted, or NULL. */
+BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,
                  .later = b->order.later,
@@ -279,9 +293,7 @@ static inline void backward(const baum_i_block *b, double *rows)
   for (; k >= 0; k--) {
     (void)backward_one(&c, k);
   }
-  for (int i = 0; i < b->full_count; i++) {
-    scatter_full(b, &b->fulls[i]);
-  }
+  scatter_fulls(b, rows);
 }
 
 /* lambda = D^-1 L^-1 lambda with a factorization that is there. */
@@ -435,10 +447,10 @@ static void read_dense(const baum_i_block *b, const baum_i_dense_body *dense, do
   }
 }
 
-static void read_lambda(const baum_i_block *b, bool pins, double *lambda)
+static void read_lambda(const baum_i_block *b, double *lambda)
 {
   const baum_i_node *nodes = b->nodes;
-  for (int i = 0; pins && i < b->pin_count; i++) {
+  for (int i = 0; i < b->pin_count; i++) {
     baum_i_store(lambda + b->pins[i].row, baum_i_load(nodes[b->pins[i].node].lambda));
   }
   for (int i = 0; i < b->full_count; i++) {

@@ -112,9 +112,29 @@ static inline baum_i_pair times_side(const baum_i_columns *g, const double *x)
   return x[0] * g->c[0] + x[1] * g->c[1] + x[2] * g->c[2];
 }
 
-static inline void add_side(const baum_i_block *b, int side, const double *velocity, sums *sum)
+/* A side, which is put in its place if it comes from J as a whole. */
+static inline baum_i_columns take_side(const baum_i_block *b, ptrdiff_t side,
+                                       const double *jacobian)
 {
-  baum_i_columns g = baum_i_load_full(b->side + 6 * (ptrdiff_t)side);
+  double *to = b->side + 6 * side;
+  const int32_t *from = b->side_from + 2 * side;
+  if (from[0] < 0) {
+    return baum_i_load_full(to);
+  }
+  const double *x = jacobian + from[0];
+  const double *y = jacobian + from[1];
+  baum_i_columns g;
+  for (int c = 0; c < 3; c++) {
+    g.c[c] = from[1] < 0 ? (baum_i_pair){x[c], 0.0} : (baum_i_pair){x[c], y[c]};
+    baum_i_store(to + 2 * c, g.c[c]);
+  }
+  return g;
+}
+
+static inline void add_side(const baum_i_block *b, ptrdiff_t side, const double *jacobian,
+                            const double *velocity, sums *sum)
+{
+  baum_i_columns g = take_side(b, side, jacobian);
   int32_t triple = b->side_triple[side];
   int32_t place = b->place[triple];
   const double *w = b->weight + 2 * (ptrdiff_t)triple;
@@ -130,8 +150,8 @@ static void set_node(const baum_i_block *b, const baum_i_full_node *full,
                      const baum_i_block_rows *rows, const double *velocity)
 {
   sums sum = {.on = {full->row[0] < 0 ? 1.0 : 0.0, full->row[1] < 0 ? 1.0 : 0.0}};
-  for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
-    add_side(b, s, velocity, &sum);
+  for (ptrdiff_t s = full->first_side; s < full->first_side + full->side_count; s++) {
+    add_side(b, s, rows->jacobian, velocity, &sum);
   }
   baum_i_pair right = {set_row(rows, full->row[0], sum.rate[0]),
                        set_row(rows, full->row[1], sum.rate[1])};

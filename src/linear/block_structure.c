@@ -246,6 +246,47 @@ static baum_status make_nodes(baum_i_block_builder *u)
   return status;
 }
 
+/* Whether three entries from here on are all of a side, its columns and J's in the same order. */
+static bool is_whole_side(const baum_i_side_entry *entry, int left)
+{
+  bool whole = left >= 3 && entry->to % 6 == 0;
+  for (int c = 1; c < 3 && whole; c++) {
+    int32_t second = entry->from[1] < 0 ? -1 : entry->from[1] + c;
+    whole = entry[c].to == entry->to + 2 * c && entry[c].from[0] == entry->from[0] + c &&
+            entry[c].from[1] == second;
+  }
+  return whole;
+}
+
+/* Sides that can be taken from J as they are need no entries; those of dense bodies are still to be
+ * whitened. */
+static baum_status find_sources(baum_i_block_builder *u)
+{
+  baum_i_block *b = u->block;
+  const int32_t *triple = u->full_sides.items;
+  baum_i_side_entry *entries = u->entries.items;
+  int count = u->entries.count;
+  b->side_from = baum_i_alloc(2 * (size_t)u->full_sides.count, sizeof *b->side_from);
+  if (!b->side_from) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int i = 0; i < 2 * u->full_sides.count; i++) {
+    b->side_from[i] = -1;
+  }
+  u->entries.count = 0;
+  for (int i = 0; i < count; i++) {
+    int32_t side = entries[i].to / 6;
+    bool dense = triple[side] > u->layout->structure->mass_block_count;
+    if (!dense && is_whole_side(&entries[i], count - i)) {
+      memcpy(b->side_from + 2 * (ptrdiff_t)side, entries[i].from, sizeof entries[i].from);
+      i += 2;
+    } else {
+      entries[u->entries.count++] = entries[i];
+    }
+  }
+  return BAUM_OK;
+}
+
 /* ---- the graph ---- */
 
 /* Mass block of a triple that is not ground. */
@@ -340,7 +381,7 @@ static baum_status place_nodes(baum_i_block_builder *u)
   baum_i_block *b = u->block;
   const baum_i_raw_node *nodes = u->nodes.items;
   const baum_i_raw_side *sides = u->sides.items;
-  b->pins = baum_i_alloc((size_t)u->raw_pins, sizeof *b->pins);
+  b->pins = baum_i_alloc(baum_i_even((size_t)u->raw_pins), sizeof *b->pins);
   b->fulls = baum_i_alloc((size_t)(b->node_count - u->raw_pins), sizeof *b->fulls);
   u->arm_of = baum_i_alloc((size_t)b->node_count, sizeof *u->arm_of);
   if (!b->pins || !b->fulls || !u->arm_of) {
@@ -364,6 +405,9 @@ static baum_status place_nodes(baum_i_block_builder *u)
                            .first_side = node->side_count > 0 ? side[0].number : 0,
                            .side_count = node->side_count};
     }
+  }
+  if (b->pin_count % 2 == 1) {
+    b->pins[b->pin_count] = b->pins[b->pin_count - 1];
   }
   return BAUM_OK;
 }
@@ -420,6 +464,7 @@ typedef baum_status step(baum_i_block_builder *u);
 baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block)
 {
   static step *const steps[] = {make_nodes,
+                                find_sources,
                                 sort_sides,
                                 make_graph,
                                 find_order,

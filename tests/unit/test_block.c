@@ -123,7 +123,7 @@ static void read(equations *x, const tables *t, baum_i_block *b)
 {
   memset(x->s.lambda, 0, (size_t)x->s.structure.nc * sizeof *x->s.lambda);
   assert_true(t->solution->read_motion(b, x->s.a));
-  t->solution->read_lambda(b, true, x->s.lambda);
+  t->solution->read_lambda(b, x->s.lambda);
 }
 
 static void solve(equations *x, const tables *t, int refinements)

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Four numbers side by side, two halves: one vector where the processor has it, two pairs where not.
+ * What stays within halves is one instruction, so that nothing here goes from one half to the other but
+ * what puts halves together or takes them apart.
+ */
+#ifndef BAUM_I_BASE_FOUR_H
+#define BAUM_I_BASE_FOUR_H
+
+#include "base/hot.h"
+#include "base/pair.h"
+
+#ifdef BAUM_I_WIDE
+
+#include <immintrin.h>
+
+typedef __m256d baum_i_four;
+
+/* The pairs at two places. */
+BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *high)
+{
+  return _mm256_loadu2_m128d(high, low);
+}
+
+/* x and y, twice. */
+BAUM_I_INLINE baum_i_four baum_i_four_in_turns(double x, double y)
+{
+  return _mm256_setr_pd(x, y, x, y);
+}
+
+/* The number at each place, twice. */
+BAUM_I_INLINE baum_i_four baum_i_four_spread(const double *low, const double *high)
+{
+  return _mm256_blend_pd(_mm256_broadcast_sd(low), _mm256_broadcast_sd(high), 0xc);
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_all(double x)
+{
+  return _mm256_set1_pd(x);
+}
+
+BAUM_I_INLINE baum_i_pair baum_i_four_low(baum_i_four x)
+{
+  return _mm256_castpd256_pd128(x);
+}
+
+BAUM_I_INLINE baum_i_pair baum_i_four_high(baum_i_four x)
+{
+  return _mm256_extractf128_pd(x, 1);
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_plus(baum_i_four x, baum_i_four y)
+{
+  return x + y;
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_minus(baum_i_four x, baum_i_four y)
+{
+  return x - y;
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
+{
+  return x * y;
+}
+
+/* As baum_i_rounded(). */
+BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
+{
+  __asm__("" : "+x"(product));
+  return product;
+}
+
+/* (x_0 - y_0, x_1 + y_1) in either half: with y exchanged, x plus y turned by a right angle. */
+BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
+{
+  return _mm256_addsub_pd(x, y);
+}
+
+/* (x_1, x_0) in either half */
+BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
+{
+  return _mm256_permute_pd(x, 0x5);
+}
+
+#else
+
+typedef struct baum_i_four {
+  baum_i_pair low;
+  baum_i_pair high;
+} baum_i_four;
+
+BAUM_I_INLINE baum_i_four baum_i_four_gathered(const double *low, const double *high)
+{
+  return (baum_i_four){baum_i_load(low), baum_i_load(high)};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_in_turns(double x, double y)
+{
+  return (baum_i_four){{x, y}, {x, y}};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_spread(const double *low, const double *high)
+{
+  return (baum_i_four){baum_i_both(*low), baum_i_both(*high)};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_all(double x)
+{
+  return (baum_i_four){baum_i_both(x), baum_i_both(x)};
+}
+
+BAUM_I_INLINE baum_i_pair baum_i_four_low(baum_i_four x)
+{
+  return x.low;
+}
+
+BAUM_I_INLINE baum_i_pair baum_i_four_high(baum_i_four x)
+{
+  return x.high;
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_plus(baum_i_four x, baum_i_four y)
+{
+  return (baum_i_four){x.low + y.low, x.high + y.high};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_minus(baum_i_four x, baum_i_four y)
+{
+  return (baum_i_four){x.low - y.low, x.high - y.high};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
+{
+  return (baum_i_four){x.low * y.low, x.high * y.high};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
+{
+  return product;
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_minus_plus(baum_i_four x, baum_i_four y)
+{
+  const baum_i_pair signs = {-1.0, 1.0};
+  return (baum_i_four){x.low + signs * y.low, x.high + signs * y.high};
+}
+
+BAUM_I_INLINE baum_i_four baum_i_four_exchanged(baum_i_four x)
+{
+  return (baum_i_four){baum_i_exchanged(x.low), baum_i_exchanged(x.high)};
+}
+
+#endif
+
+#endif
