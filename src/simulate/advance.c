@@ -12,52 +12,12 @@
 
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/breaks.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
-
-/* ---- interruptions ---- */
-
-void baum_simulation_cancel(baum_simulation *simulation)
-{
-  if (simulation) {
-    atomic_store(&simulation->cancelled, 1);
-  }
-}
-
-static double seconds_since(const struct timespec *then)
-{
-  struct timespec now;
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  return (double)(now.tv_sec - then->tv_sec) + 1e-9 * (double)(now.tv_nsec - then->tv_nsec);
-}
-
-static bool progress_cancels(baum_simulation *run)
-{
-  const baum_simulation_options *o = &run->options;
-  if (!o->progress || seconds_since(&run->last_progress) < o->progress_interval) {
-    return false;
-  }
-  (void)clock_gettime(CLOCK_MONOTONIC, &run->last_progress);
-  return o->progress(run, run->state.t, o->user) != 0;
-}
-
-/* Before every step: cancelled, or too many steps in this call? A run that stops here stands where
- * its last step ended, which a variable-step method keeps ahead. */
-static baum_status may_go_on(baum_simulation *run, int64_t taken)
-{
-  double t = baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
-  if (atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run)) {
-    return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", t);
-  }
-  if (taken >= run->options.max_steps) {
-    return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
-                       (long long)run->options.max_steps);
-  }
-  return BAUM_OK;
-}
 
 /* ---- one step of fixed length, on the trial state ---- */
 
@@ -111,7 +71,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
     status = check_finite(run, trial);
   }
   if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_project(run->workspace, t_next, trial->q, trial->v);
+    status = baum_i_passages_project(run, t_next);
   }
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
@@ -187,6 +147,26 @@ static baum_status whole_step(baum_simulation *run, int direction)
   return status;
 }
 
+/* To a break and over it. */
+static baum_status break_step(baum_simulation *run, baum_i_break next, double on_grid)
+{
+  baum_status status = baum_i_run_is_at(run, next) ? BAUM_OK : kept_step(run, next.near);
+  if (status == BAUM_OK) {
+    run->counters.short_steps += fabs(on_grid - next.near) > SAME_TIME * run->options.step;
+    status = baum_i_run_pass(run, next);
+  }
+  return status;
+}
+
+/* The next step on the grid or to a break. */
+static baum_status next_fixed(baum_simulation *run, int direction)
+{
+  baum_i_break next = baum_i_run_next_break(run);
+  double t = grid_time(run, run->grid.k + direction);
+  bool breaks = direction * (t - next.near) >= -SAME_TIME * run->options.step;
+  return breaks ? break_step(run, next, t) : whole_step(run, direction);
+}
+
 static baum_status short_step(baum_simulation *run, double t)
 {
   baum_status status = kept_step(run, t);
@@ -196,16 +176,24 @@ static baum_status short_step(baum_simulation *run, double t)
   return status;
 }
 
+/* Where next_fixed() leads to. */
+static double next_time(const baum_simulation *run, int direction)
+{
+  double t = grid_time(run, run->grid.k + direction);
+  double far = baum_i_run_next_break(run).far;
+  return direction * (t - far) >= -SAME_TIME * run->options.step ? far : t;
+}
+
 /* Whole steps as long as they do not pass t; then the present time is t (on the grid) or less than
  * a step before. */
 static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
 {
   int direction = run->problem.direction > 0.0 ? 1 : -1;
   double same = SAME_TIME * run->options.step;
-  while (direction * (t - grid_time(run, run->grid.k + direction)) >= -same) {
-    baum_status status = may_go_on(run, (*taken)++);
+  while (direction * (t - next_time(run, direction)) >= -same) {
+    baum_status status = baum_i_run_may_go_on(run, (*taken)++);
     if (status == BAUM_OK) {
-      status = whole_step(run, direction);
+      status = next_fixed(run, direction);
     }
     if (status != BAUM_OK) {
       return status;
@@ -225,7 +213,7 @@ static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
   if (status != BAUM_OK || stands_at(run, t)) {
     return status;
   }
-  status = may_go_on(run, (*taken)++);
+  status = baum_i_run_may_go_on(run, (*taken)++);
   return status == BAUM_OK ? short_step(run, t) : status;
 }
 
@@ -238,6 +226,8 @@ static baum_status internal_step(baum_simulation *run)
   if (run->events) {
     run->events->from = run->ahead.t;
   }
+  run->problem.stop = baum_i_run_next_break(run).near;
+  run->problem.stops = isfinite(run->problem.stop);
   baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
   status = baum_i_run_explain_failure(run, status, &run->ahead);
   if (status == BAUM_OK) {
@@ -292,10 +282,23 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
+/* Over a break at the end of the last step. */
+static baum_status pass_break(baum_simulation *run)
+{
+  baum_i_break next = baum_i_run_next_break(run);
+  if (!baum_i_run_is_at(run, next)) {
+    return BAUM_OK;
+  }
+  catch_up(run);
+  baum_status status = baum_i_run_pass(run, next);
+  run->ahead.t = run->state.t;
+  return status;
+}
+
 /* One step more; where that fails the run stands at the end of the last. */
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
-  baum_status status = may_go_on(run, taken);
+  baum_status status = baum_i_run_may_go_on(run, taken);
   if (status == BAUM_OK) {
     status = internal_step(run);
   }
@@ -309,7 +312,13 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 {
   baum_status status = watch_last(run, t);
   while (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) > 0.0) {
-    status = next_step(run, (*taken)++);
+    status = pass_break(run);
+    if (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) <= 0.0) {
+      return BAUM_OK; /* t is at the break */
+    }
+    if (status == BAUM_OK) {
+      status = next_step(run, (*taken)++);
+    }
     if (status == BAUM_OK) {
       status = watch_last(run, t);
     }
@@ -350,6 +359,7 @@ static baum_status turn_to(baum_simulation *run, double direction)
     baum_i_account_go_on(run);
   }
   run->counters.restarts++;
+  run->origin = run->state.t;
   baum_i_run_copy(run, &run->state, &run->ahead);
   return BAUM_OK;
 }
@@ -395,7 +405,7 @@ static baum_status finish(baum_simulation *run, baum_status status, const struct
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
   }
-  run->counters.wall += seconds_since(begin);
+  run->counters.wall += baum_i_seconds_since(begin);
   if (status != BAUM_OK) {
     (void)baum_i_fail(status, "%s", reason.text);
     return baum_i_run_fail(run, status);
@@ -436,13 +446,16 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
 static baum_status one_step(baum_simulation *run)
 {
   if (baum_i_problem_has_fixed_step(&run->problem)) {
-    return whole_step(run, 1);
+    return next_fixed(run, 1);
   }
   baum_status status = watch_last(run, INFINITY);
   if (status != BAUM_OK) {
     return status;
   }
-  status = internal_step(run);
+  status = pass_break(run);
+  if (status == BAUM_OK) {
+    status = internal_step(run);
+  }
   if (status == BAUM_OK) {
     status = watch_last(run, INFINITY);
   }
@@ -465,7 +478,7 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
   struct timespec start = begin(simulation);
   status = turn(simulation, INFINITY);
   for (int64_t k = 0; k < count && status == BAUM_OK; k++) {
-    status = may_go_on(simulation, k);
+    status = baum_i_run_may_go_on(simulation, k);
     if (status == BAUM_OK) {
       status = one_step(simulation);
     }

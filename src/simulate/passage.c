@@ -12,6 +12,7 @@
  */
 #include "simulate/passage.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -313,6 +314,35 @@ void baum_i_passages_look(baum_simulation *run)
   }
   run->workspace->near_singular = near_singular;
   (void)baum_i_message_settle(BAUM_OK, &kept);
+}
+
+/* ---- projection ---- */
+
+/* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
+ * step of order k errors of about (h w)^(k+1) / 100. */
+static bool is_beyond_rounding(const baum_simulation *run, double h)
+{
+  const baum_i_passages *p = run->passages;
+  double rate = baum_i_scaled_size(run->workspace->mechanism, p->between.v);
+  double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
+  double pivot = baum_i_smallest_pivot(run->workspace) / p->usual;
+  return pivot < 1e-4 && pivot * error < DBL_EPSILON;
+}
+
+baum_status baum_i_passages_project(baum_simulation *run, double t)
+{
+  baum_i_passages *p = run->passages;
+  size_t bytes = (size_t)run->workspace->mechanism->nv * sizeof(double);
+  if (p) {
+    memcpy(p->between.q, run->trial.q, bytes);
+    memcpy(p->between.v, run->trial.v, bytes);
+  }
+  baum_status status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
+  if (status == BAUM_OK && p && is_beyond_rounding(run, t - run->state.t)) {
+    memcpy(run->trial.q, p->between.q, bytes);
+    memcpy(run->trial.v, p->between.v, bytes);
+  }
+  return status;
 }
 
 /* ---- steps of variable length ---- */

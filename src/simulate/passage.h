@@ -52,6 +52,10 @@ void baum_i_passages_note(baum_simulation *run, const baum_i_state *state);
 /* Look at the state that has been noted last; may evaluate. What functions of the user answer is not told. */
 void baum_i_passages_look(baum_simulation *run);
 
+/* Project the trial state, the end of a step of fixed length, onto the constraints at t; but so close to a singular pose
+ * that rounding would move it by more than the step's error it stays. Statuses of baum_i_project(). */
+baum_status baum_i_passages_project(baum_simulation *run, double t);
+
 /* Likewise a step of variable length that has just been taken. May evaluate; look at the end afterwards. */
 void baum_i_passages_step(baum_simulation *run, const baum_i_state *state);
 

@@ -67,9 +67,9 @@ static void know(singular_scene *scene, const swing *s, double angle, double rat
   }
 }
 
-static void follow(singular_scene *scene, int place, double sign)
+static void follow(singular_scene *scene, int index, double sign)
 {
-  scene->angle[scene->count] = place;
+  scene->angle[scene->count] = index;
   scene->sign[scene->count] = sign;
   scene->count++;
 }
@@ -294,6 +294,7 @@ const singular_setting SINGULAR_SETTINGS[] = {
   RK8("rk8 rtol = 1e-7, projection", 1e-7),
   RK8("rk8 rtol = 1e-8, projection", 1e-8),
   RK8("rk8 rtol = 1e-9, projection", 1e-9),
+  RK8("rk8 rtol = 1e-11, projection", 1e-11),
   GAINS("rk8, alpha = 0", baum_rk8, 0.0),
   GAINS("rk8, alpha = 1", baum_rk8, 1.0),
   GAINS("rk8, alpha = 10", baum_rk8, 10.0),
