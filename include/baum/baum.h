@@ -5,6 +5,7 @@
 #ifndef BAUM_BAUM_H
 #define BAUM_BAUM_H
 
+#include <baum/breaks.h>
 #include <baum/dynamics.h>
 #include <baum/events.h>
 #include <baum/mechanism.h>

@@ -31,6 +31,7 @@
 typedef struct cvode_run {
   baum_i_sundials sundials;
   void *cvode;
+  bool stops;                     /* a stop time is set */
   N_Vector y;                     /* end of the last step */
   N_Vector inside;                /* interpolated */
   N_Vector work;                  /* of the projection */
@@ -211,6 +212,17 @@ static void forget(void *self)
 
 /* ---- one step ---- */
 
+/* SUNDIALS 6.4 cannot take a stop back, only put it off. */
+static void give_stop(cvode_run *run, const baum_i_problem *problem)
+{
+  if (problem->stops || run->stops) {
+    double stop =
+      problem->stops ? problem->stop - run->sundials.origin : problem->direction * (double)INFINITY;
+    (void)CVodeSetStopTime(run->cvode, stop); /* fails only where the stop is behind */
+    run->stops = problem->stops;
+  }
+}
+
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   cvode_run *run = self;
@@ -223,6 +235,7 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
   double tau = 0.0;
   (void)CVodeGetCurrentTime(run->cvode, &before);
   double target = baum_i_sundials_target(problem, before);
+  give_stop(run, problem);
   int flag = CVode(run->cvode, target, run->y, &tau, CV_ONE_STEP);
   if (flag < 0) {
     return fail(run, flag);

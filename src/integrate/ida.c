@@ -42,6 +42,7 @@
 typedef struct ida_run {
   baum_i_sundials sundials;
   void *ida;
+  bool stops; /* a stop time is set */
   N_Vector y; /* end of the last step */
   N_Vector dy;
   N_Vector inside;        /* interpolated */
@@ -353,6 +354,17 @@ static void forget(void *self)
 
 /* ---- one step ---- */
 
+/* SUNDIALS 6.4 cannot take a stop back, only put it off. */
+static void give_stop(ida_run *run, const baum_i_problem *problem)
+{
+  if (problem->stops || run->stops) {
+    double stop =
+      problem->stops ? problem->stop - run->sundials.origin : problem->direction * (double)INFINITY;
+    (void)IDASetStopTime(run->ida, stop); /* fails only where the stop is behind */
+    run->stops = problem->stops;
+  }
+}
+
 static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
 {
   ida_run *run = self;
@@ -365,6 +377,7 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
   double tau = 0.0;
   (void)IDAGetCurrentTime(run->ida, &before);
   double target = baum_i_sundials_target(problem, before);
+  give_stop(run, problem);
   int flag = IDASolve(run->ida, target, &tau, run->y, run->dy, IDA_ONE_STEP);
   if (flag < 0) {
     return fail(run, flag);

@@ -13,7 +13,7 @@
 #include "dynamics/dynamics.h"
 #include "stabilization/amplification.h"
 
-/* What is integrated, and how exactly. Constant but for direction. */
+/* What is integrated, and how exactly. Constant but for direction and stop. */
 typedef struct baum_i_problem {
   baum_workspace *workspace;
   baum_formulation formulation;
@@ -28,6 +28,8 @@ typedef struct baum_i_problem {
   double tolerance_q;      /* [-] > 0, factors on rtol and atol */
   double tolerance_v;      /* [-] > 0 */
   double tolerance_lambda; /* [-] > 0, INFINITY: multipliers are outside of the error test */
+  bool stops;              /* variable step: no step passes `stop`, and one ends there */
+  double stop;             /* [s] ahead in direction, by more than the rounding of times */
 } baum_i_problem;
 
 /* Time, positions, velocities. */

@@ -358,7 +358,8 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
   }
   double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
   h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
-  double end = run->right->t + problem->direction * h;
+  double left = problem->stops ? fabs(problem->stop - run->right->t) : (double)INFINITY;
+  double end = h < left ? run->right->t + problem->direction * h : problem->stop;
   status = step(run, problem, run->right, run->trial, end, &h);
   if (status != BAUM_OK) {
     return status;

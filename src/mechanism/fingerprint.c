@@ -46,6 +46,7 @@ baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *m)
     add_element(&m->forces[i]->element, &m->forces[i]->span, &structure, &numbers);
   }
   add_inputs(m, &structure);
+  add_numbers(&numbers, m->breaks, m->break_count);
   add_numbers(&numbers, m->gravity, 3);
   add_numbers(&numbers, &m->length, 1);
   add_numbers(&numbers, m->scale, m->nv);

@@ -7,6 +7,8 @@
 #include <string.h>
 #include <time.h>
 
+#include <baum/breaks.h>
+
 #include "base/alloc.h"
 #include "base/message.h"
 #include "mechanism/definition.h"
@@ -99,6 +101,7 @@ void baum_mechanism_destroy(baum_mechanism *mechanism)
   baum_i_mechanism_thaw(mechanism);
   free_elements(mechanism);
   baum_i_free_inputs(mechanism);
+  baum_i_free(mechanism->breaks);
   baum_i_free(mechanism);
 }
 
@@ -166,6 +169,9 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   copy->given_scale = mechanism->given_scale;
   memcpy(copy->gravity, mechanism->gravity, sizeof copy->gravity);
   status = baum_i_copy_inputs(copy, mechanism);
+  if (status == BAUM_OK) {
+    status = baum_mechanism_add_break_times(copy, mechanism->breaks, mechanism->break_count);
+  }
   if (status == BAUM_OK) {
     status = copy_elements(copy, mechanism);
   }

@@ -336,6 +336,8 @@ struct baum_mechanism {
   int input_count;
   char **input_names;
   double *inputs; /* (input_count) initial values */
+  int break_count;
+  double *breaks; /* (break_count) [s] rising */
 
   /* Set at freeze. */
   int nq, nv, nc;

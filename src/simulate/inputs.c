@@ -36,6 +36,9 @@ baum_status baum_i_run_begin_anew(baum_simulation *run)
   if (status == BAUM_OK) {
     status = restart(run);
   }
+  if (status == BAUM_OK) {
+    run->origin = run->state.t;
+  }
   if (status == BAUM_OK && run->events) {
     baum_i_events_go_on(run);
   }

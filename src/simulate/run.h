@@ -59,6 +59,7 @@ struct baum_simulation {
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
   baum_i_grid grid;
+  double origin; /* [s] where the method began anew: its times may be counted from there */
   baum_counters counters;
   baum_i_work
     before; /* what solvers have done for the run in other processes, less what is not of it */
@@ -131,6 +132,15 @@ void baum_i_run_count(baum_simulation *run);
 
 /* Let the counters go on from what has been written into run->counters. */
 void baum_i_run_count_from_here(baum_simulation *run);
+
+/* ---- interrupt.c ---- */
+
+/* Before every step: cancelled, or too many steps in this call? A run that stops here stands where
+ * its last step ended, which a variable-step method keeps ahead. */
+baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
+
+/* [s] of wall time. */
+double baum_i_seconds_since(const struct timespec *then);
 
 /* ---- advance.c ---- */
 

@@ -183,6 +183,7 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   baum_i_run_copy(run, &run->trial, &run->ahead);
   run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
+  run->origin = run->state.t;
   baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_begin(run);
