@@ -288,7 +288,7 @@ static void use_projection(baum_simulation_options *o)
 static void use_rtol(baum_simulation_options *o)
 {
   o->integrator = baum_rk8();
-  o->step = NAN;
+  o->step = (double)NAN;
   o->rtol = 1e-6;
 }
 

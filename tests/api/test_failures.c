@@ -52,7 +52,7 @@ static int force(double t, const double *q, const double *v, const double *input
   switch (*now) {
   case FAULT_STOPS: return -3;
   case FAULT_RETRIES: return 2;
-  case FAULT_NAN: out[0] = NAN; break;
+  case FAULT_NAN: out[0] = (double)NAN; break;
   case FAULT_NOISE: out[0] = noise(q[0] + t); break;
   case FAULT_GROWTH:
     out[0] = 1e3 * v[0] * (v[0] * v[0] + v[1] * v[1]);

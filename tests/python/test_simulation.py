@@ -332,6 +332,15 @@ class StepByStep(unittest.TestCase):
         run.restore(bytearray(saved))
         self.assertEqual(run.time, 0.1)
 
+    def test_another_method_goes_on(self):
+        mechanism = slider_crank(omega=20)
+        run = mechanism.simulation("euler", step=1e-3)
+        run.advance_to(0.1)
+        other = mechanism.simulation("rk8", rtol=1e-8)
+        other.continue_from(run)
+        self.assertEqual(other.time, run.time)
+        np.testing.assert_allclose(other.q, run.q, atol=1e-2)  # Euler's violation is projected
+
     def test_bytes_of_something_else_are_refused(self):
         run = slider_crank(omega=20).simulation("rk4", step=1e-3)
         saved = run.save()

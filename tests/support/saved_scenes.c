@@ -143,14 +143,14 @@ static bool open_other(saved_scene *scene, int number)
   case 7: /* and of a variable one */
     open_every_element(scene);
     o->integrator = baum_rk8();
-    o->step = NAN;
+    o->step = (double)NAN;
     o->rtol = 1e-6;
     o->energy_account = true;
     return true;
   case 8:
     open_driven(scene);
     o->integrator = baum_kinematics();
-    o->step = NAN;
+    o->step = (double)NAN;
     return true;
   default: return open_singular(scene, number - 9);
   }

@@ -272,6 +272,12 @@ class Simulation:
         self._call(lib.baum_simulation_restore, saved, len(saved))
         self._warned = self.counters.warnings
 
+    def continue_from(self, other):
+        """Go on where another run of the same mechanism stands, also one that has failed: with its
+        state, inputs and laws of drivers, and the options of this one."""
+        self._call(lib.baum_simulation_continue, other._owner._address)
+        self._warn()
+
     def cancel(self):
         """Ask a run to stop after its present step. From any thread or signal handler."""
         lib.baum_simulation_cancel(self._owner._address)
