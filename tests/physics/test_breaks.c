@@ -1,0 +1,240 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Declared breaks: a body on a pin without gravity, turned by a torque that jumps at three times, whose motion is known:
+ * polynomials of degree 2 in time, which every method of order 2 follows to rounding if it keeps to one side of a jump.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "assert_near.h"
+#include "step_mode.h"
+
+enum { BREAKS = 3 };
+
+/* One on the grid of STEP, two off it; the last two nearer to each other than a step. */
+static const double TIMES[BREAKS] = {0.5, 1.2345, 1.2361};
+static const double TORQUE[BREAKS + 1] = {3.0, -8.0, 50.0,
+                                          1.0}; /* [N m], inertia 1 kg m^2 about the pin */
+static const double STEP = 0.01;
+static const double RTOL = 1e-8;
+
+static double torque_at(double t)
+{
+  int k = 0;
+  while (k < BREAKS && t >= TIMES[k]) {
+    k++;
+  }
+  return TORQUE[k];
+}
+
+static int torque(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[2] = torque_at(t);
+  return 0;
+}
+
+/* From rest at 0. */
+static void exact(double t, double *angle, double *rate)
+{
+  double from = 0.0;
+  *angle = 0.0;
+  *rate = 0.0;
+  for (int k = 0; k <= BREAKS && from < t; k++) {
+    double to = k < BREAKS ? fmin(TIMES[k], t) : t;
+    double h = to - from;
+    *angle += h * (*rate + 0.5 * h * TORQUE[k]);
+    *rate += h * TORQUE[k];
+    from = to;
+  }
+}
+
+static baum_mechanism *make(bool declared)
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.inertia = 1.0;
+  baum_body_id disc;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &disc), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = disc;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  baum_user_force_def force = baum_user_force_def_default();
+  force.bodies = &disc;
+  force.body_count = 1;
+  force.force = torque;
+  assert_int_equal(baum_mechanism_add_user_force(m, &force, NULL), BAUM_OK);
+  if (declared) {
+    double mixed[BREAKS + 1] = {TIMES[2], TIMES[0], TIMES[1], TIMES[0]};
+    assert_int_equal(baum_mechanism_add_break_times(m, mixed, BREAKS + 1), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static baum_simulation *open_run(const baum_mechanism *m, step_mode mode)
+{
+  baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  return run;
+}
+
+static double error_now(const baum_simulation *run)
+{
+  double angle = 0.0;
+  double rate = 0.0;
+  exact(baum_simulation_time(run), &angle, &rate);
+  return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters;
+}
+
+/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2) |torque| t in the angle. Steps of their
+ * own: ten tolerances of rates up to 6 rad/s. Generalized-alpha begins with accelerations that are not of its
+ * order: with h^2 50 times 20. */
+static double allowed(step_mode mode)
+{
+  if (!mode.fixed) {
+    return 10.0 * RTOL * 6.0;
+  }
+  bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
+  bool first = baum_integrator_order(mode.integrator) == 1;
+  return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
+}
+
+static void motions_are_those_between_the_breaks(void **state)
+{
+  (void)state;
+  baum_mechanism *declared = make(true);
+  baum_mechanism *hidden = make(false);
+  printf("\n%-22s %10s %10s %9s %9s %9s\n", "", "declared", "hidden", "rejected", "hidden",
+         "restarts");
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    double errors[2];
+    baum_counters counters[2];
+    for (int i = 0; i < 2; i++) {
+      baum_simulation *run = open_run(i == 0 ? declared : hidden, mode);
+      assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+      errors[i] = error_now(run);
+      counters[i] = counters_of(run);
+      baum_simulation_destroy(run);
+    }
+    printf("%-20s %s %10.1e %10.1e %9d %9d %9d\n", baum_integrator_name(mode.integrator),
+           mode.fixed ? "h" : " ", errors[0], errors[1], (int)counters[0].rejected,
+           (int)counters[1].rejected, (int)counters[0].restarts);
+    assert_true(errors[0] <= allowed(mode));
+    assert_int_equal(counters[0].restarts >= BREAKS, step_mode_remembers(mode));
+    assert_int_equal(counters[0].short_steps, mode.fixed ? 2 + (counters[0].short_steps == 3) : 0);
+  }
+  baum_mechanism_destroy(declared);
+  baum_mechanism_destroy(hidden);
+}
+
+/* There and back through all breaks, standing at each. */
+static void breaks_are_met_both_ways(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make(true);
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    baum_simulation *run = open_run(m, mode);
+    static const double targets[] = {0.5,    1.0,   1.2345, 1.2361, 1.7,
+                                     1.2361, 1.235, 1.2345, 0.5,    0.2};
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+      assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
+      assert_true(error_now(run) <= 2.0 * allowed(mode));
+    }
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* Outputs, at breaks too, leave the motion as it is. */
+static void outputs_change_nothing(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make(true);
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    double end[2];
+    for (int i = 0; i < 2; i++) {
+      baum_simulation *run = open_run(m, mode);
+      double times[6] = {0.5, 0.503, 1.2345, 1.23451, 1.2361, 1.9};
+      double rows[18];
+      baum_channel all = {.quantity = BAUM_Q};
+      int first = i == 0 ? 0 : 5;
+      assert_int_equal(baum_simulation_sample(run, times + first, 6 - first, &all, 1, rows, NULL),
+                       BAUM_OK);
+      end[i] = baum_simulation_q(run)[2];
+      for (int j = 0; j < 6 - first; j++) {
+        double angle = 0.0;
+        double rate = 0.0;
+        exact(times[first + j], &angle, &rate);
+        ASSERT_NEAR(rows[3 * j + 2], angle, 0.0, 2.0 * allowed(mode));
+      }
+      baum_simulation_destroy(run);
+    }
+    assert_true(end[0] == end[1]);
+  }
+  baum_mechanism_destroy(m);
+}
+
+static void lists_are_checked_sorted_and_copied(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make(true);
+  double bad[2] = {1.0, (double)NAN};
+  int32_t count = -1;
+  assert_int_equal(baum_mechanism_add_break_times(m, TIMES, 1), BAUM_ERR_STATE);
+  baum_mechanism *copy = NULL;
+  assert_int_equal(baum_mechanism_copy(m, &copy), BAUM_OK);
+  baum_mechanism_destroy(m);
+  assert_int_equal(baum_mechanism_add_break_times(copy, bad, 2), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "times[1] is nan s"));
+  assert_int_equal(baum_mechanism_add_break_times(copy, NULL, 1), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_mechanism_add_break_times(copy, bad, -1), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_mechanism_add_break_times(NULL, bad, 1), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_mechanism_add_break_times(copy, NULL, 0), BAUM_OK);
+  const double *times = baum_mechanism_break_times(copy, &count);
+  assert_int_equal(count, BREAKS);
+  assert_memory_equal(times, TIMES, sizeof TIMES);
+  assert_null(baum_mechanism_break_times(NULL, &count));
+  assert_int_equal(count, 0);
+  baum_mechanism_destroy(copy);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(motions_are_those_between_the_breaks),
+    cmocka_unit_test(breaks_are_met_both_ways),
+    cmocka_unit_test(outputs_change_nothing),
+    cmocka_unit_test(lists_are_checked_sorted_and_copied),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
