@@ -101,6 +101,7 @@ static void begin_anew(baum_simulation *run)
       baum_i_account_read(run, &run->state);
     }
     baum_i_run_copy(run, &run->state, &run->ahead);
+    run->origin = run->state.t;
     if (run->account) {
       baum_i_account_go_on(run);
     }

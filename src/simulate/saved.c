@@ -120,6 +120,7 @@ static void list_motion(baum_simulation *run, baum_i_saved *list)
   add_array(list, "q", run->state.q, m->nq);
   add_array(list, "v", run->state.v, m->nv);
   BAUM_I_SAVED_ADD(list, "grid", run->grid);
+  BAUM_I_SAVED_ADD(list, "origin", run->origin);
   add_array(list, "inputs", w->inputs, m->input_count);
   baum_i_saved_part *numbers = add(list, "parameters", BAUM_I_SAVED_NUMBERS);
   numbers->place = run->parameters;

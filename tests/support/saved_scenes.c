@@ -39,7 +39,11 @@ static baum_status lead_on(baum_simulation *run, const saved_scene *scene)
 
 static void open_every_element(saved_scene *scene)
 {
-  every_element parts = every_element_make(NULL);
+  const double breaks[] = {0.013, 0.0991, 0.21, 0.2222};
+  every_element parts = {0};
+  assert_int_equal(every_element_build(&parts), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_break_times(parts.mechanism, breaks, 4), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
   scene->mechanism = parts.mechanism;
   scene->nv = EVERY_NV;
   scene->has_input = true;
