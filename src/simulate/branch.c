@@ -18,7 +18,7 @@
 
 #include "simulate/passage.h"
 
-static const double SMALL_JUMP = 0.02;
+static const double SMALL_JUMP = 5e-3;
 static const double LARGE_JUMP =
   0.3;                           /* directions of branches differ by the size of the velocity */
 static const double KNOWN = 0.1; /* largest error of a jump that is judged */
@@ -162,7 +162,7 @@ static baum_branch judge(double jump, double error, bool gap, double largest_tur
   if (!(error <= KNOWN)) {
     return BAUM_BRANCH_UNKNOWN;
   }
-  if (jump <= fmax(SMALL_JUMP, 2.0 * error)) {
+  if (jump <= fmax(SMALL_JUMP, 4.0 * error)) {
     return BAUM_BRANCH_CONTINUED;
   }
   return jump > LARGE_JUMP ? BAUM_BRANCH_LEFT : BAUM_BRANCH_UNKNOWN;

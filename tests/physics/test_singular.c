@@ -2,15 +2,14 @@
 /* Runs through singular poses tell what has become of them, and runs away from such poses say nothing. A part of what
  * bench_singular counts: two starts of each mechanism.
  */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include <cmocka.h>
-
-#include <math.h>
 
 #include "singular_scenes.h"
 
