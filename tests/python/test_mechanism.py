@@ -157,7 +157,7 @@ class Arguments(unittest.TestCase):
 
     def test_there_is_a_kind_for_every_definition(self):
         ends = {name for name in _abi.PROTOTYPES if name.startswith("baum_mechanism_add_")}
-        kinds = {f"baum_mechanism_add_{name}" for name in [*KINDS, "input"]}
+        kinds = {f"baum_mechanism_add_{name}" for name in [*KINDS, "input", "break_times"]}
         self.assertEqual(ends, kinds)
 
     def test_there_is_a_shell_for_every_function(self):

@@ -12,7 +12,7 @@ from .channels import WHOLE, Channel
 from .definitions import Definition
 from .elements import CLASSES, GROUND, Element, one
 from ._lib import lib
-from ._values import number
+from ._values import number, numbers, vector
 
 Sizes = namedtuple("Sizes", "nq nv nc")
 Sizes.__doc__ = "Numbers of positions, velocities and constraint rows."
@@ -197,6 +197,18 @@ class Mechanism(Adding):
     @scale.setter
     def scale(self, value):
         _calls.make(lib.baum_mechanism_set_scale, self.handle, number(value, "scale"))
+
+    def add_break_times(self, times):
+        """Declare times [s] at which functions of time jump: no step passes one. Before freezing."""
+        times = vector(np.atleast_1d(times), None, "break times")
+        self._owner.call(lib.baum_mechanism_add_break_times, times.ctypes.data, len(times))
+
+    @property
+    def break_times(self):
+        """The break times [s], rising."""
+        count = ctypes.c_int32()
+        place = lib.baum_mechanism_break_times(self.handle, ctypes.byref(count))
+        return np.empty(0) if place is None else numbers(place, count.value)
 
     def freeze(self):
         """Check everything and make the mechanism constant. Returns it."""

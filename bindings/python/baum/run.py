@@ -19,6 +19,10 @@ EnergyAccount = namedtuple(
 EnergyAccount.__doc__ = """Where the energy of a run has come from [J]; see baum_energy_account in
 simulation.h."""
 
+NearSingular = namedtuple("NearSingular", [name for name, _ in _abi.baum_near_singular._fields_[1:]])
+NearSingular.__doc__ = """An interval in which a run was near a singular pose; see
+baum_near_singular in simulation.h. The branch is a word such as "continued" or "left"."""
+
 
 class Run:
     """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x

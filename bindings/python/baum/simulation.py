@@ -12,11 +12,12 @@ from .errors import Error, Status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
-from .run import Counters, EnergyAccount, Run
+from .run import Counters, EnergyAccount, NearSingular, Run
 from ._values import address, integer, number, vector
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
+BRANCHES = {value: name for name, value in names(_abi.baum_branch, "BAUM_BRANCH_").items()}
 WARNING_SIZE = 4096
 AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
@@ -352,6 +353,21 @@ class Simulation:
             lib.baum_simulation_energy_account, ctypes.byref(struct), ctypes.sizeof(struct)
         )
         return EnergyAccount(*(getattr(struct, name) for name in EnergyAccount._fields))
+
+    @property
+    def near_singular(self):
+        """Intervals in which the run was near a singular pose, the first 64."""
+        found = []
+        for k in range(min(self.counters.near_singular_intervals, 64)):
+            out = _abi.baum_near_singular()
+            self._call(
+                lib.baum_simulation_near_singular, k, ctypes.byref(out), ctypes.sizeof(out)
+            )
+            values = {name: getattr(out, name) for name in NearSingular._fields}
+            values["branch"] = BRANCHES[values["branch"]]
+            values["joint"] = self.mechanism.find("joint", values["joint"])
+            found.append(NearSingular(**values))
+        return found
 
     @property
     def counters(self):
