@@ -12,10 +12,10 @@
  * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was
  * meant.
  *
- * auto: c = 0.2 where freedom is left. There the violation pulls at the motion, which it must not do
- * faster than the motion itself turns: of 12 decades of constant gains those of 0.1 to 0.3 times the
- * mean rate are the best or cannot be told from it (docs/theory/gain_rules.md). Where drivers take
- * all freedom, the violation is the whole error, and c = 2 is as far as explicit methods pay nothing.
+ * auto: where freedom is left the violation pulls at the motion, and does so most at the rate of the motion itself. Below,
+ * c takes off as much of the drift as a run of some tens of radians leaves time for. Measured, of 12 decades of
+ * constant gains: docs/theory/gain_rules.md. Where drivers take all freedom, the violation is the whole error, and c is as
+ * far as the method pays nothing.
  *
  * Variable steps: the step of an explicit method is capped where (alpha h, beta^2 h^2) leaves its
  * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
@@ -31,11 +31,16 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* auto, of the rate: with freedom, and without for explicit methods and for those that choose their step with the
- * stiffness of the stabilization in their matrix */
-static const double AUTO_FACTOR = 0.2;
-static const double AUTO_DRIVEN = 2.0;
-static const double AUTO_DRIVEN_STIFF = 25.0;
+/* auto, of the rate. With a fixed step of a Runge-Kutta method, of order 2 and above, and of other methods; with steps of
+ * their own, for CVODE and IDA and for explicit methods; without freedom for all these. */
+static const double AUTO_FIXED = 0.35;
+static const double AUTO_FIXED_ORDER_2 = 0.05;
+static const double AUTO_OTHERS = 0.2;
+static const double AUTO_MULTISTEP = 0.25;
+static const double AUTO_EXPLICIT = 0.1;
+static const double AUTO_DRIVEN_FIXED = 0.6;
+static const double AUTO_DRIVEN_EXPLICIT = 2.0;
+static const double AUTO_DRIVEN_MULTISTEP = 40.0;
 static const double AUTO_CAP = 0.3;      /* alpha h up to which nothing is lost */
 static const double AUTO_AT_REST = 0.01; /* alpha h when nothing moves */
 static const double REST = 1e-9;         /* rate h below this is rounding, not motion */
@@ -117,12 +122,27 @@ static void apply_best(const double value[2], const baum_i_gain_context *context
   from_scaled(alpha_h, beta2_h2, context, out);
 }
 
+static double auto_factor_with_step(const baum_i_gain_context *context)
+{
+  const baum_i_method *method = context->method;
+  if (context->driven) {
+    return AUTO_DRIVEN_FIXED;
+  }
+  if (method->kind != BAUM_I_METHOD_ONE_STEP || method->degree < 2) {
+    return AUTO_OTHERS;
+  }
+  return method->degree == 2 ? AUTO_FIXED_ORDER_2 : AUTO_FIXED;
+}
+
 static double auto_factor(const baum_i_gain_context *context)
 {
-  if (!context->driven) {
-    return AUTO_FACTOR;
+  if (has_step(context)) {
+    return auto_factor_with_step(context);
   }
-  return context->method->kind == BAUM_I_METHOD_VARIABLE_STEP ? AUTO_DRIVEN_STIFF : AUTO_DRIVEN;
+  if (context->method->kind == BAUM_I_METHOD_VARIABLE_STEP) {
+    return context->driven ? AUTO_DRIVEN_MULTISTEP : AUTO_MULTISTEP;
+  }
+  return context->driven ? AUTO_DRIVEN_EXPLICIT : AUTO_EXPLICIT;
 }
 
 static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *context,

@@ -208,11 +208,16 @@ static void auto_is_a_share_of_the_rate(void **state)
 {
   (void)state;
   baum_i_gain_choice c = chosen(baum_gains_auto(), fixed_step(RK4));
-  assert_true(c.alpha == 8.0 && c.beta == 8.0);
-  has(c.why, "alpha = 8 1/s, beta = 8 1/s (0.2 x 40 1/s, a rate); ");
+  assert_true(c.alpha == 14.0 && c.beta == 14.0);
+  has(c.why, "alpha = 14 1/s, beta = 14 1/s (0.35 x 40 1/s, a rate); ");
   c = chosen(baum_gains_auto(), variable_step());
-  assert_true(c.alpha == 8.0 && c.beta == 8.0);
-  has(c.why, "(0.2 x 40 1/s, a rate); variable step");
+  assert_true(c.alpha == 10.0 && c.beta == 10.0);
+  has(c.why, "(0.25 x 40 1/s, a rate); variable step");
+  baum_i_gain_context context = fixed_step(RK4);
+  context.step = (double)NAN;
+  c = chosen(baum_gains_auto(), context);
+  assert_true(c.alpha == 4.0 && c.beta == 4.0);
+  has(c.why, "(0.1 x 40 1/s, a rate); variable step");
 }
 
 static void auto_is_more_where_drivers_take_all_freedom(void **state)
@@ -221,13 +226,26 @@ static void auto_is_more_where_drivers_take_all_freedom(void **state)
   baum_i_gain_context context = fixed_step(RK4);
   context.driven = true;
   baum_i_gain_choice c = chosen(baum_gains_auto(), context);
+  assert_true(c.alpha == 24.0 && c.beta == 24.0);
+  has(c.why, "(0.6 x 40 1/s, a rate; no freedom is left); ");
+  context.step = (double)NAN;
+  c = chosen(baum_gains_auto(), context);
   assert_true(c.alpha == 80.0 && c.beta == 80.0);
-  has(c.why, "(2 x 40 1/s, a rate; no freedom is left); ");
+  has(c.why, "(2 x 40 1/s, a rate; no freedom is left); variable step");
   context = variable_step();
   context.driven = true;
   c = chosen(baum_gains_auto(), context);
-  assert_true(c.alpha == 1000.0 && c.beta == 1000.0);
-  has(c.why, "(25 x 40 1/s, a rate; no freedom is left); variable step");
+  assert_true(c.alpha == 1600.0 && c.beta == 1600.0);
+  has(c.why, "(40 x 40 1/s, a rate; no freedom is left); variable step");
+}
+
+/* With a fixed step. */
+static double share_of(const baum_i_method *method)
+{
+  if (method->kind != BAUM_I_METHOD_ONE_STEP || method->degree == 1) {
+    return 0.2;
+  }
+  return method->degree == 2 ? 0.05 : 0.35;
 }
 
 static void auto_is_capped_and_always_stable(void **state)
@@ -240,7 +258,7 @@ static void auto_is_capped_and_always_stable(void **state)
       double cap = fmin(0.3, 0.5 * baum_i_stability_limit(&methods[m], 1.0));
       baum_i_gain_choice c = chosen(baum_gains_auto(), context);
       assert_int_equal(c.amplification.stability, BAUM_STABLE);
-      ASSERT_NEAR(c.alpha, fmin(0.2 * rate, cap / H), 1e-14, 0.0);
+      ASSERT_NEAR(c.alpha, fmin(share_of(&methods[m]) * rate, cap / H), 1e-14, 0.0);
       assert_true(c.alpha == c.beta);
     }
   }
