@@ -232,3 +232,9 @@ def wrap(kind, function, label, shape, nq=0, nv=0, inputs=()):
     takes_inputs = inputs and kind is _abi.baum_force_fn
     make = _shell_force_of(inputs) if takes_inputs else SHELLS[kind]
     return kind(make(function, _writer(shape, label), nq, nv))
+
+
+def event_function(function, nq, nv):
+    """function(t, q, v) of an event as the library calls it."""
+    shell = _shell_force(function, _writer((1,), "the function of an event"), nq, nv)
+    return _abi.baum_force_fn(shell)

@@ -7,6 +7,7 @@ import time
 import numpy as np
 
 from . import _abi, _calls
+from .callbacks import event_function
 from .channels import Layout, q as ALL_Q, v as ALL_V
 from .errors import Error, Status, warn
 from .gains import Gains
@@ -255,6 +256,40 @@ class Simulation:
         law = {"value": value, "rate": rate, "acceleration": acceleration}
         law = [number(part, f"{driver.name}: {name}") for name, part in law.items()]
         self._call(lib.baum_simulation_set_driver, driver.id, *law)
+
+    def event(self, joint=None, value=0.0, *, function=None, direction=0, terminal=True, name=None,
+              tolerance=None):
+        """Add an event, from the present state on, and return its number: the coordinate of a joint
+        passes value, or function(t, q, v) of the whole run passes zero; direction 1 rising, -1
+        falling in time, 0 both. A terminal one ends the call with Status.STOP_EVENT, and the run
+        stands at it; the next call goes on. See `events`."""
+        struct = default(_abi.baum_event_def)
+        struct.name = None if name is None else name.encode()
+        if joint is not None:
+            struct.joint = self.mechanism.find("joint", joint).id
+        struct.value = number(value, "value")
+        struct.direction = integer(direction, "direction")
+        struct.terminal = bool(terminal)
+        if tolerance is not None:
+            struct.tolerance = number(tolerance, "tolerance")
+        if function is not None:
+            struct.function = event_function(function, self._sizes.nq, self._sizes.nv)
+            self._event_functions = [*getattr(self, "_event_functions", []), struct.function]
+        index = ctypes.c_int32()
+        self._call(lib.baum_simulation_add_event, ctypes.byref(struct), ctypes.byref(index))
+        return index.value
+
+    @property
+    def events(self):
+        """What has happened so far, of which the last 1024 are kept: (time [s], event, direction)."""
+        count = lib.baum_simulation_event_count(self._owner._address)
+        record = _abi.baum_event_record()
+        happened = []
+        for k in range(max(0, count - 1024), count):
+            size = ctypes.sizeof(record)
+            self._call(lib.baum_simulation_event, k, ctypes.byref(record), size)
+            happened.append((record.t, record.event, record.direction))
+        return happened
 
     def save(self):
         """The run as bytes, to be restored in this or another process. Methods of several steps and
