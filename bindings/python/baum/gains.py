@@ -60,6 +60,6 @@ def best_damping():
 
 
 def auto():
-    """alpha = beta = 0.05 to 0.35 x (by integrator) the mean angular rate over the first radians of the motion; keeps the
-    order of the method. More where drivers take all freedom."""
+    """alpha = beta = 0.05 to 0.35 x, by integrator, the mean angular rate over the first radians of
+    the motion; keeps the order of the method. More where drivers take all freedom."""
     return Gains("auto")
