@@ -29,6 +29,7 @@ static const double SAME_TIME = 1e-12;
 typedef struct bracket {
   double a, b;   /* earlier and later time along the run */
   double fa, fb; /* of opposite signs */
+  enum { NOT_MOVED, BEFORE, AFTER } last_moved;
 } bracket;
 
 static bool is_before(const baum_simulation *run, double a, double b)
@@ -149,19 +150,44 @@ static double choose(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
+/* Take x as one of the ends, a when it is before the event. An end that stays is given half its value, or it would stay
+ * for long (Illinois). */
+static void narrow(bracket *is, double x, double value, bool before)
+{
+  double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
+  double *stays = before ? &is->fb : &is->fa;
+  *moved[0] = x;
+  *moved[1] = value;
+  if (is->last_moved == (before ? BEFORE : AFTER)) {
+    *stays *= 0.5;
+  }
+  is->last_moved = before ? BEFORE : AFTER;
+}
+
+static bool is_narrow(const bracket *is, double tolerance)
+{
+  return is->fb == 0.0 || !(fabs(is->b - is->a) > tolerance);
+}
+
+/* Between events->t and t, where event k has passed. */
+static bracket bracket_of(const baum_simulation *run, int k, double t)
+{
+  const baum_i_event_mark *mark = &run->events->marks[k];
+  bool agrees = baum_i_sign(mark->value) == mark->side;
+  return (bracket){.a = run->events->t,
+                   .b = t,
+                   .fa = agrees ? mark->value : mark->side * DBL_MIN,
+                   .fb = run->events->list[k].next};
+}
+
 /* Event k between events->t and t, where it has passed. Changes next of all. */
 static baum_status locate(baum_simulation *run, int k, double t)
 {
   baum_i_event *event = &run->events->list[k];
-  const baum_i_event_mark *mark = &run->events->marks[k];
-  bool agrees = baum_i_sign(mark->value) == mark->side;
-  bracket is = {.a = run->events->t,
-                .b = t,
-                .fa = agrees ? mark->value : mark->side * DBL_MIN,
-                .fb = event->next};
+  int32_t side = run->events->marks[k].side;
+  bracket is = bracket_of(run, k, t);
   double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
-  int stays = 0; /* tries in a row that have moved a (< 0) or b (> 0) */
-  for (int try = 0; try < MOST_TRIES && is.fb != 0.0 && fabs(is.b - is.a) > tolerance; try++) {
+  for (int try = 0; try < MOST_TRIES && !is_narrow(&is, tolerance); try++) {
     double x = choose(&is, tolerance, try);
     if (x == is.a || x == is.b) {
       break;
@@ -170,13 +196,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
     if (status != BAUM_OK) {
       return status;
     }
-    bool before = baum_i_sign(event->next) == mark->side;
-    stays = before ? (stays < 0 ? stays - 1 : -1) : (stays > 0 ? stays + 1 : 1);
-    *(before ? &is.a : &is.b) = x;
-    *(before ? &is.fa : &is.fb) = event->next;
-    if (stays < -1 || stays > 1) {
-      *(before ? &is.fb : &is.fa) *= 0.5;
-    }
+    narrow(&is, x, event->next, baum_i_sign(event->next) == side);
   }
   event->found = is.b;
   return BAUM_OK;
