@@ -1,56 +1,61 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How close to singular the last solution was.
  *
- * Blocks: the smallest det D of a node over the product of the diagonal that S = J M^-1 J^T had there; of other
- * solvers the reciprocal condition of the scaled matrix. Either is free of units and falls with the square of the
- * distance from a singular pose, for its multipliers' part is S. Sizes of the two differ: compare each with what it
- * usually is.
+ * Blocks: the smallest det D of a node over what it was before the elimination: of a pin det S, which does not depend on
+ * how its axes lie, of other pairs of rows, which may depend on each other, the product of the diagonal of
+ * S = J M^-1 J^T. Of other solvers the reciprocal condition of the scaled matrix. Either is free of units and falls with
+ * the square of the distance from a singular pose, for its multipliers' part is S. Sizes of the two differ: compare each
+ * with what it usually is.
  */
 #include <math.h>
 
 #include "dynamics/block_path.h"
 
-static double pivot_of(const baum_i_block *block, int node)
+/* A light rotation lets the diagonal of S alone come and go with the direction of the arm. */
+static double pivot_of_pin(const baum_i_block *block, int k)
 {
-  return 1.0 / fabs(block->nodes[node].inverse * block->nodes[node].size);
+  const baum_i_node *node = &block->nodes[block->pins[k].node];
+  const double *arm = block->arm + 4 * (ptrdiff_t)k;
+  const double *weight = block->pin_weight + 4 * (ptrdiff_t)k;
+  double off = weight[1] * arm[0] * arm[1] + weight[3] * arm[2] * arm[3];
+  return 1.0 / fabs(node->inverse * (node->size - off * off));
 }
 
-static double smallest_of_blocks(const baum_i_block *block, int *where)
+static double pivot_of_full(const baum_i_block *block, int k)
+{
+  const baum_i_node *node = &block->nodes[block->fulls[k].node];
+  return 1.0 / fabs(node->inverse * node->size);
+}
+
+/* And its first row, -1: none below 1. */
+static double smallest_of_blocks(const baum_i_block *block, int *row)
 {
   double smallest = 1.0;
-  *where = -1;
-  for (int k = 0; k < block->node_count; k++) {
-    double pivot = pivot_of(block, k);
+  *row = -1;
+  for (int k = 0; k < block->pin_count; k++) {
+    double pivot = pivot_of_pin(block, k);
     if (!(pivot >= smallest)) {
       smallest = pivot;
-      *where = k;
+      *row = block->pins[k].row;
+    }
+  }
+  for (int k = 0; k < block->full_count; k++) {
+    double pivot = pivot_of_full(block, k);
+    if (!(pivot >= smallest)) {
+      smallest = pivot;
+      *row = block->fulls[k].row[0];
     }
   }
   return isfinite(smallest) ? smallest : 0.0;
 }
 
-static int row_of_node(const baum_i_block *block, int node)
-{
-  for (int k = 0; k < block->pin_count; k++) {
-    if (block->pins[k].node == node) {
-      return block->pins[k].row;
-    }
-  }
-  for (int k = 0; k < block->full_count; k++) {
-    if (block->fulls[k].node == node) {
-      return block->fulls[k].row[0];
-    }
-  }
-  return -1;
-}
-
 double baum_i_smallest_pivot(const baum_workspace *w)
 {
-  int where = -1;
+  int row = -1;
   if (w->mechanism->nc == 0) {
     return 1.0;
   }
-  return w->solved_by ? smallest_of_blocks(w->solved_by->block, &where) : baum_i_kkt_rcond(w->kkt);
+  return w->solved_by ? smallest_of_blocks(w->solved_by->block, &row) : baum_i_kkt_rcond(w->kkt);
 }
 
 /* With other solvers the largest multiplier is all there is to name a joint by. */
@@ -58,9 +63,7 @@ int baum_i_smallest_pivot_joint(const baum_workspace *w)
 {
   int row = -1;
   if (w->solved_by) {
-    int where = -1;
-    (void)smallest_of_blocks(w->solved_by->block, &where);
-    row = where < 0 ? -1 : row_of_node(w->solved_by->block, where);
+    (void)smallest_of_blocks(w->solved_by->block, &row);
   } else {
     row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
   }

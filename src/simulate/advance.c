@@ -295,17 +295,12 @@ static baum_status pass_break(baum_simulation *run)
   return status;
 }
 
-/* One step more; where that fails the run stands at the end of the last. */
+/* One step more. Meanwhile the run stands where it begins: where it stays if that step, or a look inside it, fails. */
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
+  catch_up(run);
   baum_status status = baum_i_run_may_go_on(run, taken);
-  if (status == BAUM_OK) {
-    status = internal_step(run);
-  }
-  if (status != BAUM_OK) {
-    catch_up(run);
-  }
-  return status;
+  return status == BAUM_OK ? internal_step(run) : status;
 }
 
 static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)

@@ -22,14 +22,16 @@ static baum_simulation *open_mode(const swing *s, step_mode mode)
   return run;
 }
 
-/* Fails after a quarter of a second: with *user. */
+enum { HEALED = 2 };
+
+/* Fails after a quarter of a second: with *user, unless HEALED. */
 static int failing(double t, const double *q, const double *v, const double *inputs, double *out,
                    void *user)
 {
   (void)v;
   (void)inputs;
   out[0] = q[2];
-  if (t <= 0.25) {
+  if (t <= 0.25 || *(const int *)user == HEALED) {
     return 0;
   }
   int answer = *(const int *)user;
@@ -100,6 +102,10 @@ static void failing_functions_end_the_call(void **state)
       assert_int_equal(baum_simulation_advance_to(run, 0.3), want);
       assert_non_null(strstr(baum_message(), "event 0"));
       assert_true(baum_simulation_time(run) <= 0.26); /* a step more at most */
+      /* It stands where it can go on from. */
+      answer = HEALED;
+      assert_int_equal(baum_simulation_advance_to(run, 0.27), BAUM_OK);
+      assert_true(baum_simulation_time(run) == 0.27);
       baum_simulation_destroy(run);
     }
   }
