@@ -48,8 +48,8 @@ static const baum_i_sundials_flag FLAGS[] = {
    "the error stays above the tolerance however small the step; a force may jump here, the "
    "position may be near singular, or rtol is too small"},
   {CV_CONV_FAILURE, BAUM_ERR_CONVERGENCE,
-   "the iteration does not converge however small the step; stiff forces need cvode_bdf or ida, "
-   "and near a singular position projection helps"},
+   "the iteration does not converge however small the step; forces may be stiff, which only "
+   "cvode_bdf and ida are for, or the position near singular, where projection helps"},
   {CV_TOO_CLOSE, BAUM_ERR_STEP, "no first step can be found; the scales of time differ too much"},
   {CV_LSETUP_FAIL, BAUM_ERR_SINGULAR,
    "the matrix of Newton's iteration cannot be factored; take a fixed-point method such as "

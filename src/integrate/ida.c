@@ -65,7 +65,7 @@ static const baum_i_sundials_flag FLAGS[] = {
    "position may be near singular, or rtol is too small"},
   {IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE,
    "the iteration does not converge however small the step; the position may be near singular, "
-   "or rtol is too small for index 3"},
+   "or rtol is too small, for index 3 above all"},
   {IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR,
    "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
   {IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR,

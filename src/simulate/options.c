@@ -218,6 +218,11 @@ static baum_status check_gains(const baum_simulation_options *o)
 
 static baum_status check_row_gains(const baum_simulation_options *o)
 {
+  if (!o->row_gains && o->row_gain_count != 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "simulation options: row_gain_count is %d, but row_gains is NULL",
+                       (int)o->row_gain_count);
+  }
   if (o->row_gains && o->formulation != BAUM_FORMULATION_BAUMGARTE) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "simulation options: row_gains are given, but only baumgarte has gains");

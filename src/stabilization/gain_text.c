@@ -125,7 +125,8 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
 {
   char radius[RADIUS_SIZE];
   bool stable = amplification->stability == BAUM_STABLE;
-  bool near_edge = stable && is_near_edge(context, gains);
+  bool undamped = stable && gains->alpha_h == 0.0;
+  bool near_edge = stable && !undamped && is_near_edge(context, gains);
   print_radius(amplification->spectral_radius, radius);
   int length =
     snprintf(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
@@ -136,7 +137,11 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
                    "not %.3g",
                    radius, exp(-promised_damping(gains)));
   }
-  return !stable || near_edge;
+  if (undamped) {
+    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length,
+                   "; warning: alpha = 0 damps nothing but by the error of the method");
+  }
+  return !stable || undamped || near_edge;
 }
 
 /* True when the clause warns. */

@@ -348,6 +348,8 @@ static void factors_that_make_no_sense_are_refused(void **state)
   o.gains = (baum_gains){0};
   o.formulation = BAUM_FORMULATION_PROJECTION;
   refused(m, &o, BAUM_ERR_ARGUMENT, "only baumgarte has gains");
+  o.row_gains = NULL;
+  refused(m, &o, BAUM_ERR_ARGUMENT, "row_gain_count is 2, but row_gains is NULL");
   baum_mechanism_destroy(m);
 }
 

@@ -202,6 +202,15 @@ static void no_gains_at_all_are_marginal_and_allowed(void **state)
   assert_null(strstr(c.why, "warning"));
 }
 
+static void gains_that_do_not_damp_are_warned_of(void **state)
+{
+  (void)state;
+  baum_i_gain_choice c = chosen(baum_gains_fixed(0.0, 100.0), fixed_step(RK4));
+  assert_int_equal(c.amplification.stability, BAUM_STABLE);
+  assert_true(c.doubtful);
+  has(c.why, "warning: alpha = 0 damps nothing but by the error of the method");
+}
+
 /* ---- Auto ----------------------------------------------------------------- */
 
 static void auto_is_a_share_of_the_rate(void **state)
@@ -549,6 +558,7 @@ int main(void)
     cmocka_unit_test(deadbeat_is_refused_where_there_is_none_with_the_best_point),
     cmocka_unit_test(the_default_is_what_the_integrator_says),
     cmocka_unit_test(no_gains_at_all_are_marginal_and_allowed),
+    cmocka_unit_test(gains_that_do_not_damp_are_warned_of),
     cmocka_unit_test(auto_is_a_share_of_the_rate),
     cmocka_unit_test(auto_is_more_where_drivers_take_all_freedom),
     cmocka_unit_test(auto_is_capped_and_always_stable),
