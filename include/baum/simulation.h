@@ -492,8 +492,8 @@ BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
 /** What has become of a motion behind a singular pose, where several branches of motion cross. */
 typedef enum baum_branch {
   BAUM_BRANCH_CONTINUED = 1, /**< It goes on smoothly. */
-  BAUM_BRANCH_LEFT = 2,      /**< Its velocity has jumped: it is on another branch. Do not trust it. */
-  BAUM_BRANCH_UNKNOWN = 3    /**< Cannot be told from the steps taken. */
+  BAUM_BRANCH_LEFT = 2,   /**< Its velocity has jumped: it is on another branch. Do not trust it. */
+  BAUM_BRANCH_UNKNOWN = 3 /**< Cannot be told from the steps taken. */
 } baum_branch;
 
 /** One interval in which a run was near a singular pose. The pivot is the smallest of the equations
