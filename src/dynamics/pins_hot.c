@@ -13,8 +13,10 @@
 #include "base/four.h"
 #include "dynamics/pins.h"
 
-/* Two pins are done at a time, one in either half of a vector. What belongs to them alone: */
+/* Two pins are done at a time, one in either half of a vector. Of an odd number the last one is alone:
+ * in both halves, of which one is stored. What belongs to them alone: */
 typedef struct two_pins {
+  ptrdiff_t second; /* 1, or 0: the first is alone; known where this is compiled */
   const baum_i_pin_node *pin;
   const double *points;
   const double *weight;
@@ -50,15 +52,18 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
   /* Triples of planar bodies have the numbers of the bodies. */
-  return markers_on(&frames[(ptrdiff_t)two->pin[0].triple[body]],
-                    &frames[(ptrdiff_t)two->pin[1].triple[body]],
-                    baum_i_four_gathered(two->points + 2 * body, two->points + 4 + 2 * body));
+  return markers_on(
+    &frames[(ptrdiff_t)two->pin[0].triple[body]],
+    &frames[(ptrdiff_t)two->pin[two->second].triple[body]],
+    baum_i_four_gathered(two->points + 2 * body, two->points + 4 * two->second + 2 * body));
 }
 
-BAUM_I_INLINE void put(double *low, double *high, baum_i_four x)
+BAUM_I_INLINE void put(const two_pins *two, double *low, double *high, baum_i_four x)
 {
   baum_i_store(low, baum_i_four_low(x));
-  baum_i_store(high, baum_i_four_high(x));
+  if (two->second) {
+    baum_i_store(high, baum_i_four_high(x));
+  }
 }
 
 /* J a0 */
@@ -67,8 +72,8 @@ BAUM_I_INLINE baum_i_four push_of(const two_pins *two, const double *free, const
 {
   const double *x = free + two->pin[0].place[0];
   const double *y = free + two->pin[0].place[1];
-  const double *z = free + two->pin[1].place[0];
-  const double *u = free + two->pin[1].place[1];
+  const double *z = free + two->pin[two->second].place[0];
+  const double *u = free + two->pin[two->second].place[1];
   baum_i_four of_a = baum_i_four_times(baum_i_four_spread(x + 2, z + 2), a->turned);
   baum_i_four of_b = baum_i_four_times(baum_i_four_spread(y + 2, u + 2), b->turned);
   baum_i_four moving = baum_i_four_minus(baum_i_four_gathered(x, z), baum_i_four_gathered(y, u));
@@ -86,24 +91,27 @@ BAUM_I_INLINE void put_pivot(baum_i_node *node, baum_i_pair on, baum_i_pair off,
 BAUM_I_INLINE void set_nodes(const two_pins *two, baum_i_four c_a, baum_i_four c_b,
                              baum_i_four miss, baum_i_node *nodes)
 {
-  baum_i_node *node[2] = {&nodes[(ptrdiff_t)two->pin[0].node], &nodes[(ptrdiff_t)two->pin[1].node]};
+  baum_i_node *node[2] = {&nodes[(ptrdiff_t)two->pin[0].node],
+                          &nodes[(ptrdiff_t)two->pin[two->second].node]};
   const double *w = two->weight;
-  baum_i_four moving =
-    baum_i_four_plus(baum_i_four_spread(w, w + 4), baum_i_four_spread(w + 2, w + 6));
-  baum_i_four weighted_a = baum_i_four_times(baum_i_four_spread(w + 1, w + 5), c_a);
-  baum_i_four weighted_b = baum_i_four_times(baum_i_four_spread(w + 3, w + 7), c_b);
+  const double *u = two->weight + 4 * two->second;
+  baum_i_four moving = baum_i_four_plus(baum_i_four_spread(w, u), baum_i_four_spread(w + 2, u + 2));
+  baum_i_four weighted_a = baum_i_four_times(baum_i_four_spread(w + 1, u + 1), c_a);
+  baum_i_four weighted_b = baum_i_four_times(baum_i_four_spread(w + 3, u + 3), c_b);
   baum_i_four on = baum_i_four_plus(moving, baum_i_four_plus(baum_i_four_times(weighted_a, c_a),
                                                              baum_i_four_times(weighted_b, c_b)));
   baum_i_four off = baum_i_four_plus(baum_i_four_times(weighted_a, baum_i_four_exchanged(c_a)),
                                      baum_i_four_times(weighted_b, baum_i_four_exchanged(c_b)));
   put_pivot(node[0], baum_i_four_low(on), baum_i_four_low(off), baum_i_four_low(miss));
-  put_pivot(node[1], baum_i_four_high(on), baum_i_four_high(off), baum_i_four_high(miss));
+  if (two->second) {
+    put_pivot(node[1], baum_i_four_high(on), baum_i_four_high(off), baum_i_four_high(miss));
+  }
 }
 
 BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const baum_i_block *block)
 {
-  ptrdiff_t row[2] = {two->pin[0].row, two->pin[1].row};
-  ptrdiff_t node[2] = {two->pin[0].node, two->pin[1].node};
+  ptrdiff_t row[2] = {two->pin[0].row, two->pin[two->second].row};
+  ptrdiff_t node[2] = {two->pin[0].node, two->pin[two->second].node};
   markers a = markers_of(two, at->frames, 0);
   markers b = markers_of(two, at->frames, 1);
   baum_i_four phi = baum_i_four_minus(a.place, b.place);
@@ -114,25 +122,30 @@ BAUM_I_INLINE void set_two(const two_pins *two, const baum_i_pins *at, const bau
   right = baum_i_four_minus(right, baum_i_four_times(baum_i_four_all(at->stiffness), phi));
   baum_i_four miss = baum_i_four_minus(push_of(two, block->from, &a, &b), right);
   set_nodes(two, a.turned, b.turned, miss, block->nodes);
-  put(at->phi + row[0], at->phi + row[1], phi);
-  put(at->phi_rate + row[0], at->phi_rate + row[1], rate);
-  put(at->gamma + row[0], at->gamma + row[1], gamma);
-  put(block->right + 2 * node[0], block->right + 2 * node[1], right);
-  put(two->arm, two->arm + 4, a.turned);
-  put(two->arm + 2, two->arm + 6, baum_i_four_minus(baum_i_four_all(0.0), b.turned));
+  put(two, at->phi + row[0], at->phi + row[1], phi);
+  put(two, at->phi_rate + row[0], at->phi_rate + row[1], rate);
+  put(two, at->gamma + row[0], at->gamma + row[1], gamma);
+  put(two, block->right + 2 * node[0], block->right + 2 * node[1], right);
+  put(two, two->arm, two->arm + 4 * two->second, a.turned);
+  put(two, two->arm + 2, two->arm + 4 * two->second + 2,
+      baum_i_four_minus(baum_i_four_all(0.0), b.turned));
 }
 
-/* An odd number is made even by a copy of the last one. */
 static void set_pins(baum_i_block *block, const baum_i_pins *pins)
 {
   const baum_i_block to = *block; /* in registers: nothing that is stored can change it */
   const baum_i_pins at = *pins;
-  two_pins two = {to.pins, at.points, to.pin_weight, to.arm};
-  for (const baum_i_pin_node *end = to.pins + to.pin_count; two.pin < end; two.pin += 2) {
+  two_pins two = {1, to.pins, at.points, to.pin_weight, to.arm};
+  for (int left = to.pin_count; left > 1; left -= 2) {
     set_two(&two, &at, &to);
+    two.pin += 2;
     two.points += 8;
     two.weight += 8;
     two.arm += 8;
+  }
+  if (to.pin_count % 2 != 0) {
+    const two_pins one = {0, two.pin, two.points, two.weight, two.arm};
+    set_two(&one, &at, &to);
   }
 }
 
