@@ -14,7 +14,7 @@
 static const double SCAN_RATIO = 1.01; /* of neighbouring b */
 static const double SCAN_END = 1e3;    /* |mu| beyond which nothing explicit is stable */
 static const double OVERDAMPED = 1e9;  /* zeta beyond which nothing changes any more */
-static const double LEAST = 1e-300;    /* b that still grows by SCAN_RATIO; its square is 0 */
+static const double LEAST = 1e-18;     /* b: what is stable below alone is as good as nothing */
 static const double EQUAL = 1e-13;     /* of radii: rounding */
 enum { BISECTIONS = 60, CLOSER = 40, FINE = 8 };
 
