@@ -4,14 +4,14 @@
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
 #   format build test asan minimal install python tidy coverage
-#   valgrind thread analyzer                                        longer or rarer, by name only
+#   valgrind thread analyzer sweeps                                 longer or rarer, by name only
 # BAUM_COVERAGE=90 is the least line coverage of src in percent.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format build test asan minimal install python tidy coverage"
-named="valgrind thread analyzer"
+named="valgrind thread analyzer sweeps"
 prefix=$PWD/build/install-prefix
 
 stage_format() {
@@ -53,13 +53,13 @@ stage_asan() {
   need_venv
   build asan asan -DBAUM_WERROR=ON
   ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1 \
-    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan -LE layout
+    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan -LE 'layout|sweep'
 }
 
 stage_minimal() {
   need_venv
   build minimal minimal -DBAUM_WERROR=ON
-  run_tests minimal
+  run_tests minimal -LE sweep
 }
 
 # The library as a user installs it, then moved, so that nothing may depend on where it was.
@@ -110,15 +110,22 @@ stage_coverage() {
   need_venv
   build coverage coverage
   find build/coverage -name '*.gcda' -delete
-  run_tests coverage -LE 'layout|python'
+  run_tests coverage -LE 'layout|python|sweep'
   gcovr --root . --filter src/ --object-directory build/coverage \
     --fail-under-line "${BAUM_COVERAGE:-90}" --print-summary
+}
+
+# What stage asan leaves out.
+stage_sweeps() {
+  need_venv
+  build asan asan -DBAUM_WERROR=ON
+  run_tests asan -L sweep
 }
 
 stage_valgrind() {
   need_venv
   build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;--quiet;--error-exitcode=99;--leak-check=full"
-  run_tests valgrind -LE 'layout|python'
+  run_tests valgrind -LE 'layout|python|sweep'
 }
 
 stage_thread() {

@@ -66,7 +66,7 @@ static const high_ladder HIGH[] = {
   {5, FREE_CRANK, 3, 128, 3, 0.7},
   {5, FOUR_BAR, 9, 512, 2, 0.7},
   {8, PENDULUM, 3, 16, 2, (double)INFINITY},
-  {8, FREE_CRANK, 3, 64, 2, (double)INFINITY},
+  {8, FREE_CRANK, 3, 48, 2, (double)INFINITY},
   {8, FOUR_BAR, 5, 32, 2, (double)INFINITY},
 };
 
