@@ -27,7 +27,9 @@ static const baum_integrator *find(const char *name)
     const baum_integrator *at = baum_integrator_at(k);
     found = strcmp(baum_integrator_name(at), name) == 0 ? at : found;
   }
-  return found;
+  /* All that has no fixed step is of SUNDIALS. */
+  bool runs = found && (baum_has("sundials") || baum_integrator_has_fixed_step(found));
+  return runs ? found : NULL;
 }
 
 static baum_simulation *begin(const baum_mechanism *m, const baum_integrator *integrator,
