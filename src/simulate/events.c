@@ -3,6 +3,7 @@
  * The search is in event_search.c. */
 #include "simulate/events.h"
 
+#include <assert.h>
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -99,6 +100,7 @@ void baum_i_events_destroy(baum_i_events *events)
 /* Room for one more, and its name; the list is as long as before. */
 static baum_status make_room(baum_i_events *events, const baum_event_def *def)
 {
+  assert(events);
   size_t count = (size_t)events->count + 1;
   baum_i_event *list = baum_i_grow(events->list, count, sizeof *list);
   if (!list) {
@@ -218,6 +220,7 @@ void baum_i_events_go_on(baum_simulation *run)
 static baum_status begin_last(baum_simulation *run)
 {
   baum_i_events *events = run->events;
+  assert(events);
   int k = events->count;
   baum_i_event *event = &events->list[k];
   const baum_mechanism *m = run->workspace->mechanism;

@@ -57,7 +57,7 @@ void baum_i_passages_look(baum_simulation *run);
 baum_status baum_i_passages_project(baum_simulation *run, double t);
 
 /* Likewise a step of variable length that has just been taken. May evaluate; look at the end afterwards. */
-void baum_i_passages_step(baum_simulation *run, const baum_i_state *state);
+void baum_i_passages_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: what has become of the motion, from the clear states before to the last recent one, into *out. */
 void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,

@@ -219,7 +219,7 @@ static baum_status check_header(reader *r)
   if (memcmp(h->magic, MAGIC, WORD) != 0) {
     return refuse("the buffer is none of baum_simulation_save()");
   }
-  if (memcmp(&h->number, &NUMBER, sizeof NUMBER) != 0) {
+  if (h->number != NUMBER) { /* also where it is no number there */
     return refuse("the buffer is of a machine with another order of bytes or other numbers, or "
                   "damaged");
   }
