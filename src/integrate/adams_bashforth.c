@@ -17,16 +17,10 @@
  */
 #include "integrate/adams_bashforth.h"
 
-#include <float.h>
-#include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
 #include "base/message.h"
-
-/* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
- * of one step's error, and it is far above the rounding of times. */
-static const double SAME_STEP = 1e-6;
 
 /* Memory of a run. */
 typedef struct adams_run {
@@ -52,12 +46,6 @@ static double *slot(const adams_run *run, int j)
 {
   int steps = run->table->steps;
   return run->slots + (size_t)((run->ahead - j + steps) % steps) * 2 * (size_t)run->nv;
-}
-
-static bool is_step_of_grid(const baum_i_problem *problem, double t, double h)
-{
-  double off = fabs(h - problem->direction * problem->step);
-  return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
 }
 
 /* ---- one step ---- */
@@ -98,7 +86,7 @@ baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_
 {
   adams_run *run = self;
   size_t size = (size_t)run->nv * sizeof *a;
-  run->on_grid = is_step_of_grid(problem, state->t, h);
+  run->on_grid = baum_i_problem_is_grid_step(problem, state->t, h);
   memcpy(slot(run, 0), state->v, size);
   memcpy(slot(run, 0) + run->nv, a, size);
   if (run->past < run->table->steps - 1) {

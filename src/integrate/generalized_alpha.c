@@ -51,7 +51,7 @@ static const double STALLED = 64.0;
  * rounding its inverse of one unit. */
 static const double SHIFT = 1e-3;
 
-/* Steps that differ by less than this share are the same. */
+/* Steps that differ by less than this share need no other a. */
 static const double SAME_STEP = 1e-6;
 
 /* What a step leaves to the next. */
@@ -290,8 +290,7 @@ static void accept(void *self, const baum_i_problem *problem, const baum_i_state
   run->next = kept;
   run->step = run->trial;
   run->first = false;
-  double off = fabs(run->trial - problem->direction * problem->step);
-  run->known = off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(state->t);
+  run->known = baum_i_problem_is_grid_step(problem, state->t, run->trial);
 }
 
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)

@@ -9,10 +9,15 @@
  */
 #include "integrate/integrator.h"
 
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 #include "base/message.h"
+
+/* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
+ * of one step's error, and it is far above the rounding of times. */
+static const double SAME_STEP = 1e-6;
 
 /* ---- facts ---- */
 
@@ -86,6 +91,12 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem)
 {
   return !isnan(problem->step);
+}
+
+bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h)
+{
+  double off = fabs(h - problem->direction * problem->step);
+  return off <= SAME_STEP * problem->step + 4.0 * DBL_EPSILON * fabs(t);
 }
 
 /* With fixed steps only who accepts them keeps something of them. */

@@ -104,6 +104,9 @@ baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const
 /* Of fixed step? Else variable, or kinematics. */
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
+/* Is h from t a step of the fixed grid, up to the rounding of times? What is remembered of steps holds for these. */
+bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
+
 /* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
  * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
