@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
-#include "dynamics/dynamics.h"
+#include "dynamics/survey.h"
 
 /* Append to the report's text; what does not fit is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
@@ -95,8 +95,10 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   return status;
 }
 
-static baum_status survey(baum_workspace *w, double *q, baum_mobility *report)
+static baum_status look(baum_workspace *w, double *q, double *v, void *whole)
 {
+  (void)v;
+  baum_mobility *report = whole;
   const baum_mechanism *m = w->mechanism;
   memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
   baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held);
@@ -113,28 +115,8 @@ static baum_status survey(baum_workspace *w, double *q, baum_mobility *report)
 baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                     size_t caller_size)
 {
-  if (!out || caller_size < sizeof(size_t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_mobility: out is NULL or its size is 0");
-  }
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_mobility");
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  baum_workspace *w = NULL;
-  status = baum_workspace_create(mechanism, &w);
-  if (status != BAUM_OK) {
-    return status;
-  }
   baum_mobility report = {.struct_size = sizeof report};
-  double *q = baum_i_alloc((size_t)mechanism->nq, sizeof *q);
-  status = q ? survey(w, q, &report) : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    report.struct_size = caller_size < sizeof report ? caller_size : sizeof report;
-    memcpy(out, &report, report.struct_size);
-  }
-  baum_i_free(q);
-  baum_workspace_destroy(w);
-  return baum_i_message_settle(status, &kept);
+  const baum_i_survey_out to = {"baum_mechanism_mobility", out, caller_size, &report,
+                                sizeof report};
+  return baum_i_survey(mechanism, look, &to);
 }

@@ -9,6 +9,7 @@
 #include "base/text.h"
 #include "dynamics/immobile.h"
 #include "dynamics/islands.h"
+#include "dynamics/survey.h"
 
 /* Append to the report's text; what does not fit is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
@@ -245,8 +246,9 @@ static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
   return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
 }
 
-static baum_status survey(baum_workspace *w, double *q, double *v, baum_report *report)
+static baum_status look(baum_workspace *w, double *q, double *v, void *whole)
 {
+  baum_report *report = whole;
   bool assembled = false;
   baum_i_islands islands = {0};
   baum_status status = find_pose(w, q, &assembled);
@@ -272,28 +274,7 @@ static baum_status survey(baum_workspace *w, double *q, double *v, baum_report *
 baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                   size_t caller_size)
 {
-  if (!out || caller_size < sizeof(size_t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_report: out is NULL or its size is 0");
-  }
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_report");
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  baum_workspace *w = NULL;
-  status = baum_workspace_create(mechanism, &w);
-  if (status != BAUM_OK) {
-    return status;
-  }
   baum_report report = {.struct_size = sizeof report};
-  double *q = baum_i_alloc(2 * (size_t)mechanism->nv, sizeof *q);
-  status = q ? survey(w, q, q + mechanism->nq, &report) : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    report.struct_size = caller_size < sizeof report ? caller_size : sizeof report;
-    memcpy(out, &report, report.struct_size);
-  }
-  baum_i_free(q);
-  baum_workspace_destroy(w);
-  return baum_i_message_settle(status, &kept);
+  const baum_i_survey_out to = {"baum_mechanism_report", out, caller_size, &report, sizeof report};
+  return baum_i_survey(mechanism, look, &to);
 }

@@ -141,14 +141,6 @@ static void load(cvode_run *run, const baum_i_problem *problem, const baum_i_sta
   memcpy(y + mechanism->nq, state->v, (size_t)mechanism->nv * sizeof *y);
 }
 
-static void unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
-{
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  const double *y = N_VGetArrayPointer(from);
-  memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
-  memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
-}
-
 static baum_status fail(const cvode_run *run, int flag)
 {
   double step = 0.0;
@@ -168,7 +160,7 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
   if (isnan(tau) || CVodeGetDky(run->cvode, tau, 0, run->inside) != CV_SUCCESS) {
     return baum_i_sundials_fail_outside(&run->sundials, t);
   }
-  unload(problem, run->inside, q, v);
+  baum_i_sundials_unload(problem, run->inside, q, v);
   return BAUM_OK;
 }
 
@@ -245,7 +237,7 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
   if (status == BAUM_OK) {
     run->sundials.unfinished = false;
     state->t = t;
-    unload(problem, run->y, state->q, state->v);
+    baum_i_sundials_unload(problem, run->y, state->q, state->v);
   }
   return status;
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/sized.h"
 
 /* ---- checks ---- */
 
@@ -129,9 +130,7 @@ baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h,
   baum_amplification amplification;
   memset(&amplification, 0, sizeof amplification);
   baum_i_amplification(&integrator->method, alpha_h, beta2_h2, &amplification);
-  size_t size = caller_size < sizeof amplification ? caller_size : sizeof amplification;
-  amplification.struct_size = size;
-  memcpy(out, &amplification, size);
+  baum_i_give_sized(out, caller_size, &amplification, sizeof amplification);
   return BAUM_OK;
 }
 

@@ -269,4 +269,12 @@ void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, dou
   }
 }
 
+void baum_i_sundials_unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
+{
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *y = N_VGetArrayPointer(from);
+  memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
+  memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
+}
+
 #endif

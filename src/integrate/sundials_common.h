@@ -79,6 +79,9 @@ double baum_i_sundials_target(const baum_i_problem *problem, double t);
 /* Weights of q and v in error norms, 1 / tolerance; one after the other. */
 void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights);
 
+/* q and v, the first of a vector's numbers. */
+void baum_i_sundials_unload(const baum_i_problem *problem, N_Vector from, double *q, double *v);
+
 /* ---- 6.4 and 7 ---- */
 
 #if SUNDIALS_VERSION_MAJOR >= 7

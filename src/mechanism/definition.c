@@ -14,6 +14,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "base/sized.h"
 
 /* ---- checks ---- */
 
@@ -323,27 +324,23 @@ static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element 
 static baum_status get(const kind *k, const baum_i_element *element, void *out, size_t caller_size)
 {
   const baum_i_definition *definition = k->definition;
-  if (!out || caller_size < sizeof(size_t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL or its size is 0", definition->kind);
+  baum_status status = baum_i_check_sized(out, caller_size, definition->kind);
+  if (status != BAUM_OK) {
+    return status;
   }
   if (element->definition != definition) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", k->family,
                        element->index, element->name, element->definition->kind, definition->kind);
   }
-  size_t bytes = caller_size < definition->size ? caller_size : definition->size;
-  memcpy(out, element->def, bytes);
-  ((baum_i_def_head *)out)->struct_size = bytes;
+  baum_i_give_sized(out, caller_size, element->def, definition->size);
   return BAUM_OK;
 }
 
 void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
 {
-  if (!def || caller_size < sizeof(size_t)) {
-    return;
+  if (baum_i_takes_sized(def, caller_size)) {
+    baum_i_give_sized(def, caller_size, definition->defaults, definition->size);
   }
-  size_t bytes = caller_size < definition->size ? caller_size : definition->size;
-  memcpy(def, definition->defaults, bytes);
-  ((baum_i_def_head *)def)->struct_size = bytes;
 }
 
 /* ---- bodies ---- */

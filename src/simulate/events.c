@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sized.h"
 #include "mechanism/definition.h"
 #include "mechanism/joints/coordinate.h"
 
@@ -292,7 +293,7 @@ baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
                                   baum_event_record *out, size_t caller_size)
 {
   const char *call = "baum_simulation_event";
-  if (!simulation || !out || caller_size < sizeof(size_t)) {
+  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
                        simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
   }
@@ -302,8 +303,7 @@ baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld, those kept",
                        call, (long long)k, (long long)first, (long long)count - 1);
   }
-  baum_event_record record = simulation->events->records[k % BAUM_I_EVENT_RECORDS];
-  record.struct_size = caller_size < sizeof record ? caller_size : sizeof record;
-  memcpy(out, &record, record.struct_size);
+  const baum_event_record *record = &simulation->events->records[k % BAUM_I_EVENT_RECORDS];
+  baum_i_give_sized(out, caller_size, record, sizeof *record);
   return BAUM_OK;
 }

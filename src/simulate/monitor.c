@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "simulate/run.h"
 
 /* ---- warnings ---- */
@@ -273,7 +274,7 @@ static void tell_damping(const baum_simulation *run, baum_counters *c)
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                      size_t caller_size)
 {
-  if (!simulation || !out || caller_size < sizeof(size_t)) {
+  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_counters: %s",
                        simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
   }
@@ -292,7 +293,6 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   c->alpha = simulation->problem.alpha;
   c->beta = simulation->problem.beta;
   tell_damping(simulation, c);
-  c->struct_size = caller_size < sizeof *c ? caller_size : sizeof *c;
-  memcpy(out, c, c->struct_size);
+  baum_i_give_sized(out, caller_size, c, sizeof *c);
   return BAUM_OK;
 }

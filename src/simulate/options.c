@@ -7,14 +7,12 @@
 #include <string.h>
 
 #include "base/message.h"
+#include "base/sized.h"
 #include "integrate/integrator.h"
 
 void baum_simulation_options_init(baum_simulation_options *options, size_t caller_size)
 {
-  if (!options || caller_size < sizeof(size_t)) {
-    return;
-  }
-  baum_simulation_options defaults = {
+  const baum_simulation_options defaults = {
     .start_time = 0.0,
     .step = NAN,
     .rtol = NAN,
@@ -27,9 +25,9 @@ void baum_simulation_options_init(baum_simulation_options *options, size_t calle
     .tolerance_v = 1.0,
     .tolerance_lambda = INFINITY,
   };
-  size_t bytes = caller_size < sizeof defaults ? caller_size : sizeof defaults;
-  defaults.struct_size = bytes;
-  memcpy(options, &defaults, bytes);
+  if (baum_i_takes_sized(options, caller_size)) {
+    baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
+  }
 }
 
 static baum_status refuse(const char *field, const char *unit, double value, const char *must)

@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "base/sized.h"
+
+#include <string.h>
+
+#include "base/message.h"
+
+bool baum_i_takes_sized(const void *out, size_t caller_size)
+{
+  return out && caller_size >= sizeof(size_t);
+}
+
+baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call)
+{
+  if (!baum_i_takes_sized(out, caller_size)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL or its size is 0", call);
+  }
+  return BAUM_OK;
+}
+
+void baum_i_give_sized(void *out, size_t caller_size, const void *whole, size_t size)
+{
+  size_t bytes = caller_size < size ? caller_size : size;
+  memcpy(out, whole, bytes);
+  memcpy(out, &bytes, sizeof bytes);
+}

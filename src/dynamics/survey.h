@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reports on a frozen mechanism at a pose of their own finding, outside any run. */
+#ifndef BAUM_I_DYNAMICS_SURVEY_H
+#define BAUM_I_DYNAMICS_SURVEY_H
+
+#include "dynamics/dynamics.h"
+
+/* Where a report goes: the caller's struct, and a whole one to fill first. */
+typedef struct baum_i_survey_out {
+  const char *call; /* name of the public function, for messages */
+  void *out;
+  size_t caller_size;
+  void *whole;
+  size_t size;
+} baum_i_survey_out;
+
+/* Fills `whole`; q (nq) and v (nv) are memory, zeroed. */
+typedef baum_status baum_i_look(baum_workspace *w, double *q, double *v, void *whole);
+
+/* Look at the mechanism, and give the report if that went well; else nothing is written. */
+baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
+                          const baum_i_survey_out *to);
+
+#endif
