@@ -139,8 +139,17 @@ typedef enum model_parallelogram {
   MODEL_THIRD_BY_A_ROD /* the middle one held parallel by a massless rod of 1 m: 11 rows */
 } model_parallelogram;
 
-/* q = (x, y, angle) of first and last crank, coupler, middle crank. Cranks start at `angle` [rad] with
- * 2 rad/s. */
+typedef struct model_parallelogram_data {
+  model_parallelogram which;
+  double angle; /* [rad] of the cranks at start, which turn with 2 rad/s */
+  bool doubled; /* the pin of the last crank's tip once more, "pin again": two rows */
+  double aside; /* [m] by which that one is away from the other, on both of its bodies */
+  double gap;   /* [m] by which it is further along the crank than along the coupler */
+  const model_units *units; /* NULL: SI */
+} model_parallelogram_data;
+
+/* q = (x, y, angle) of first and last crank, coupler, middle crank. */
+baum_status model_parallelogram_build_of(const model_parallelogram_data *data, model *out);
 baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out);
 
 #endif

@@ -69,22 +69,42 @@ static void add_rod(builder *build, baum_body_id crank, baum_body_id coupler)
   build_joint(build, status, id);
 }
 
-baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out)
+/* Where the last crank's tip is pinned to the coupler, a second pin. */
+static void double_pin(builder *build, const model_parallelogram_data *data, baum_body_id crank,
+                       baum_body_id coupler)
 {
-  builder build = build_begin(out);
+  double c = cos(data->angle);
+  double s = sin(data->angle);
+  place on_crank = {crank, {0.5 + data->gap + data->aside * c, -data->aside * s}};
+  place on_coupler = {coupler, {1.0 + data->aside, 0.0}};
+  build_pin(build, "pin again", on_crank, on_coupler);
+}
+
+baum_status model_parallelogram_build_of(const model_parallelogram_data *data, model *out)
+{
+  builder build = build_begin_in(data->units, out);
   build_gravity(&build, 9.81);
-  baum_body_id first = add_crank(&build, "first crank", 0.0, angle);
-  baum_body_id last = add_crank(&build, "last crank", 2.0, angle);
-  baum_body_id coupler = add_coupler(&build, angle);
+  baum_body_id first = add_crank(&build, "first crank", 0.0, data->angle);
+  baum_body_id last = add_crank(&build, "last crank", 2.0, data->angle);
+  baum_body_id coupler = add_coupler(&build, data->angle);
   pin_tip(&build, first, coupler, -1.0);
   pin_tip(&build, last, coupler, 1.0);
-  if (which != MODEL_TWO_CRANKS) {
-    baum_body_id middle = add_crank(&build, "middle crank", 1.0, angle);
-    if (which == MODEL_THREE_CRANKS) {
+  if (data->which != MODEL_TWO_CRANKS) {
+    baum_body_id middle = add_crank(&build, "middle crank", 1.0, data->angle);
+    if (data->which == MODEL_THREE_CRANKS) {
       pin_tip(&build, middle, coupler, 0.0);
     } else {
       add_rod(&build, middle, coupler);
     }
   }
+  if (data->doubled) {
+    double_pin(&build, data, last, coupler);
+  }
   return build_finish(&build);
+}
+
+baum_status model_parallelogram_build(model_parallelogram which, double angle, model *out)
+{
+  const model_parallelogram_data data = {.which = which, .angle = angle};
+  return model_parallelogram_build_of(&data, out);
 }
