@@ -25,6 +25,11 @@ baum_status baum_i_fail(baum_status status, const char *format, ...)
   return status;
 }
 
+baum_status baum_fail(baum_status status, const char *given)
+{
+  return baum_i_fail(status, "%s", given ? given : baum_status_text(status));
+}
+
 baum_status baum_i_fail_memory(void)
 {
   return baum_i_fail(BAUM_ERR_MEMORY, "out of memory");

@@ -622,6 +622,7 @@ PROTOTYPES = {
     "baum_status_name": (c_char_p, [c_int]),
     "baum_status_text": (c_char_p, [c_int]),
     "baum_message": (c_char_p, []),
+    "baum_fail": (c_int, [c_int, c_char_p]),
     "baum_coordinates_def_init": (None, [POINTER(baum_coordinates_def), c_size_t]),
     "baum_mechanism_add_coordinates": (c_int, [
         c_void_p, POINTER(baum_coordinates_def), POINTER(baum_body_id),

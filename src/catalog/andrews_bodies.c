@@ -1,0 +1,186 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Andrews' squeezing mechanism as seven rigid bodies. Geometry, read off the equations of the
+ * test set:
+ *
+ *   K1 turns about O = (0, 0), angle beta.            E = rr (cos, sin) beta
+ *   K2 at E, angle beta + Theta.                      F = E - d (cos, sin)
+ *   K3 turns about B, angle gamma.                    F = B + ss (sin, -cos) gamma
+ *                                                     and the spring at (sd, -sc) to C
+ *   K5 turns about A, angle delta.                    G = A + zt (cos, sin) delta
+ *   K4 at G, angle Phi + delta.                       F = G + e (sin, -cos)
+ *   K7 turns about A, angle epsilon.                  H = A + u (sin, -cos) epsilon
+ *   K6 at H, angle Omega + epsilon.                   F = H + zf (cos, sin)
+ *
+ * Centres of mass from the mass matrix: K1 ra from O, K2 da from E towards F, K4 e - ea from G
+ * towards F, K6 zf - fa from H towards F, K3, K5, K7 at sqrt(sa^2 + sb^2), sqrt(ta^2 + tb^2),
+ * sqrt(ua^2 + ub^2) from their pivots; without gravity their directions do not matter.
+ */
+#include "catalog/andrews.h"
+#include "catalog/catalog.h"
+#include "catalog/data/andrews.h"
+#include "catalog/data/andrews_a03.h"
+
+enum { BETA, MOMENT, STIFFNESS, FREE_LENGTH, COUNT };
+
+/* Points below are in axes of the body, from its pivot (E, G, H for K2, K4, K6); centre[] is the
+ * centre of mass. */
+static const double CENTRE[7][2] = {
+  {ANDREWS_RA, 0},           {-ANDREWS_DA, 0},
+  {ANDREWS_SB, -ANDREWS_SA}, {0, -(ANDREWS_E - ANDREWS_EA)},
+  {ANDREWS_TA, ANDREWS_TB},  {ANDREWS_ZF - ANDREWS_FA, 0},
+  {ANDREWS_UA, -ANDREWS_UB},
+};
+
+/* Angle of body k, or its rate from rates. */
+static double turned(const double *angles, int k)
+{
+  static const int added[7][2] = {{0, -1}, {0, 1}, {2, -1}, {3, 4}, {4, -1}, {5, 6}, {6, -1}};
+  double angle = angles[added[k][0]];
+  return added[k][1] < 0 ? angle : angle + angles[added[k][1]];
+}
+
+/* The pivot of body k: at a fixed point, or at a point of the body that carries it. */
+static baum_i_mover find_pivot(const double *angles, const double *rates, int k)
+{
+  static const double *const fixed[7] = {ANDREWS_O, ANDREWS_O, ANDREWS_B, ANDREWS_A,
+                                         ANDREWS_A, ANDREWS_A, ANDREWS_A};
+  static const int carrier[7] = {-1, 0, -1, 4, -1, 6, -1};
+  static const double arm[7][2] = {
+    [1] = {ANDREWS_RR, 0}, [3] = {ANDREWS_ZT, 0}, [5] = {0, -ANDREWS_U}};
+  baum_i_mover at = {{fixed[k][0], fixed[k][1]}, {0.0, 0.0}};
+  if (carrier[k] >= 0) {
+    baum_i_mover_go(&at, turned(angles, carrier[k]), turned(rates, carrier[k]), arm[k][0],
+                    arm[k][1]);
+  }
+  return at;
+}
+
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
+{
+  (void)p;
+  double angle = turned(q, body);
+  double rate = turned(v, body);
+  baum_i_mover at = find_pivot(q, v, body);
+  baum_i_mover_go(&at, angle, rate, CENTRE[body][0], CENTRE[body][1]);
+  baum_i_mover_state(&at, angle, rate, body_q, body_v);
+}
+
+static void add_bodies(baum_i_parts *parts, const double *p, baum_body_id ids[7])
+{
+  static const char *const names[7] = {"K1", "K2", "K3", "K4", "K5", "K6", "K7"};
+  static const double rest[ANDREWS_ANGLES] = {0};
+  double angles[ANDREWS_ANGLES];
+  baum_i_andrews_pose(p[BETA], angles);
+  for (int k = 0; k < 7; k++) {
+    double q[3];
+    double v[3];
+    baum_planar_body_def def = baum_planar_body_def_default();
+    def.name = names[k];
+    def.mass = ANDREWS_MASS[k];
+    def.inertia = ANDREWS_INERTIA[k];
+    state(p, angles, rest, k, q, v);
+    ids[k] = baum_i_parts_body(parts, &def, q, v);
+  }
+}
+
+/* The point of body k that is (x, y) from its pivot. */
+static baum_i_spot on(const baum_body_id ids[7], int k, double x, double y)
+{
+  return (baum_i_spot){ids[k], {x - CENTRE[k][0], y - CENTRE[k][1]}};
+}
+
+static void add_pins(baum_i_parts *parts, const baum_body_id k[7])
+{
+  baum_i_spot ground_o = {BAUM_GROUND, {ANDREWS_O[0], ANDREWS_O[1]}};
+  baum_i_spot ground_a = {BAUM_GROUND, {ANDREWS_A[0], ANDREWS_A[1]}};
+  baum_i_spot ground_b = {BAUM_GROUND, {ANDREWS_B[0], ANDREWS_B[1]}};
+  baum_i_spot f = on(k, 1, -ANDREWS_D, 0);
+  baum_i_parts_pin(parts, "O", ground_o, on(k, 0, 0, 0));
+  baum_i_parts_pin(parts, "E", on(k, 0, ANDREWS_RR, 0), on(k, 1, 0, 0));
+  baum_i_parts_pin(parts, "B", ground_b, on(k, 2, 0, 0));
+  baum_i_parts_pin(parts, "A5", ground_a, on(k, 4, 0, 0));
+  baum_i_parts_pin(parts, "A7", ground_a, on(k, 6, 0, 0));
+  baum_i_parts_pin(parts, "G", on(k, 4, ANDREWS_ZT, 0), on(k, 3, 0, 0));
+  baum_i_parts_pin(parts, "H", on(k, 6, 0, -ANDREWS_U), on(k, 5, 0, 0));
+  baum_i_parts_pin(parts, "F3", f, on(k, 2, 0, -ANDREWS_SS));
+  baum_i_parts_pin(parts, "F4", f, on(k, 3, 0, -ANDREWS_E));
+  baum_i_parts_pin(parts, "F6", f, on(k, 5, ANDREWS_ZF, 0));
+}
+
+static void add_forces(baum_i_parts *parts, const double *p, const baum_body_id k[7])
+{
+  baum_planar_spring_def spring = baum_planar_spring_def_default();
+  baum_i_spot end = on(k, 2, ANDREWS_SD, -ANDREWS_SC);
+  spring.name = "spring";
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = end.body;
+  for (int i = 0; i < 2; i++) {
+    spring.point_a[i] = ANDREWS_C[i];
+    spring.point_b[i] = end.point[i];
+  }
+  spring.stiffness = p[STIFFNESS];
+  spring.free_length = p[FREE_LENGTH];
+  baum_i_parts_spring(parts, &spring);
+  baum_planar_load_def motor = baum_planar_load_def_default();
+  motor.name = "motor";
+  motor.body = k[0];
+  motor.torque = p[MOMENT];
+  baum_i_parts_load(parts, &motor);
+}
+
+static void build(baum_i_parts *parts, const double *p)
+{
+  baum_body_id ids[7];
+  baum_i_parts_gravity(parts, 0.0);
+  add_bodies(parts, p, ids);
+  add_pins(parts, ids);
+  add_forces(parts, p, ids);
+}
+
+static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
+  [BETA] = {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_CATALOG_ANY},
+  [MOMENT] = {"moment", "N m", "of the motor on K1", BAUM_I_CATALOG_ANY},
+  [STIFFNESS] = {"stiffness", "N/m", "of the spring on K3", BAUM_I_CATALOG_POSITIVE},
+  [FREE_LENGTH] = {"free_length", "m", "of the spring", BAUM_I_CATALOG_POSITIVE},
+};
+
+#define BODIES                                                                        \
+  .parameter_count = COUNT, .parameters = PARAMETERS, .smooth = true, .build = build, \
+  .units = "mmr", .bodies = 7, .state = state
+
+const baum_i_catalog_mechanism baum_i_andrews_bodies = {
+  BODIES,
+  .name = "andrews_bodies",
+  .title = "Andrews' squeezing mechanism as 7 rigid bodies",
+  .source = ANDREWS_SOURCE,
+  .provenance = ANDREWS_PROVENANCE,
+  .note = "angular velocities up to 2500 rad/s within 0.03 s",
+  .defaults = (const double[COUNT]){ANDREWS_START, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
+  .end = 0.03,
+  .digits_q = 15,
+  .digits_v = 15,
+  .samples = ANDREWS_SAMPLES,
+  .t = ANDREWS_T,
+  .columns = ANDREWS_WIDTH,
+  .q = ANDREWS_Q[0],
+  .v = ANDREWS_V[0],
+};
+
+const baum_i_catalog_mechanism baum_i_andrews_a03 = {
+  BODIES,
+  .name = "andrews_a03",
+  .title = "Andrews' mechanism from beta = -0.062 rad, twice as long, as 7 rigid bodies",
+  .source = "IFToMM and A Coruna library of benchmarks, A03, with the data of the Bari test set",
+  .provenance = "extrapolation in 160 bits, two tolerances agree to 15.5 digits",
+  .note = "published as a plot only",
+  .defaults = (const double[COUNT]){-0.062, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
+  .end = 0.05,
+  .digits_q = 14,
+  .digits_v = 14,
+  .samples = ANDREWS_A03_SAMPLES,
+  .t = ANDREWS_A03_T,
+  .columns = ANDREWS_A03_WIDTH,
+  .q = ANDREWS_A03_Q[0],
+  .v = ANDREWS_A03_V[0],
+};

@@ -1,0 +1,217 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What there is: entries, parameters, mechanisms. */
+#include "catalog/catalog.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+static const baum_i_catalog_mechanism *const MECHANISMS[] = {
+  &baum_i_pendulum_a01,
+  &baum_i_pendulum_sundials,
+  &baum_i_pendulum_mebdf,
+  &baum_i_slider_crank,
+  &baum_i_slider_crank_eccentric,
+  &baum_i_slider_crank_driven,
+  &baum_i_slider_crank_simeon,
+  &baum_i_n_four_bar,
+  &baum_i_andrews_angles,
+  &baum_i_andrews_bodies,
+  &baum_i_andrews_a03,
+};
+
+enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], SENTENCE = 1024 };
+
+baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)
+{
+  char text[SENTENCE];
+  va_list arguments;
+  va_start(arguments, format);
+  (void)vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return baum_fail(status, text);
+}
+
+/* ", " and a name, cut where the list is full. */
+static void list(char text[SENTENCE], const char *name)
+{
+  size_t used = strlen(text);
+  (void)snprintf(text + used, SENTENCE - used, "%s%s", used > 0 ? ", " : "", name);
+}
+
+/* ---- entries ---- */
+
+baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size)
+{
+  if (!out || caller_size < sizeof(size_t)) {
+    return baum_fail(BAUM_ERR_ARGUMENT, "catalogue: out is NULL or its size is 0");
+  }
+  size_t bytes = caller_size < size ? caller_size : size;
+  memcpy(out, whole, bytes);
+  memcpy(out, &bytes, sizeof bytes);
+  return BAUM_OK;
+}
+
+int32_t baum_catalog_count(void)
+{
+  return COUNT;
+}
+
+static baum_status give_entry(const baum_i_catalog_mechanism *of, baum_catalog_entry *out,
+                              size_t caller_size)
+{
+  const baum_catalog_entry entry = {.name = of->name,
+                                    .title = of->title,
+                                    .source = of->source,
+                                    .provenance = of->provenance,
+                                    .note = of->note,
+                                    .parameter_count = of->parameter_count,
+                                    .sample_count = of->samples,
+                                    .end_time = of->end,
+                                    .digits_q = of->samples > 0 ? of->digits_q : (double)NAN,
+                                    .digits_v = of->samples > 0 ? of->digits_v : (double)NAN,
+                                    .exact = of->solution != NULL,
+                                    .smooth = of->smooth};
+  return baum_i_catalog_give(out, caller_size, &entry, sizeof entry);
+}
+
+baum_status baum_catalog_entry_at(int32_t k, baum_catalog_entry *out, size_t caller_size)
+{
+  if (k < 0 || k >= COUNT) {
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: k is %d, there are 0 to %d", (int)k,
+                               COUNT - 1);
+  }
+  return give_entry(MECHANISMS[k], out, caller_size);
+}
+
+const baum_i_catalog_mechanism *baum_i_catalog_find(const char *name)
+{
+  char names[SENTENCE] = "";
+  for (int k = 0; k < COUNT; k++) {
+    if (name && strcmp(name, MECHANISMS[k]->name) == 0) {
+      return MECHANISMS[k];
+    }
+    list(names, MECHANISMS[k]->name);
+  }
+  (void)baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: there is no \"%.80s\"; there are %.800s",
+                            name ? name : "NULL", names);
+  return NULL;
+}
+
+baum_status baum_catalog_find(const char *name, baum_catalog_entry *out, size_t caller_size)
+{
+  const baum_i_catalog_mechanism *found = baum_i_catalog_find(name);
+  return found ? give_entry(found, out, caller_size) : BAUM_ERR_ARGUMENT;
+}
+
+/* ---- parameters ---- */
+
+baum_status baum_catalog_parameter_at(const char *name, int32_t k, baum_catalog_parameter *out,
+                                      size_t caller_size)
+{
+  const baum_i_catalog_mechanism *of = baum_i_catalog_find(name);
+  if (!of) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  if (k < 0 || k >= of->parameter_count) {
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: k is %d, \"%s\" has %d parameters",
+                               (int)k, of->name, of->parameter_count);
+  }
+  const baum_i_catalog_parameter *parameter = &of->parameters[k];
+  const baum_catalog_parameter whole = {.name = parameter->name,
+                                        .unit = parameter->unit,
+                                        .meaning = parameter->meaning,
+                                        .value = of->defaults[k],
+                                        .positive = parameter->range != BAUM_I_CATALOG_ANY,
+                                        .whole = parameter->range == BAUM_I_CATALOG_WHOLE};
+  return baum_i_catalog_give(out, caller_size, &whole, sizeof whole);
+}
+
+static int find_parameter(const baum_i_catalog_mechanism *of, const char *name)
+{
+  char names[SENTENCE] = "";
+  for (int k = 0; k < of->parameter_count; k++) {
+    if (name && strcmp(name, of->parameters[k].name) == 0) {
+      return k;
+    }
+    list(names, of->parameters[k].name);
+  }
+  (void)baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
+                            "catalogue: \"%s\" has no parameter \"%.80s\"; there are: %.800s",
+                            of->name, name ? name : "NULL", names);
+  return -1;
+}
+
+static baum_status set(const baum_i_catalog_mechanism *of, const baum_catalog_setting *setting,
+                       double *p)
+{
+  int k = find_parameter(of, setting->name);
+  if (k < 0) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  const baum_i_catalog_parameter *parameter = &of->parameters[k];
+  double value = setting->value;
+  const char *wrong = NULL;
+  if (!isfinite(value)) {
+    wrong = "finite";
+  } else if (parameter->range != BAUM_I_CATALOG_ANY && value <= 0.0) {
+    wrong = "positive";
+  } else if (parameter->range == BAUM_I_CATALOG_WHOLE && (value != floor(value) || value > 1e6)) {
+    wrong = "a whole number up to 1e6";
+  }
+  if (wrong) {
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: \"%s\": %s is %g %s, must be %s",
+                               of->name, parameter->name, value, parameter->unit, wrong);
+  }
+  p[k] = value;
+  return BAUM_OK;
+}
+
+baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
+                                   const baum_i_catalog_mechanism **out,
+                                   double p[BAUM_I_CATALOG_PARAMETERS])
+{
+  if (!choice) {
+    return baum_fail(BAUM_ERR_ARGUMENT, "catalogue: the choice is NULL");
+  }
+  *out = baum_i_catalog_find(choice->name);
+  if (!*out) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  if (choice->setting_count < 0 || (choice->setting_count > 0 && !choice->settings)) {
+    return baum_i_catalog_fail(
+      BAUM_ERR_ARGUMENT, "catalogue: \"%s\": settings %s, their number is %d", (*out)->name,
+      choice->settings ? "are given" : "is NULL", (int)choice->setting_count);
+  }
+  memcpy(p, (*out)->defaults, (size_t)(*out)->parameter_count * sizeof *p);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < choice->setting_count && status == BAUM_OK; k++) {
+    status = set(*out, &choice->settings[k], p);
+  }
+  return status;
+}
+
+/* ---- mechanisms ---- */
+
+int baum_i_catalog_bodies(const baum_i_catalog_mechanism *mechanism, const double *p)
+{
+  return mechanism->count ? mechanism->count(p) : mechanism->bodies;
+}
+
+baum_status baum_catalog_build(const baum_catalog_choice *choice, baum_mechanism **out)
+{
+  if (!out) {
+    return baum_fail(BAUM_ERR_ARGUMENT, "baum_catalog_build: out is NULL");
+  }
+  *out = NULL;
+  const baum_i_catalog_mechanism *which = NULL;
+  double p[BAUM_I_CATALOG_PARAMETERS];
+  baum_status status = baum_i_catalog_resolve(choice, &which, p);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_parts parts = baum_i_parts_begin();
+  which->build(&parts, p);
+  return baum_i_parts_finish(&parts, out);
+}

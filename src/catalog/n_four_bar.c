@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* N-four-bar: N + 1 cranks from (k l, 0), which carry N couplers from crank to crank, all uniform rods of length l. While all
+ * cranks are parallel at angle th, with masses a and b of cranks and couplers,
+ *
+ *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
+ *
+ * the pendulum equation for th + pi / 2. Where they lie flat each window may go over into crossed cranks: J loses N rows.
+ */
+#include "catalog/catalog.h"
+
+#include <math.h>
+#include <stdio.h>
+
+#include "catalog/swing.h"
+
+#define QUARTER 1.5707963267948966 /* of a turn */
+
+enum { WINDOWS, ANGLE, RATE, LENGTH, CRANK_MASS, COUPLER_MASS, GRAVITY, COUNT };
+
+static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
+  [WINDOWS] = {"windows", "-", "N, of two cranks and a coupler each", BAUM_I_CATALOG_WHOLE},
+  [ANGLE] = {"angle", "rad", "of all cranks at start; flat, which is singular, at 0",
+             BAUM_I_CATALOG_ANY},
+  [RATE] = {"rate", "rad/s", "of all cranks at start", BAUM_I_CATALOG_ANY},
+  [LENGTH] = {"length", "m", "of all rods", BAUM_I_CATALOG_POSITIVE},
+  [CRANK_MASS] = {"crank_mass", "kg", "of each crank", BAUM_I_CATALOG_POSITIVE},
+  [COUPLER_MASS] = {"coupler_mass", "kg", "of each coupler", BAUM_I_CATALOG_POSITIVE},
+  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
+};
+
+static const double DEFAULTS[COUNT] = {2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81};
+
+static int count(const double *p)
+{
+  return 2 * (int)p[WINDOWS] + 1;
+}
+
+static void solution(const double *p, double t, double *q, double *v)
+{
+  double n = p[WINDOWS];
+  double inertia = ((n + 1) * p[CRANK_MASS] / 3 + n * p[COUPLER_MASS]) * p[LENGTH];
+  double moment = ((n + 1) * p[CRANK_MASS] / 2 + n * p[COUPLER_MASS]) * p[GRAVITY];
+  q[0] = p[ANGLE] + QUARTER;
+  v[0] = p[RATE];
+  baum_i_swing(moment / inertia, t, q, v);
+  q[0] -= QUARTER;
+}
+
+/* Crank 0, coupler 0, crank 1, ..., crank N. */
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
+{
+  double half = p[LENGTH] / 2;
+  baum_i_mover at = {{body / 2 * p[LENGTH], 0.0}, {0.0, 0.0}};
+  if (body % 2 == 0) {
+    baum_i_mover_go(&at, q[0], v[0], half, 0.0);
+    baum_i_mover_state(&at, q[0], v[0], body_q, body_v);
+  } else {
+    baum_i_mover_go(&at, q[0], v[0], p[LENGTH], 0.0);
+    at.r[0] += half;
+    baum_i_mover_state(&at, 0.0, 0.0, body_q, body_v);
+  }
+}
+
+static baum_body_id add_rod(baum_i_parts *parts, const double *p, int k)
+{
+  char name[32];
+  double q[3];
+  double v[3];
+  baum_planar_body_def def = baum_planar_body_def_default();
+  (void)snprintf(name, sizeof name, "%s %d", k % 2 == 0 ? "crank" : "coupler", k / 2);
+  def.name = name;
+  def.mass = p[k % 2 == 0 ? CRANK_MASS : COUPLER_MASS];
+  def.inertia = def.mass * p[LENGTH] * p[LENGTH] / 12.0;
+  state(p, &p[ANGLE], &p[RATE], k, q, v);
+  return baum_i_parts_body(parts, &def, q, v);
+}
+
+static void pin_to_ground(baum_i_parts *parts, const double *p, baum_body_id crank, int k)
+{
+  baum_i_parts_pin(parts, NULL, (baum_i_spot){BAUM_GROUND, {k * p[LENGTH], 0.0}},
+                   (baum_i_spot){crank, {-p[LENGTH] / 2, 0.0}});
+}
+
+static void pin_tip(baum_i_parts *parts, const double *p, baum_body_id crank, baum_body_id coupler,
+                    double end)
+{
+  baum_i_parts_pin(parts, NULL, (baum_i_spot){crank, {p[LENGTH] / 2, 0.0}},
+                   (baum_i_spot){coupler, {end * p[LENGTH] / 2, 0.0}});
+}
+
+static void build(baum_i_parts *parts, const double *p)
+{
+  baum_i_parts_gravity(parts, p[GRAVITY]);
+  baum_body_id crank = add_rod(parts, p, 0);
+  pin_to_ground(parts, p, crank, 0);
+  for (int k = 1; k < count(p) && parts->status == BAUM_OK; k += 2) {
+    baum_body_id coupler = add_rod(parts, p, k);
+    pin_tip(parts, p, crank, coupler, -1.0);
+    crank = add_rod(parts, p, k + 1);
+    pin_to_ground(parts, p, crank, k / 2 + 1);
+    pin_tip(parts, p, crank, coupler, 1.0);
+  }
+}
+
+const baum_i_catalog_mechanism baum_i_n_four_bar = {
+  .name = "n_four_bar",
+  .title = "N-four-bar of uniform rods, which pass flat positions, where motions branch",
+  .source = "IFToMM and A Coruna library of benchmarks, A02; its table is that of N = 40",
+  .provenance =
+    "the equation of parallel cranks, which is that of a pendulum, by its Taylor series; "
+    "agrees to 13 digits with extrapolation in 160 bits for N = 1, 2, 40",
+  .note = "J loses N rows twice a turn; the reference is the branch of parallel cranks",
+  .parameter_count = COUNT,
+  .parameters = PARAMETERS,
+  .defaults = DEFAULTS,
+  .end = 10.0,
+  .digits_q = 12,
+  .digits_v = 12,
+  .build = build,
+  .units = "mmr",
+  .count = count,
+  .samples = 21,
+  .columns = 1,
+  .solution = solution,
+  .state = state,
+};

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A point on a circle: a particle on a massless rod, and in the test problem of the MEBDF codes a particle and the function
+ * (x^2 + y^2 - 1) / 2, whose multiplier is theirs. For the angle a from below
+ *
+ *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
+ */
+#include "catalog/catalog.h"
+
+#include <math.h>
+
+#include "catalog/swing.h"
+
+#define LEVEL 1.5707963267948966 /* a quarter of a turn */
+
+enum { GRAVITY, ANGLE, SPEED, MASS, COUNT_ON_CIRCLE, LENGTH = COUNT_ON_CIRCLE, COUNT };
+
+static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
+  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
+  [ANGLE] = {"angle", "rad", "of the rod at start, from below", BAUM_I_CATALOG_ANY},
+  [SPEED] = {"speed", "m/s", "of the point at start, counterclockwise", BAUM_I_CATALOG_ANY},
+  [MASS] = {"mass", "kg", "of the point", BAUM_I_CATALOG_POSITIVE},
+  [LENGTH] = {"length", "m", "of the rod", BAUM_I_CATALOG_POSITIVE},
+};
+
+/* ---- motion ---- */
+
+static void solve(const double *p, double length, double t, double *q, double *v)
+{
+  q[0] = p[ANGLE];
+  v[0] = p[SPEED] / length;
+  baum_i_swing(p[GRAVITY] / length, t, q, v);
+}
+
+static void place(double length, const double *q, const double *v, double *body_q, double *body_v)
+{
+  body_q[0] = length * sin(q[0]);
+  body_q[1] = -length * cos(q[0]);
+  body_v[0] = length * cos(q[0]) * v[0];
+  body_v[1] = length * sin(q[0]) * v[0];
+}
+
+static void rod_solution(const double *p, double t, double *q, double *v)
+{
+  solve(p, p[LENGTH], t, q, v);
+}
+
+static void circle_solution(const double *p, double t, double *q, double *v)
+{
+  solve(p, 1.0, t, q, v);
+}
+
+static void rod_state(const double *p, const double *q, const double *v, int body, double *body_q,
+                      double *body_v)
+{
+  (void)body;
+  place(p[LENGTH], q, v, body_q, body_v);
+}
+
+static void circle_state(const double *p, const double *q, const double *v, int body,
+                         double *body_q, double *body_v)
+{
+  (void)p;
+  (void)body;
+  place(1.0, q, v, body_q, body_v);
+}
+
+/* ---- mechanisms ---- */
+
+static baum_body_id add_bob(baum_i_parts *parts, const double *p, double length)
+{
+  double rate = p[SPEED] / length;
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  bob.name = "bob";
+  bob.mass = p[MASS];
+  place(length, &p[ANGLE], &rate, bob.position, bob.velocity);
+  baum_i_parts_gravity(parts, p[GRAVITY]);
+  return baum_i_parts_particle(parts, &bob);
+}
+
+static void build_on_rod(baum_i_parts *parts, const double *p)
+{
+  baum_i_spot bob = {.body = add_bob(parts, p, p[LENGTH])};
+  baum_i_parts_rod(parts, "rod", (baum_i_spot){.body = BAUM_GROUND}, bob, p[LENGTH]);
+}
+
+static int phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = (q[0] * q[0] + q[1] * q[1] - 1.0) / 2;
+  return 0;
+}
+
+static int jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0];
+  out[1] = q[1];
+  return 0;
+}
+
+static int gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = -v[0] * v[0] - v[1] * v[1];
+  return 0;
+}
+
+static void build_on_circle(baum_i_parts *parts, const double *p)
+{
+  baum_body_id bob = add_bob(parts, p, 1.0);
+  baum_user_constraint_def circle = baum_user_constraint_def_default();
+  circle.name = "circle";
+  circle.bodies = &bob;
+  circle.body_count = 1;
+  circle.row_count = 1;
+  circle.phi = phi;
+  circle.jacobian = jacobian;
+  circle.gamma = gamma;
+  baum_i_parts_constraint(parts, &circle);
+}
+
+/* ---- entries ---- */
+
+#define BY_SERIES                                                                              \
+  "the pendulum equation by its Taylor series, any parameters and times; agrees to 13 digits " \
+  "with extrapolation in 160 bits"
+
+#define ON_ROD                                                                            \
+  .parameter_count = COUNT, .parameters = PARAMETERS, .build = build_on_rod,              \
+  .provenance = BY_SERIES, .digits_q = 13, .digits_v = 13, .smooth = true, .units = "mm", \
+  .bodies = 1, .columns = 1, .solution = rod_solution, .state = rod_state
+
+const baum_i_catalog_mechanism baum_i_pendulum_a01 = {
+  ON_ROD,
+  .name = "pendulum",
+  .title = "simple pendulum, from level at the left",
+  .source = "IFToMM and A Coruna library of benchmarks, A01",
+  .note = "",
+  .defaults = (const double[COUNT]){9.81, -LEVEL, 0.0, 1.0, 1.0},
+  .end = 10.0,
+  .samples = 21,
+};
+
+const baum_i_catalog_mechanism baum_i_pendulum_sundials = {
+  ON_ROD,
+  .name = "pendulum_sundials",
+  .title = "simple pendulum with a period of exactly 2 s, from level at the right",
+  .source = "LLNL/sundials, examples/cvode/serial/cvPendulum_dns.c",
+  .note = "",
+  .defaults = (const double[COUNT]){13.750371636040745, LEVEL, 0.0, 1.0, 1.0},
+  .end = 30.0,
+  .samples = 41, /* every 0.75 s: not always at the ends of the swing */
+};
+
+const baum_i_catalog_mechanism baum_i_pendulum_mebdf = {
+  .name = "pendulum_mebdf",
+  .title = "simple pendulum of 1 m by functions of the user: test problem of the MEBDF codes",
+  .source = "J. Cash, MEBDFDAE, pendul3.f (as kept in fons/JavaOdeInt)",
+  .provenance = BY_SERIES ". The published values at 1 s have 10 digits",
+  .note = "",
+  .parameter_count = COUNT_ON_CIRCLE,
+  .parameters = PARAMETERS,
+  .defaults = (const double[COUNT_ON_CIRCLE]){1.0, LEVEL, 1.0, 1.0},
+  .end = 1.0,
+  .digits_q = 13,
+  .digits_v = 13,
+  .smooth = true,
+  .build = build_on_circle,
+  .units = "mm",
+  .bodies = 1,
+  .samples = 11,
+  .columns = 1,
+  .solution = circle_solution,
+  .state = circle_state,
+};

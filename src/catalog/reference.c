@@ -1,0 +1,287 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is known of the motions, and how far others are from it. */
+#include "catalog/catalog.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A mechanism, its parameters, and a sample of its reference. */
+typedef struct sample {
+  const baum_i_catalog_mechanism *of;
+  double p[BAUM_I_CATALOG_PARAMETERS];
+  double q[BAUM_I_CATALOG_COLUMNS];
+  double v[BAUM_I_CATALOG_COLUMNS];
+} sample;
+
+/* ---- samples ---- */
+
+static double time_of(const baum_i_catalog_mechanism *of, int k)
+{
+  return of->t ? of->t[k] : k * of->end / (of->samples - 1);
+}
+
+static baum_status check_known(const baum_i_catalog_mechanism *of)
+{
+  return of->samples > 0 ? BAUM_OK
+                         : baum_i_catalog_fail(BAUM_ERR_UNSUPPORTED,
+                                               "catalogue: \"%s\" has no reference", of->name);
+}
+
+baum_status baum_catalog_times(const char *name, double *times)
+{
+  const baum_i_catalog_mechanism *of = baum_i_catalog_find(name);
+  if (!of) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  if (!times) {
+    return baum_fail(BAUM_ERR_ARGUMENT, "baum_catalog_times: times is NULL");
+  }
+  baum_status status = check_known(of);
+  for (int k = 0; k < of->samples && status == BAUM_OK; k++) {
+    times[k] = time_of(of, k);
+  }
+  return status;
+}
+
+/* Stored samples hold for the parameters that they were made with. */
+static baum_status check_parameters(const sample *at)
+{
+  const baum_i_catalog_mechanism *of = at->of;
+  for (int k = 0; !of->solution && k < of->parameter_count; k++) {
+    if (at->p[k] != of->defaults[k]) {
+      return baum_i_catalog_fail(
+        BAUM_ERR_UNSUPPORTED,
+        "catalogue: the reference of \"%s\" is for %s = %.17g %s, it is not known for %.17g",
+        of->name, of->parameters[k].name, of->defaults[k], of->parameters[k].unit, at->p[k]);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status resolve(const baum_catalog_choice *choice, sample *at)
+{
+  baum_status status = baum_i_catalog_resolve(choice, &at->of, at->p);
+  if (status == BAUM_OK) {
+    status = check_known(at->of);
+  }
+  return status == BAUM_OK ? check_parameters(at) : status;
+}
+
+static baum_status find_sample(sample *at, double t)
+{
+  const baum_i_catalog_mechanism *of = at->of;
+  if (!isfinite(t)) {
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: t is %g s, must be finite", t);
+  }
+  if (of->solution) {
+    of->solution(at->p, t, at->q, at->v);
+    return BAUM_OK;
+  }
+  for (int k = 0; k < of->samples; k++) {
+    if (of->t[k] == t) {
+      size_t first = (size_t)k * (size_t)of->columns;
+      memcpy(at->q, of->q + first, (size_t)of->columns * sizeof *of->q);
+      memcpy(at->v, of->v + first, (size_t)of->columns * sizeof *of->v);
+      return BAUM_OK;
+    }
+  }
+  return baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
+                             "catalogue: the reference of \"%s\" has no sample at t = %.17g s; "
+                             "baum_catalog_times() gives those it has",
+                             of->name, t);
+}
+
+static int width(const baum_i_catalog_mechanism *of)
+{
+  return (int)strlen(of->units);
+}
+
+static void state_of(const sample *at, int body, double *q, double *v)
+{
+  if (at->of->state) {
+    at->of->state(at->p, at->q, at->v, body, q, v);
+    return;
+  }
+  int count = width(at->of);
+  memcpy(q, at->q + body * count, (size_t)count * sizeof *q);
+  memcpy(v, at->v + body * count, (size_t)count * sizeof *v);
+}
+
+/* Formulas may have no value, as for a driven crank that its rod is too short for. */
+static baum_status check_finite(const sample *at, double t)
+{
+  double q[BAUM_I_CATALOG_WIDTH];
+  double v[BAUM_I_CATALOG_WIDTH];
+  for (int body = 0; body < baum_i_catalog_bodies(at->of, at->p); body++) {
+    state_of(at, body, q, v);
+    for (int k = 0; k < width(at->of); k++) {
+      if (!isfinite(q[k]) || !isfinite(v[k])) {
+        return baum_i_catalog_fail(BAUM_ERR_UNSUPPORTED,
+                                   "catalogue: with these parameters \"%s\" has no reference at "
+                                   "t = %g s",
+                                   at->of->name, t);
+      }
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status look_up(sample *at, double t)
+{
+  baum_status status = find_sample(at, t);
+  return status == BAUM_OK ? check_finite(at, t) : status;
+}
+
+baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, double *q,
+                                   double *v)
+{
+  sample at;
+  baum_status status = resolve(choice, &at);
+  if (status == BAUM_OK) {
+    status = look_up(&at, t);
+  }
+  for (int body = 0; status == BAUM_OK && body < baum_i_catalog_bodies(at.of, at.p); body++) {
+    double body_q[BAUM_I_CATALOG_WIDTH];
+    double body_v[BAUM_I_CATALOG_WIDTH];
+    int count = width(at.of);
+    state_of(&at, body, body_q, body_v);
+    if (q) {
+      memcpy(q + body * count, body_q, (size_t)count * sizeof *q);
+    }
+    if (v) {
+      memcpy(v + body * count, body_v, (size_t)count * sizeof *v);
+    }
+  }
+  return status;
+}
+
+/* ---- errors ---- */
+
+/* Largest over the coordinates of a state: differences and sizes by the scales, and what the last trusted digits mean. */
+typedef struct measure {
+  double q;
+  double v;
+  double size_v;
+  double floor_q;
+  double floor_v;
+} measure;
+
+/* The larger one; NaN, once there, stays. */
+static double most(double a, double b)
+{
+  return b > a || isnan(b) ? b : a;
+}
+
+/* q and v: all coordinates, either may be NULL. */
+static measure measure_state(const sample *at, double scale, const double *q, const double *v)
+{
+  measure out = {0};
+  const baum_i_catalog_mechanism *of = at->of;
+  double step_q = pow(10.0, -of->digits_q);
+  double step_v = pow(10.0, -of->digits_v);
+  int count = width(of);
+  for (int body = 0; body < baum_i_catalog_bodies(of, at->p); body++) {
+    double body_q[BAUM_I_CATALOG_WIDTH];
+    double body_v[BAUM_I_CATALOG_WIDTH];
+    state_of(at, body, body_q, body_v);
+    for (int k = 0; k < count; k++) {
+      double unit = of->units[k] == 'm' ? scale : 1.0;
+      int column = body * count + k;
+      out.q = most(out.q, q ? fabs(q[column] - body_q[k]) / unit : (double)NAN);
+      out.v = most(out.v, v ? fabs(v[column] - body_v[k]) / unit : (double)NAN);
+      out.size_v = most(out.size_v, fabs(body_v[k]) / unit);
+      out.floor_q = most(out.floor_q, step_q * fmax(1.0, fabs(body_q[k])) / unit);
+      out.floor_v = most(out.floor_v, step_v * fmax(1.0, fabs(body_v[k])) / unit);
+    }
+  }
+  return out;
+}
+
+/* Over all samples: the size of velocities that their errors are measured by, and the floors. */
+static baum_status measure_reference(sample *at, double scale, measure *out)
+{
+  baum_status status = BAUM_OK;
+  *out = (measure){0};
+  for (int k = 0; k < at->of->samples && status == BAUM_OK; k++) {
+    double t = time_of(at->of, k);
+    status = look_up(at, t);
+    if (status == BAUM_OK) {
+      measure one = measure_state(at, scale, NULL, NULL);
+      out->size_v = most(out->size_v, one.size_v);
+      out->floor_q = most(out->floor_q, one.floor_q);
+      out->floor_v = most(out->floor_v, one.floor_v);
+    }
+  }
+  /* What never moves is measured by 1 m/s of 1 m, and 1 rad/s. */
+  out->size_v = out->size_v > 0.0 ? out->size_v : 1.0;
+  return status;
+}
+
+static void keep_worst(double error, double t, double *worst, double *when)
+{
+  if (error > *worst || (isnan(error) && !isnan(*worst)) || isnan(*when)) {
+    *worst = error;
+    *when = t;
+  }
+}
+
+static baum_status check_sizes(const sample *at, const baum_mechanism *mechanism, int32_t *nq)
+{
+  baum_status status = baum_mechanism_sizes(mechanism, nq, NULL, NULL);
+  int wanted = baum_i_catalog_bodies(at->of, at->p) * width(at->of);
+  if (status == BAUM_OK && *nq != wanted) {
+    status = baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
+                                 "catalogue: the mechanism has %d coordinates, \"%s\" has %d",
+                                 (int)*nq, at->of->name, wanted);
+  }
+  return status;
+}
+
+static baum_status compare_all(sample *at, double scale, const double *times, int64_t n,
+                               const double *q, const double *v, baum_catalog_error *error)
+{
+  measure whole;
+  size_t nq = (size_t)baum_i_catalog_bodies(at->of, at->p) * (size_t)width(at->of);
+  baum_status status = measure_reference(at, scale, &whole);
+  for (int64_t i = 0; i < n && status == BAUM_OK; i++) {
+    status = look_up(at, times[i]);
+    if (status == BAUM_OK) {
+      size_t first = (size_t)i * nq;
+      measure one = measure_state(at, scale, q + first, v ? v + first : NULL);
+      error->q_final = one.q;
+      error->v_final = one.v / whole.size_v;
+      keep_worst(error->q_final, times[i], &error->q, &error->q_time);
+      keep_worst(error->v_final, times[i], &error->v, &error->v_time);
+    }
+  }
+  error->q_floor = whole.floor_q;
+  error->v_floor = whole.floor_v / whole.size_v;
+  return status;
+}
+
+baum_status baum_catalog_compare(const baum_catalog_choice *choice, const baum_mechanism *mechanism,
+                                 const double *times, int64_t n, const double *q, const double *v,
+                                 baum_catalog_error *out, size_t caller_size)
+{
+  sample at;
+  int32_t nq = 0;
+  double scale = (double)NAN;
+  baum_catalog_error error = {.q_time = (double)NAN, .v_time = (double)NAN};
+  if (!times || !q || n <= 0) {
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "baum_catalog_compare: %s",
+                               n <= 0   ? "n is not positive"
+                               : !times ? "times is NULL"
+                                        : "q is NULL");
+  }
+  baum_status status = resolve(choice, &at);
+  if (status == BAUM_OK) {
+    status = check_sizes(&at, mechanism, &nq);
+  }
+  if (status == BAUM_OK) {
+    status = baum_mechanism_get_scale(mechanism, &scale);
+  }
+  if (status == BAUM_OK) {
+    status = compare_all(&at, scale, times, n, q, v, &error);
+  }
+  return status == BAUM_OK ? baum_i_catalog_give(out, caller_size, &error, sizeof error) : status;
+}

@@ -1,0 +1,9 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BAUM_I_CATALOG_SWING_H
+#define BAUM_I_CATALOG_SWING_H
+
+/* angle'' = -k sin angle with k in 1/s^2, by time t of either sign: the angle [rad] from below and its rate [rad/s] are
+ * replaced. */
+void baum_i_swing(double k, double t, double *angle, double *rate);
+
+#endif
