@@ -3,15 +3,15 @@
 # usage: sh tests/run.sh [STAGE...]
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
-#   format build test asan minimal install python tidy coverage
-#   valgrind thread analyzer sweeps                                 longer or rarer, by name only
+#   format build test asan minimal install python tidy
+#   coverage valgrind thread analyzer sweeps                                 longer or rarer, by name only
 # BAUM_COVERAGE=90 is the least line coverage of src in percent.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-usual="format build test asan minimal install python tidy coverage"
-named="valgrind thread analyzer sweeps"
+usual="format build test asan minimal install python tidy"
+named="coverage valgrind thread analyzer sweeps"
 prefix=$PWD/build/install-prefix
 
 stage_format() {
