@@ -37,7 +37,9 @@ if(BAUM_GSL)
   list(TRANSFORM BAUM_CAPABILITIES REPLACE "GSL=0" "GSL=1")
 endif()
 
-list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR m)
+set(THREADS_PREFER_PTHREAD_FLAG ON)
+find_package(Threads REQUIRED)
+list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR Threads::Threads m)
 
 if(BAUM_TESTS)
   find_package(PkgConfig QUIET)

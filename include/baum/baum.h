@@ -15,6 +15,7 @@
 #include <baum/spline.h>
 #include <baum/stabilization.h>
 #include <baum/status.h>
+#include <baum/study.h>
 #include <baum/version.h>
 
 #endif

@@ -30,6 +30,7 @@ extern "C" {
   X(BAUM_ERR_STRUCT, -4, "struct_size is not that of a struct initialised by this library") \
   X(BAUM_ERR_UNSUPPORTED, -5, "not supported by this build or this pair of settings")       \
   X(BAUM_ERR_BUFFER, -6, "a saved run is damaged or of another mechanism, run or version")  \
+  X(BAUM_ERR_FILE, -7, "a file cannot be read or written")                                  \
   X(BAUM_ERR_INCONSISTENT, -10, "the start or the constraints are inconsistent")            \
   X(BAUM_ERR_SINGULAR, -11, "the equations of motion cannot be solved here")                \
   X(BAUM_ERR_UNSTABLE, -12, "the gains are unstable with this integrator and step")         \

@@ -23,6 +23,7 @@ class baum_status(enum.IntEnum):
     BAUM_ERR_STRUCT = -4
     BAUM_ERR_UNSUPPORTED = -5
     BAUM_ERR_BUFFER = -6
+    BAUM_ERR_FILE = -7
     BAUM_ERR_INCONSISTENT = -10
     BAUM_ERR_SINGULAR = -11
     BAUM_ERR_UNSTABLE = -12
@@ -617,6 +618,140 @@ class baum_spline_driver_def(Structure):
     ]
 
 
+baum_study_progress_fn = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32, c_void_p)
+
+
+class baum_study_options(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("samples", c_int32),
+        ("threads", c_int32),
+        ("repeats", c_int32),
+        ("row_limit", c_double),
+        ("time_budget", c_double),
+        ("energy_account", c_bool),
+        ("file", c_char_p),
+        ("progress", baum_study_progress_fn),
+        ("user", c_void_p),
+    ]
+
+
+class baum_study_grid(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("integrator", c_void_p),
+        ("formulation", c_int),
+        ("settings", c_int32),
+        ("constants", c_int32),
+        ("coarsest", c_double),
+        ("finest", c_double),
+    ]
+
+
+baum_study_solution_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p)
+
+
+class baum_study_state(enum.IntEnum):
+    BAUM_STUDY_WAITING = 0
+    BAUM_STUDY_DONE = 1
+    BAUM_STUDY_REFUSED = 2
+    BAUM_STUDY_FAILED = 3
+    BAUM_STUDY_TIMED_OUT = 4
+
+
+class baum_study_row(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("message", c_char_p),
+        ("integrator", c_void_p),
+        ("formulation", c_int),
+        ("gains", baum_gains),
+        ("step", c_double),
+        ("rtol", c_double),
+        ("method", c_int32),
+        ("state", c_int),
+        ("status", c_int),
+        ("at_floor", c_bool),
+        ("untrusted", c_bool),
+        ("off", c_bool),
+        ("unstable", c_bool),
+        ("error", c_double),
+        ("error_final", c_double),
+        ("error_half", c_double),
+        ("error_q", c_double),
+        ("error_q_final", c_double),
+        ("error_v", c_double),
+        ("error_v_final", c_double),
+        ("error_lambda", c_double),
+        ("error_lambda_final", c_double),
+        ("energy_error", c_double),
+        ("energy_error_final", c_double),
+        ("max_phi", c_double),
+        ("max_phi_rate", c_double),
+        ("violation_work", c_double),
+        ("projection_work", c_double),
+        ("gains_work", c_double),
+        ("steps", c_int64),
+        ("rejected", c_int64),
+        ("evaluations", c_int64),
+        ("factorizations", c_int64),
+        ("nonlinear_iterations", c_int64),
+        ("forced_steps", c_int64),
+        ("warnings", c_int64),
+        ("near_singular_intervals", c_int64),
+        ("branch_warnings", c_int64),
+        ("work", c_double),
+        ("cpu", c_double),
+        ("cpu_spread", c_double),
+        ("repeats", c_int32),
+    ]
+
+
+class baum_study_origin(enum.IntEnum):
+    BAUM_STUDY_OWN = 0
+    BAUM_STUDY_GIVEN = 1
+    BAUM_STUDY_SOLUTION = 2
+
+
+class baum_study_reference(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("origin", c_int),
+        ("trusted", c_bool),
+        ("digits", c_double),
+        ("uncertainty", c_double),
+        ("uncertainty_q", c_double),
+        ("uncertainty_v", c_double),
+        ("uncertainty_lambda", c_double),
+        ("uncertainty_energy", c_double),
+        ("samples", c_int32),
+        ("text", c_char_p),
+    ]
+
+
+class baum_study_cost(enum.IntEnum):
+    BAUM_STUDY_WORK = 0
+    BAUM_STUDY_CPU = 1
+
+
+class baum_study_method(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("integrator", c_void_p),
+        ("formulation", c_int),
+        ("gains", baum_gains),
+        ("fixed_step", c_bool),
+        ("rows", c_int32),
+        ("usable", c_int32),
+        ("least_error", c_double),
+        ("slope", c_double),
+        ("work_per_digit", c_double),
+        ("cpu_per_digit", c_double),
+    ]
+
+
 # Result and arguments of every function.
 PROTOTYPES = {
     "baum_status_name": (c_char_p, [c_int]),
@@ -950,6 +1085,45 @@ PROTOTYPES = {
     "baum_mechanism_set_spline_driver": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_spline_driver_def),
     ]),
+    "baum_study_create": (c_int, [c_void_p, c_double, c_double, POINTER(c_void_p)]),
+    "baum_study_destroy": (None, [c_void_p]),
+    "baum_study_options_init": (None, [POINTER(baum_study_options), c_size_t]),
+    "baum_study_set_options": (c_int, [c_void_p, POINTER(baum_study_options)]),
+    "baum_study_add": (c_int, [c_void_p, POINTER(baum_simulation_options)]),
+    "baum_study_grid_init": (None, [POINTER(baum_study_grid), c_size_t]),
+    "baum_study_add_standard": (c_int, [c_void_p, POINTER(baum_study_grid)]),
+    "baum_study_set_error": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_double]),
+    "baum_study_set_reference": (c_int, [
+        c_void_p, c_void_p, c_int32, c_void_p, c_void_p, c_void_p, c_double,
+    ]),
+    "baum_study_set_solution": (c_int, [c_void_p, baum_study_solution_fn, c_void_p, c_double]),
+    "baum_study_run": (c_int, [c_void_p]),
+    "baum_study_cancel": (None, [c_void_p]),
+    "baum_study_state_name": (c_char_p, [c_int]),
+    "baum_study_row_count": (c_int32, [c_void_p]),
+    "baum_study_row_at": (c_int, [c_void_p, c_int32, POINTER(baum_study_row), c_size_t]),
+    "baum_study_row_options": (c_int, [
+        c_void_p, c_int32, POINTER(baum_simulation_options), c_size_t,
+    ]),
+    "baum_study_reference_read": (c_int, [c_void_p, POINTER(baum_study_reference), c_size_t]),
+    "baum_study_reference_sample": (c_int, [
+        c_void_p, c_int32, c_void_p, c_void_p, c_void_p, c_void_p,
+    ]),
+    "baum_study_settings": (c_int, [
+        c_void_p, c_void_p, c_void_p, POINTER(baum_study_options), c_size_t,
+    ]),
+    "baum_study_error_text": (c_char_p, [c_void_p]),
+    "baum_study_method_count": (c_int32, [c_void_p]),
+    "baum_study_method_at": (c_int, [c_void_p, c_int32, POINTER(baum_study_method), c_size_t]),
+    "baum_study_front": (c_int, [c_void_p, c_int, c_int32, POINTER(c_int32), POINTER(c_int32)]),
+    "baum_study_cost_at": (c_int, [c_void_p, c_int32, c_double, c_int, c_void_p]),
+    "baum_study_compare": (c_int, [c_void_p, c_int32, c_int32, c_double, c_int, c_void_p]),
+    "baum_study_recommend": (c_int, [
+        c_void_p, c_double, c_int, POINTER(baum_simulation_options), c_size_t, c_char_p, c_size_t,
+    ]),
+    "baum_study_recommend_budget": (c_int, [
+        c_void_p, c_double, POINTER(baum_simulation_options), c_size_t, c_char_p, c_size_t,
+    ]),
     "baum_version": (c_char_p, []),
     "baum_has": (c_bool, [c_char_p]),
 }
@@ -977,6 +1151,8 @@ DEFAULTS = {
     baum_planar_gear_def: "baum_planar_gear_def_init",
     baum_planar_curve_def: "baum_planar_curve_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
+    baum_study_options: "baum_study_options_init",
+    baum_study_grid: "baum_study_grid_init",
 }
 
 STRUCTS = [
@@ -1016,4 +1192,9 @@ STRUCTS = [
     baum_planar_gear_def,
     baum_planar_curve_def,
     baum_spline_driver_def,
+    baum_study_options,
+    baum_study_grid,
+    baum_study_row,
+    baum_study_reference,
+    baum_study_method,
 ]

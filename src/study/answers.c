@@ -1,0 +1,476 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What rows say: front, cost at an error, recommendation.
+ *
+ * Between two rows of a method error and cost are taken to lie on straight lines over the logarithm of step or rtol.
+ * A recommendation for the error E asks for
+ *
+ *   error x growth x MARGIN <= E,   growth = error over the whole span / error over its first half, 1 to MOST_GROWTH
+ *
+ * so that it holds for twice the span if errors go on growing as they have (2 to the power with which they do), and for
+ * starts nearby. The row that fulfils it and the next finer one must do so both: a lucky row does not count.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "base/text.h"
+#include "integrate/integrator.h"
+#include "study/study.h"
+
+static const double MARGIN = 2.0;
+static const double MOST_GROWTH = 100.0;
+static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
+
+enum { MOST_ROWS = 256 };
+
+/* ---- front ---- */
+
+static bool is_answer(const baum_i_row *row)
+{
+  const baum_study_row *r = &row->out;
+  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && !r->unstable &&
+         isfinite(r->error) && r->error > 0.0;
+}
+
+static double cost_of(const baum_i_row *row, baum_study_cost cost)
+{
+  return cost == BAUM_STUDY_CPU ? row->out.cpu : row->out.work;
+}
+
+/* Is there a row that is as good in both and better in one? Of equal rows the first is the better. */
+static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
+{
+  const baum_i_row *row = study->rows[k];
+  double c = cost_of(row, cost);
+  double e = row->out.error;
+  for (int i = 0; i < study->row_count; i++) {
+    const baum_i_row *other = study->rows[i];
+    double oc = cost_of(other, cost);
+    double oe = other->out.error;
+    if (i != k && is_answer(other) && oc <= c && oe <= e && (oc < c || oe < e || i < k)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static baum_status check_cost(const baum_study *study, baum_study_cost cost, const char *call)
+{
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  if (cost != BAUM_STUDY_WORK && cost != BAUM_STUDY_CPU) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %d is no baum_study_cost", call, (int)cost);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
+                             int32_t *rows, int32_t *count)
+{
+  const char *call = "baum_study_front";
+  baum_status status = check_cost(study, cost, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!count || capacity < 0 || (capacity > 0 && !rows)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count or rows are NULL, or capacity is negative",
+                       call);
+  }
+  int found = 0;
+  for (int k = 0; k < study->row_count; k++) {
+    if (!is_answer(study->rows[k]) || is_beaten(study, k, cost)) {
+      continue;
+    }
+    /* Into its place: what is dearer moves up, and out beyond the capacity. */
+    int at = found < capacity ? found : capacity;
+    double c = cost_of(study->rows[k], cost);
+    for (; at > 0 && cost_of(study->rows[rows[at - 1]], cost) > c; at--) {
+      if (at < capacity) {
+        rows[at] = rows[at - 1];
+      }
+    }
+    if (at < capacity) {
+      rows[at] = k;
+    }
+    found++;
+  }
+  *count = found;
+  return BAUM_OK;
+}
+
+/* ---- a place on the ladder of a method ---- */
+
+/* Between two rows; the same twice is on one. */
+typedef struct place {
+  const baum_i_row *coarse;
+  const baum_i_row *fine;
+  double share; /* of the way from coarse to fine, in logarithms */
+} place;
+
+static double between(double a, double b, double share)
+{
+  return share <= 0.0 ? a : a * pow(b / a, share);
+}
+
+static double place_cost(const place *p, baum_study_cost cost)
+{
+  return between(cost_of(p->coarse, cost), cost_of(p->fine, cost), p->share);
+}
+
+static double place_error(const place *p)
+{
+  return between(p->coarse->out.error, p->fine->out.error, p->share);
+}
+
+/* Where a quantity that is `coarse` at one end and `fine` at the other is `wanted`. */
+static double share_at(double coarse, double fine, double wanted)
+{
+  return coarse == fine ? 1.0 : log(coarse / wanted) / log(coarse / fine);
+}
+
+/* ---- cost at an error ---- */
+
+/* The line may go on by one setting at both ends. */
+static bool find_error(const baum_i_row *const *rows, int count, double error, place *out)
+{
+  for (int k = 0; k + 1 < count; k++) {
+    double e[2] = {rows[k]->out.error, rows[k + 1]->out.error};
+    double share = share_at(e[0], e[1], error);
+    bool first = k == 0;
+    bool last = k + 2 == count;
+    if (e[1] < e[0] && share >= (first ? -1.0 : 0.0) && share <= (last ? 2.0 : 1.0)) {
+      *out = (place){rows[k], rows[k + 1], share};
+      return true;
+    }
+  }
+  return false;
+}
+
+baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
+                               baum_study_cost cost, double *out)
+{
+  const char *call = "baum_study_cost_at";
+  baum_status status = check_cost(study, cost, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!out || method < 0 || method >= study->method_count || !(error > 0.0 && isfinite(error))) {
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: out is NULL, there is no method %d, or error is %g, must be finite and > 0", call,
+      (int)method, error);
+  }
+  const baum_i_row *rows[MOST_ROWS];
+  int count = baum_i_study_usable(study, method, rows, MOST_ROWS);
+  place p;
+  if (!find_error(rows, count, error, &p)) {
+    double least = (double)INFINITY;
+    double most = 0.0;
+    for (int k = 0; k < count; k++) {
+      least = fmin(least, rows[k]->out.error);
+      most = fmax(most, rows[k]->out.error);
+    }
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: %s has been measured with errors from %.2g to %.2g, not near %.2g",
+                       call, study->methods[method].name, least, most, error);
+  }
+  double a = cost_of(p.coarse, cost);
+  *out = a * pow(cost_of(p.fine, cost) / a, p.share);
+  return BAUM_OK;
+}
+
+baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
+                               baum_study_cost cost, double *ratio)
+{
+  double costs[2];
+  if (!ratio) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_compare: ratio is NULL");
+  }
+  baum_status status = baum_study_cost_at(study, a, error, cost, &costs[0]);
+  if (status == BAUM_OK) {
+    status = baum_study_cost_at(study, b, error, cost, &costs[1]);
+  }
+  if (status == BAUM_OK) {
+    *ratio = costs[0] / costs[1];
+  }
+  return status;
+}
+
+/* ---- recommendation ---- */
+
+static double growth_of(const baum_i_row *row)
+{
+  double growth = row->out.error / row->out.error_half;
+  return growth > 1.0 ? fmin(growth, MOST_GROWTH) : 1.0;
+}
+
+/* What an error is expected to be at most, for twice the span and starts nearby. */
+static double expected(const baum_i_row *row, bool with_margin)
+{
+  return with_margin ? row->out.error * growth_of(row) * MARGIN : row->out.error;
+}
+
+/* The coarsest place of a method where the error is kept; the next finer row keeps it too. */
+static bool find_place(const baum_i_row *const *rows, int count, double error, bool with_margin,
+                       place *out)
+{
+  for (int k = 0; k < count; k++) {
+    double here = expected(rows[k], with_margin);
+    bool next = k + 1 == count || expected(rows[k + 1], with_margin) <= error;
+    if (here > error || !next) {
+      continue;
+    }
+    *out = (place){rows[k], rows[k], 0.0};
+    double before = k > 0 ? expected(rows[k - 1], with_margin) : 0.0;
+    if (before > error) {
+      *out = (place){rows[k - 1], rows[k], share_at(before, here, error)};
+    }
+    return true;
+  }
+  return false;
+}
+
+/* What is asked of a place. */
+typedef struct question {
+  double error;
+  baum_study_cost cost;
+  bool with_margin;
+  const baum_integrator *without; /* this one is left out; NULL: none */
+} question;
+
+/* The cheapest place of all methods. */
+static bool find_best(const baum_study *study, const question *q, place *best)
+{
+  *best = (place){.coarse = NULL};
+  for (int m = 0; m < study->method_count; m++) {
+    const baum_i_row *rows[MOST_ROWS];
+    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
+    place p;
+    if (count == 0 || rows[0]->out.unstable || rows[0]->options.integrator == q->without) {
+      continue;
+    }
+    if (find_place(rows, count, q->error, q->with_margin, &p) &&
+        (!best->fine || place_cost(&p, q->cost) < place_cost(best, q->cost))) {
+      *best = p;
+    }
+  }
+  return best->fine != NULL;
+}
+
+/* Two digits, and steps that fit the span. */
+static double rounded(const baum_study *study, double setting, bool fixed)
+{
+  if (fixed) {
+    double span = fabs(study->t1 - study->t0);
+    return span / ceil(span / setting - 1e-9);
+  }
+  double unit = pow(10.0, floor(log10(setting)) - 1.0);
+  return unit * floor(setting / unit + 1e-9);
+}
+
+static baum_simulation_options options_of(const baum_study *study, const place *p)
+{
+  baum_simulation_options o = p->fine->options;
+  if (p->share < 1.0 && p->coarse != p->fine) {
+    bool fixed = !isnan(o.step);
+    double setting =
+      between(baum_i_setting(&p->coarse->options), baum_i_setting(&p->fine->options), p->share);
+    *(fixed ? &o.step : &o.rtol) = rounded(study, setting, fixed);
+  }
+  return o;
+}
+
+static void name_options(const baum_simulation_options *o, char *text, size_t size)
+{
+  baum_i_name_method(o, text, size);
+  baum_i_name_setting(o, text, size);
+}
+
+/* The best with another integrator, to compare with. */
+static void add_rival(const baum_study *study, const place *best, question q, char *why,
+                      size_t size)
+{
+  place rival;
+  q.without = best->fine->options.integrator;
+  if (find_best(study, &q, &rival)) {
+    baum_i_append(why, size, "; the next best integrator, %s, costs %.2g times as much",
+                  study->methods[rival.fine->out.method].name,
+                  place_cost(&rival, q.cost) / place_cost(best, q.cost));
+  }
+}
+
+static void explain(const place *p, const baum_simulation_options *o, char *why, size_t size)
+{
+  char name[BAUM_I_NAME_SIZE];
+  name_options(o, name, sizeof name);
+  why[0] = '\0';
+  baum_i_append(why, size, "%s: error %.2g at %.3g evaluations and %.3g ms", name, place_error(p),
+                place_cost(p, BAUM_STUDY_WORK), 1e3 * place_cost(p, BAUM_STUDY_CPU));
+  if (p->coarse != p->fine) {
+    baum_i_append(why, size, ", between what was measured with %s (error %.2g) and %s (error %.2g)",
+                  p->coarse->name, p->coarse->out.error, p->fine->name, p->fine->out.error);
+  } else {
+    baum_i_append(why, size, ", as measured");
+  }
+}
+
+static void add_margin(const baum_study *study, const place *p, const question *q, char *why,
+                       size_t size)
+{
+  if (!q->with_margin) {
+    baum_i_append(why, size, "; nothing is left for other starts or a longer span");
+    return;
+  }
+  double growth = fmax(growth_of(p->coarse), growth_of(p->fine));
+  baum_i_append(
+    why, size,
+    "; that leaves a factor %.2g below %.2g: errors have grown by %.2g from half the span "
+    "to the whole, and %g is for other starts",
+    q->error / place_error(p), q->error, growth, MARGIN);
+  add_rival(study, p, *q, why, size);
+}
+
+static baum_status deliver(const baum_study *study, const baum_simulation_options *o,
+                           baum_simulation_options *best, size_t caller_size)
+{
+  baum_i_give_sized(best, caller_size, o, sizeof *o);
+  return study->reference.out.trusted
+           ? BAUM_OK
+           : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
+}
+
+static baum_status check_answerable(const baum_study *study, const void *best, size_t caller_size,
+                                    const char *call)
+{
+  if (!study || !baum_i_takes_sized(best, caller_size)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or best are NULL, or its size is 0", call);
+  }
+  for (int k = 0; k < study->row_count; k++) {
+    if (study->rows[k]->timed) {
+      return BAUM_OK;
+    }
+  }
+  return baum_i_fail(BAUM_ERR_STATE, "%s: no row is done", call);
+}
+
+static baum_status refuse_error(const baum_study *study, double error, const char *call)
+{
+  const baum_i_row *best = NULL;
+  for (int k = 0; k < study->row_count; k++) {
+    const baum_i_row *row = study->rows[k];
+    if (is_answer(row) && (!best || row->out.error < best->out.error)) {
+      best = row;
+    }
+  }
+  if (!best) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row that is done has followed the motion", call);
+  }
+  return baum_i_fail(
+    BAUM_ERR_ARGUMENT,
+    "%s: no row keeps an error of %.2g; the least is %.2g, of %s, and the reference is "
+    "known to %.2g",
+    call, error, best->out.error, best->name, study->reference.out.uncertainty);
+}
+
+baum_status baum_study_recommend(const baum_study *study, double error, baum_study_cost cost,
+                                 baum_simulation_options *best, size_t caller_size, char *why,
+                                 size_t size)
+{
+  const char *call = "baum_study_recommend";
+  baum_status status = check_cost(study, cost, call);
+  if (status == BAUM_OK) {
+    status = check_answerable(study, best, caller_size, call);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!(error > 0.0 && isfinite(error))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", call, error);
+  }
+  place p;
+  question q = {.error = error, .cost = cost, .with_margin = true};
+  bool found = find_best(study, &q, &p);
+  if (!found) {
+    q.with_margin = false;
+    found = find_best(study, &q, &p);
+  }
+  if (!found) {
+    return refuse_error(study, error, call);
+  }
+  baum_simulation_options o = options_of(study, &p);
+  if (why && size > 0) {
+    explain(&p, &o, why, size);
+    add_margin(study, &p, &q, why, size);
+  }
+  return deliver(study, &o, best, caller_size);
+}
+
+/* The most exact place of a method whose time is within the budget. */
+static bool find_affordable(const baum_i_row *const *rows, int count, double seconds, place *out)
+{
+  bool found = false;
+  for (int k = 0; k < count; k++) {
+    if (rows[k]->out.cpu > seconds) {
+      if (k > 0 && rows[k - 1]->out.cpu <= seconds && rows[k]->out.error < rows[k - 1]->out.error) {
+        place p = {rows[k - 1], rows[k], share_at(rows[k - 1]->out.cpu, rows[k]->out.cpu, seconds)};
+        if (!found || place_error(&p) < place_error(out)) {
+          *out = p;
+          found = true;
+        }
+      }
+      continue;
+    }
+    if (!found || rows[k]->out.error < place_error(out)) {
+      *out = (place){rows[k], rows[k], 0.0};
+      found = true;
+    }
+  }
+  return found;
+}
+
+baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
+                                        baum_simulation_options *best, size_t caller_size,
+                                        char *why, size_t size)
+{
+  const char *call = "baum_study_recommend_budget";
+  baum_status status = check_answerable(study, best, caller_size, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!(seconds > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be > 0", call, seconds);
+  }
+  place chosen;
+  bool found = false;
+  double quickest = (double)INFINITY;
+  for (int m = 0; m < study->method_count; m++) {
+    const baum_i_row *rows[MOST_ROWS];
+    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
+    place p;
+    if (count == 0 || rows[0]->out.unstable) {
+      continue;
+    }
+    quickest = fmin(quickest, rows[0]->out.cpu);
+    if (find_affordable(rows, count, seconds / SPEED_MARGIN, &p) &&
+        (!found || place_error(&p) < place_error(&chosen) ||
+         (place_error(&p) == place_error(&chosen) &&
+          place_cost(&p, BAUM_STUDY_CPU) < place_cost(&chosen, BAUM_STUDY_CPU)))) {
+      chosen = p;
+      found = true;
+    }
+  }
+  if (!found) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row is done in %.3g s; the quickest takes %.3g s",
+                       call, seconds, quickest);
+  }
+  baum_simulation_options o = options_of(study, &chosen);
+  if (why && size > 0) {
+    explain(&chosen, &o, why, size);
+    baum_i_append(why, size, "; a quarter is left of %.3g ms", 1e3 * seconds);
+  }
+  return deliver(study, &o, best, caller_size);
+}

@@ -1,0 +1,230 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The standard grid.
+ *
+ * Steps go down from h0 by a factor, (t1 - t0) / N with whole N, and tolerances from 1e-2 to the finest by equal ratios, rounded
+ * to one digit:
+ *
+ *   order      1      2      3 to 5   8
+ *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, see rate_of()
+ *   factor     3      3      2        1.5
+ */
+#include <math.h>
+#include <string.h>
+
+#include <baum/version.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "dynamics/dynamics.h"
+#include "integrate/integrator.h"
+#include "mechanism/definition.h"
+#include "simulate/run.h"
+#include "study/study.h"
+
+enum { MOST_SETTINGS = 64, MOST_CONSTANTS = 4, LOOKS = 20 };
+static const double LARGEST_RTOL = 1e-2;
+
+void baum_study_grid_init(baum_study_grid *grid, size_t caller_size)
+{
+  const baum_study_grid defaults = {
+    .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = 1e-12};
+  if (baum_i_takes_sized(grid, caller_size)) {
+    baum_i_give_sized(grid, caller_size, &defaults, sizeof defaults);
+  }
+}
+
+static baum_status check_grid(const baum_study_grid *g)
+{
+  if (g->settings < 1 || g->settings > MOST_SETTINGS) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: settings is %d, must be 1 to %d",
+                       (int)g->settings, MOST_SETTINGS);
+  }
+  if (g->constants < 0 || g->constants > MOST_CONSTANTS) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: constants is %d, must be 0 to %d",
+                       (int)g->constants, MOST_CONSTANTS);
+  }
+  if (!isnan(g->coarsest) && !(isfinite(g->coarsest) && g->coarsest > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: coarsest is %g s, must be finite and > 0",
+                       g->coarsest);
+  }
+  if (!(g->finest > 0.0 && g->finest < LARGEST_RTOL)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: finest is %g, must be > 0 and < %g",
+                       g->finest, LARGEST_RTOL);
+  }
+  return BAUM_OK;
+}
+
+/* ---- the rate of the motion ---- */
+
+/* The rate at the start, or the mean |v| / scale of a rough run where that is more. A rough run that fails tells what it
+ * has seen. */
+static baum_status rate_of(const baum_study *study, double *rate)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_dp5();
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  o.rtol = 1e-3;
+  o.start_time = study->t0;
+  o.max_steps = 100000;
+  baum_simulation *run = NULL;
+  baum_status status = baum_simulation_create(study->mechanism, &o, &run);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double sum = 0.0;
+  int seen = 0;
+  while (seen < LOOKS && status >= BAUM_OK) {
+    seen++;
+    double t = study->t0 + (study->t1 - study->t0) * seen / LOOKS;
+    status = baum_simulation_advance_to(run, t);
+    sum += baum_i_scaled_size(study->mechanism, baum_simulation_v(run));
+  }
+  *rate = fmax(run->problem.rate, sum / seen);
+  baum_simulation_destroy(run);
+  return BAUM_OK;
+}
+
+/* ---- settings ---- */
+
+typedef struct grid {
+  baum_study *study;
+  const baum_study_grid *wanted;
+  double rate;
+} grid;
+
+static double first_step(const grid *g, int order)
+{
+  double h = order == 1 ? 0.1 : order == 2 ? 0.3 : order < 6 ? 0.5 : 0.8;
+  double unit = isnan(g->wanted->coarsest) ? 1.0 / g->rate : 2.0 * g->wanted->coarsest;
+  return h * unit;
+}
+
+static double step_at(const grid *g, int order, int k)
+{
+  double factor = order <= 2 ? 3.0 : order < 6 ? 2.0 : 1.5;
+  double span = fabs(g->study->t1 - g->study->t0);
+  return span / ceil(span / first_step(g, order) * pow(factor, k));
+}
+
+static double rtol_at(const grid *g, int k)
+{
+  int last = g->wanted->settings > 1 ? g->wanted->settings - 1 : 1;
+  double rtol = LARGEST_RTOL * pow(g->wanted->finest / LARGEST_RTOL, (double)k / last);
+  double decade = pow(10.0, floor(log10(rtol) + 1e-9));
+  return decade * round(rtol / decade);
+}
+
+static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fixed)
+{
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < g->wanted->settings && status == BAUM_OK; k++) {
+    o.step = fixed ? step_at(g, o.integrator->order, k) : (double)NAN;
+    o.rtol = fixed ? (double)NAN : rtol_at(g, k);
+    status = baum_study_add(g->study, &o);
+  }
+  return status;
+}
+
+/* Both kinds of settings that the integrator takes. */
+static baum_status add_settings(const grid *g, const baum_simulation_options *o)
+{
+  if (o->integrator->without_freedom) {
+    return baum_study_add(g->study, o);
+  }
+  baum_status status = BAUM_OK;
+  if (baum_integrator_has_variable_step(o->integrator)) {
+    status = add_ladder(g, *o, false);
+  }
+  if (status == BAUM_OK && baum_integrator_has_fixed_step(o->integrator)) {
+    status = add_ladder(g, *o, true);
+  }
+  return status;
+}
+
+/* By the rule of the integrator, auto, and constants. */
+static baum_status add_gains(const grid *g, baum_simulation_options o)
+{
+  baum_status status = add_settings(g, &o);
+  if (o.formulation != BAUM_FORMULATION_BAUMGARTE) {
+    return status;
+  }
+  if (status == BAUM_OK && o.integrator->gains != BAUM_GAINS_AUTO) {
+    o.gains = baum_gains_auto();
+    status = add_settings(g, &o);
+  }
+  double gain = g->rate;
+  for (int k = 0; k < g->wanted->constants && status == BAUM_OK; k++, gain *= 10.0) {
+    o.gains = baum_gains_fixed(gain, gain);
+    status = add_settings(g, &o);
+  }
+  return status;
+}
+
+static baum_status add_integrator(const grid *g, const baum_integrator *integrator)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = integrator;
+  if (integrator->without_freedom) {
+    return add_gains(g, o);
+  }
+  baum_status status = BAUM_OK;
+  for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+    bool wanted = g->wanted->formulation == BAUM_FORMULATION_DEFAULT ||
+                  g->wanted->formulation == (baum_formulation)f;
+    o.formulation = (baum_formulation)f;
+    if (wanted && status == BAUM_OK && baum_i_integrator_offers(integrator, o.formulation)) {
+      status = add_gains(g, o);
+    }
+  }
+  return status;
+}
+
+/* Those of SUNDIALS are there by name without it. */
+static bool in_build(const baum_integrator *integrator)
+{
+  const char *name = integrator->name;
+  bool of_sundials = strncmp(name, "cvode", 5) == 0 || strcmp(name, "ida") == 0;
+  return !of_sundials || baum_has("sundials");
+}
+
+static baum_status add_all(const grid *g)
+{
+  baum_status status = BAUM_OK;
+  const baum_integrator *integrator = NULL;
+  for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
+    bool wanted = !g->wanted->integrator || g->wanted->integrator == integrator;
+    if (wanted && in_build(integrator)) {
+      status = add_integrator(g, integrator);
+    }
+  }
+  return status;
+}
+
+baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid_wanted)
+{
+  const char *call = "baum_study_add_standard";
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  baum_study_grid wanted = baum_study_grid_default();
+  if (grid_wanted) {
+    baum_status status = baum_i_study_take(&wanted, sizeof wanted, grid_wanted, call);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  baum_status status = check_grid(&wanted);
+  grid g = {.study = study, .wanted = &wanted};
+  if (status == BAUM_OK) {
+    status = rate_of(study, &g.rate);
+  }
+  int rows = study->row_count;
+  int methods = study->method_count;
+  if (status == BAUM_OK) {
+    status = add_all(&g);
+  }
+  if (status != BAUM_OK) {
+    baum_i_study_drop_rows(study, rows, methods);
+  }
+  return status;
+}

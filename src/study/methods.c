@@ -1,0 +1,145 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rows by method, and what one more digit costs with it.
+ *
+ * Errors of a method fall as a power of its step or rtol, error = C h^p, until they meet the reference or rounding; cost
+ * rises as a power of it. Lines are fitted to the logarithms of the rows between: from the coarsest whose error is below
+ * COARSE to the finest that is above FLOOR times the least.
+ */
+#include <math.h>
+#include <stdlib.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "integrate/integrator.h"
+#include "study/study.h"
+
+static const double FLOOR = 3.0;
+
+enum { MOST_ROWS = 256 };
+
+int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row)
+{
+  uint64_t key = baum_i_options_key(options, false);
+  for (int k = 0; k < study->method_count; k++) {
+    if (study->methods[k].key == key) {
+      return k;
+    }
+  }
+  baum_i_study_method *methods =
+    baum_i_grow_by_one(study->methods, (size_t)study->method_count + 1, sizeof *methods);
+  if (!methods) {
+    return -1;
+  }
+  study->methods = methods;
+  baum_i_study_method *method = &methods[study->method_count];
+  *method = (baum_i_study_method){.key = key, .first = row};
+  baum_i_name_method(options, method->name, sizeof method->name);
+  return study->method_count++;
+}
+
+static int by_setting(const void *a, const void *b)
+{
+  double x = baum_i_setting(&(*(const baum_i_row *const *)a)->options);
+  double y = baum_i_setting(&(*(const baum_i_row *const *)b)->options);
+  return (x < y) - (x > y);
+}
+
+int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity)
+{
+  int count = 0;
+  for (int k = 0; k < study->row_count && count < capacity; k++) {
+    const baum_i_row *row = study->rows[k];
+    bool usable = row->out.method == method && row->out.state == BAUM_STUDY_DONE && row->timed &&
+                  !row->out.off && row->out.error > 0.0 && isfinite(row->out.error);
+    if (usable) {
+      rows[count++] = row;
+    }
+  }
+  qsort(rows, (size_t)count, sizeof *rows, by_setting);
+  return count;
+}
+
+/* Slope of a least-squares line; NaN from less than two points or without width. */
+static double slope_of(const double *x, const double *y, int count)
+{
+  double mx = 0.0;
+  double my = 0.0;
+  for (int k = 0; k < count; k++) {
+    mx += x[k] / count;
+    my += y[k] / count;
+  }
+  double xx = 0.0;
+  double xy = 0.0;
+  for (int k = 0; k < count; k++) {
+    xx += (x[k] - mx) * (x[k] - mx);
+    xy += (x[k] - mx) * (y[k] - my);
+  }
+  return count >= 2 && xx > 0.0 ? xy / xx : (double)NAN;
+}
+
+/* Slopes over the rows between coarse and floor. */
+static void fit(const baum_i_row *const *rows, int count, baum_study_method *out)
+{
+  double setting[MOST_ROWS];
+  double error[MOST_ROWS];
+  double work[MOST_ROWS];
+  double cpu[MOST_ROWS];
+  int used = 0;
+  for (int k = 0; k < count; k++) {
+    const baum_study_row *row = &rows[k]->out;
+    if (row->error >= FLOOR * out->least_error || row->error == out->least_error) {
+      setting[used] = log10(baum_i_setting(&rows[k]->options));
+      error[used] = log10(row->error);
+      work[used] = log10(row->work);
+      cpu[used++] = log10(row->cpu);
+    }
+    if (row->error == out->least_error) {
+      break;
+    }
+  }
+  out->slope = slope_of(setting, error, used);
+  out->work_per_digit = pow(10.0, -slope_of(error, work, used));
+  out->cpu_per_digit = pow(10.0, -slope_of(error, cpu, used));
+}
+
+int32_t baum_study_method_count(const baum_study *study)
+{
+  return study ? study->method_count : 0;
+}
+
+baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_method *out,
+                                 size_t caller_size)
+{
+  const char *call = "baum_study_method_at";
+  if (!study || k < 0 || k >= study->method_count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL or has no method %d", call,
+                       (int)k);
+  }
+  baum_status status = baum_i_check_sized(out, caller_size, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_i_study_method *method = &study->methods[k];
+  const baum_simulation_options *o = &study->rows[method->first]->options;
+  const double none = (double)NAN;
+  baum_study_method whole = {.name = method->name,
+                             .integrator = o->integrator,
+                             .formulation = o->formulation,
+                             .gains = o->gains,
+                             .fixed_step = !isnan(o->step),
+                             .least_error = none,
+                             .slope = none,
+                             .work_per_digit = none,
+                             .cpu_per_digit = none};
+  const baum_i_row *rows[MOST_ROWS];
+  whole.usable = baum_i_study_usable(study, k, rows, MOST_ROWS);
+  for (int i = 0; i < study->row_count; i++) {
+    whole.rows += study->rows[i]->out.method == k;
+  }
+  for (int i = 0; i < whole.usable; i++) {
+    whole.least_error = fmin(whole.least_error, rows[i]->out.error);
+  }
+  fit(rows, whole.usable, &whole);
+  baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  return BAUM_OK;
+}

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* One run of a study: through the samples for its errors, or to the end for its cost. */
+#include <math.h>
+#include <stdio.h>
+#include <time.h>
+
+#include "base/alloc.h"
+#include "integrate/integrator.h"
+#include "study/study.h"
+
+static const double LOOK = 0.005; /* [s] of wall time between two looks at the watch */
+
+static double seconds(clockid_t clock)
+{
+  struct timespec now;
+  (void)clock_gettime(clock, &now);
+  return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+double baum_i_thread_seconds(void)
+{
+  return seconds(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double baum_i_wall_seconds(void)
+{
+  return seconds(CLOCK_MONOTONIC);
+}
+
+bool baum_i_watch_stops(const baum_i_watch *watch)
+{
+  return atomic_load(&watch->study->cancelled) != 0 || baum_i_wall_seconds() >= watch->deadline;
+}
+
+static int look(const baum_simulation *simulation, double t, void *user)
+{
+  (void)simulation;
+  (void)t;
+  baum_i_watch *watch = user;
+  watch->timed_out = baum_i_thread_seconds() - watch->begin >= watch->limit;
+  return watch->timed_out || baum_i_watch_stops(watch);
+}
+
+/* Those of the row, with what is the study's. */
+static baum_simulation_options complete(const baum_study *study,
+                                        const baum_simulation_options *options, baum_i_watch *watch,
+                                        bool with_samples)
+{
+  baum_simulation_options o = *options;
+  o.start_time = study->t0;
+  o.check_derivatives = false;
+  o.progress = look;
+  o.progress_interval = LOOK;
+  o.user = watch;
+  o.energy_account =
+    with_samples && study->options.energy_account && !o.integrator->without_freedom;
+  return o;
+}
+
+static baum_status sample(const baum_study *study, baum_simulation *run, double *rows)
+{
+  baum_i_layout l = baum_i_study_layout(study);
+  baum_channel *channels =
+    baum_i_alloc((size_t)study->channel_count + BAUM_I_CHANNELS, sizeof *channels);
+  if (!channels) {
+    return baum_i_fail_memory();
+  }
+  int count = baum_i_study_channels(study, channels);
+  for (int k = 0; k < study->reference.n * l.width; k++) {
+    rows[k] = (double)NAN;
+  }
+  baum_status status = baum_simulation_sample(run, study->reference.times, study->reference.n,
+                                              channels, count, rows, NULL);
+  baum_i_free(channels);
+  return status;
+}
+
+/* Kinematics solves poses at the times asked for: these are its cost. */
+static baum_status advance(const baum_study *study, baum_simulation *run,
+                           const baum_simulation_options *options)
+{
+  const baum_i_study_reference *r = &study->reference;
+  baum_status status = BAUM_OK;
+  for (int k = 0; options->integrator->without_freedom && k < r->n && status >= BAUM_OK; k++) {
+    status = baum_simulation_advance_to(run, r->times[k]);
+    if (status == BAUM_STOP_CANCELLED) {
+      return status;
+    }
+  }
+  return status < BAUM_OK ? status : baum_simulation_advance_to(run, study->t1);
+}
+
+static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome *out)
+{
+  const double none = (double)NAN;
+  out->account = (baum_energy_account){.violation = none, .projection = none, .gains = none};
+  (void)baum_simulation_counters(run, &out->counters, sizeof out->counters);
+  if (with_account) {
+    (void)baum_simulation_energy_account(run, &out->account, sizeof out->account);
+  }
+  if (out->status < BAUM_OK) {
+    (void)snprintf(out->message, sizeof out->message, "%s", baum_simulation_message(run));
+  } else if (out->counters.warnings > 0) {
+    (void)baum_simulation_warning(run, 0, out->message, sizeof out->message);
+  }
+}
+
+void baum_i_study_run_one(const baum_study *study, const baum_simulation_options *options,
+                          baum_i_watch *watch, double *rows, baum_i_outcome *out)
+{
+  *out = (baum_i_outcome){0};
+  baum_simulation_options o = complete(study, options, watch, rows != NULL);
+  baum_simulation *run = NULL;
+  watch->timed_out = false;
+  watch->begin = baum_i_thread_seconds();
+  out->status = baum_simulation_create(study->mechanism, &o, &run);
+  out->created = out->status == BAUM_OK;
+  if (!out->created) {
+    (void)snprintf(out->message, sizeof out->message, "%s", baum_message());
+    return;
+  }
+  out->status = rows ? sample(study, run, rows) : advance(study, run, &o);
+  read_outcome(run, o.energy_account, out);
+  baum_simulation_destroy(run);
+  out->cpu = baum_i_thread_seconds() - watch->begin;
+}

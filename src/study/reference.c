@@ -1,0 +1,399 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What runs are compared with: given samples, a solution by formulas, or a reference of the study's own.
+ *
+ * Its own is made by two formulations that have nothing in common but the equations of motion, one of them with
+ * projection, each at a tight tolerance and at half of it: four runs, of which the first formulation's tighter one is the
+ * reference and the largest difference of the others from it the uncertainty. Where they cannot be run, or differ by more
+ * than CLOSE, looser tolerances and implicit methods are tried too, and those that agree best are taken.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/text.h"
+#include "integrate/integrator.h"
+#include "simulate/run.h"
+#include "study/study.h"
+
+static const double CLOSE = 1e-9;     /* a difference with which nothing else is tried */
+static const double TRUSTED = 1e-3;   /* the largest with which a reference is trusted */
+static const double ROUNDING = 1e-15; /* nothing is known better than that */
+static const double PATIENCE = 5.0;   /* row limits that a run of the reference may take */
+
+enum { PARTIES = 2, RUNS = 4 };
+
+typedef const baum_integrator *integrator_fn(void);
+
+/* Two formulations and a tolerance. */
+typedef struct attempt {
+  integrator_fn *integrator[PARTIES];
+  baum_formulation formulation[PARTIES];
+  double rtol;
+} attempt;
+
+static const attempt ATTEMPTS[] = {
+  {{baum_rk8, baum_rk8}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE}, 1e-13},
+  {{baum_rk8, baum_rk8}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE}, 1e-11},
+  {{baum_cvode_bdf, baum_ida}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE}, 1e-12},
+  {{baum_rk8, baum_rk8}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE}, 1e-9},
+  {{baum_cvode_bdf, baum_ida}, {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE}, 1e-10},
+};
+
+/* Where drivers leave no freedom: poses solved to rounding, and integrated. */
+static const attempt WITHOUT_FREEDOM[] = {
+  {{baum_kinematics, baum_rk8}, {BAUM_FORMULATION_DEFAULT, BAUM_FORMULATION_PROJECTION}, 1e-13},
+};
+
+/* ---- an attempt ---- */
+
+/* What came of one. */
+typedef struct found {
+  double *rows; /* of the reference, or NULL */
+  baum_i_differences most;
+  bool singular; /* a run was near a singular pose */
+  bool failed;   /* a run did not reach the end */
+  char text[BAUM_I_TEXT_SIZE];
+} found;
+
+static baum_simulation_options setting(const attempt *a, int party, int half)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = a->integrator[party]();
+  o.formulation = a->formulation[party];
+  o.rtol = o.integrator->without_freedom ? (double)NAN : half ? 0.5 * a->rtol : a->rtol;
+  return o;
+}
+
+static void keep_largest(double *most, const double *other, int count)
+{
+  for (int k = 0; k < count; k++) {
+    most[k] = fmax(most[k], other[k]);
+  }
+}
+
+static void keep_most(baum_i_differences *most, const baum_i_differences *other)
+{
+  keep_largest(most->error, other->error, 3);
+  keep_largest(most->q, other->q, 2);
+  keep_largest(most->v, other->v, 2);
+  keep_largest(most->lambda, other->lambda, 2);
+  keep_largest(most->energy, other->energy, 2);
+}
+
+static void describe_failure(const baum_simulation_options *o, const baum_i_outcome *outcome,
+                             found *out)
+{
+  char name[BAUM_I_NAME_SIZE];
+  baum_i_name_method(o, name, sizeof name);
+  baum_i_name_setting(o, name, sizeof name);
+  (void)snprintf(out->text, sizeof out->text, "%s did not reach the end: %s", name,
+                 outcome->message);
+}
+
+/* One run into rows; the first becomes the reference to the others. */
+static baum_status join(baum_study *study, const baum_simulation_options *o, baum_i_watch *watch,
+                        double *rows, found *out)
+{
+  baum_i_outcome outcome;
+  baum_i_study_run_one(study, o, watch, rows, &outcome);
+  if (outcome.status == BAUM_ERR_MEMORY || baum_i_watch_stops(watch)) {
+    return outcome.status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : BAUM_STOP_CANCELLED;
+  }
+  if (outcome.status < BAUM_OK || outcome.status == BAUM_STOP_CANCELLED) {
+    if (outcome.status == BAUM_STOP_CANCELLED) {
+      (void)snprintf(outcome.message, sizeof outcome.message, "it takes more than %g s",
+                     watch->limit);
+    }
+    describe_failure(o, &outcome, out);
+    out->failed = true;
+    return BAUM_OK;
+  }
+  out->singular = out->singular || outcome.counters.near_singular_intervals > 0;
+  if (!study->reference.rows) {
+    study->reference.rows = rows;
+    return baum_i_study_weigh(study);
+  }
+  baum_i_differences d = baum_i_study_compare(study, rows);
+  keep_most(&out->most, &d);
+  return BAUM_OK;
+}
+
+static void describe(const attempt *a, found *out)
+{
+  char names[PARTIES][BAUM_I_NAME_SIZE];
+  for (int k = 0; k < PARTIES; k++) {
+    baum_simulation_options o = setting(a, k, 0);
+    baum_i_name_method(&o, names[k], sizeof names[k]);
+  }
+  (void)snprintf(out->text, sizeof out->text, "%s and %s, with rtol %g and half of it,", names[0],
+                 names[1], a->rtol);
+}
+
+/* Four runs, the reference first. Leaves study->reference.rows as it was. */
+static baum_status try(baum_study *study, const attempt *a, baum_i_watch *watch, found *out)
+{
+  baum_i_study_reference *r = &study->reference;
+  size_t size = (size_t)r->n * (size_t)baum_i_study_layout(study).width;
+  *out = (found){.most = {.error = {ROUNDING, ROUNDING, ROUNDING}}};
+  double *rows[2] = {baum_i_alloc(size, sizeof(double)), baum_i_alloc(size, sizeof(double))};
+  baum_status status = rows[0] && rows[1] ? BAUM_OK : baum_i_fail_memory();
+  r->rows = NULL;
+  for (int k = 0; k < RUNS && status == BAUM_OK && !out->failed; k++) {
+    baum_simulation_options o = setting(a, k / 2, k % 2 == 0);
+    if (k % 2 == 0 || !o.integrator->without_freedom) {
+      status = join(study, &o, watch, rows[k > 0], out);
+    }
+  }
+  if (!out->failed) {
+    describe(a, out);
+  }
+  r->rows = NULL;
+  baum_i_free(rows[1]);
+  bool kept = status == BAUM_OK && !out->failed;
+  out->rows = kept ? rows[0] : NULL;
+  if (!kept) {
+    baum_i_free(rows[0]);
+  }
+  return status;
+}
+
+/* ---- the study's own ---- */
+
+static bool better(const found *a, const found *b)
+{
+  if (!a->rows || !b->rows) {
+    return a->rows != NULL;
+  }
+  return a->singular != b->singular ? b->singular : a->most.error[0] < b->most.error[0];
+}
+
+static void settle(baum_study *study, const found *best)
+{
+  baum_i_study_reference *r = &study->reference;
+  baum_study_reference *out = &r->out;
+  out->uncertainty = fmax(best->most.error[0], ROUNDING);
+  out->uncertainty_q = fmax(best->most.q[0], ROUNDING);
+  out->uncertainty_v = fmax(best->most.v[0], ROUNDING);
+  out->uncertainty_lambda = fmax(best->most.lambda[0], ROUNDING);
+  out->uncertainty_energy = best->most.energy[0];
+  out->digits = -log10(out->uncertainty);
+  out->trusted = best->rows && !best->singular && out->uncertainty <= TRUSTED;
+  (void)snprintf(r->text, sizeof r->text, "%s", best->text);
+  if (!best->rows) {
+    out->uncertainty = out->uncertainty_q = out->uncertainty_v = (double)NAN;
+    out->uncertainty_lambda = out->uncertainty_energy = out->digits = (double)NAN;
+    baum_i_append(r->text, sizeof r->text, "; there is no reference");
+    return;
+  }
+  baum_i_append(r->text, sizeof r->text, " agree to %.1f digits", out->digits);
+  if (best->singular) {
+    baum_i_append(r->text, sizeof r->text,
+                  "; not to be trusted: the motion passes near a singular pose");
+  } else if (!out->trusted) {
+    baum_i_append(r->text, sizeof r->text, "; not to be trusted");
+  }
+}
+
+static baum_status make_own(baum_study *study, baum_i_watch *watch)
+{
+  baum_mobility mobility;
+  baum_status status = baum_mechanism_mobility(study->mechanism, &mobility, sizeof mobility);
+  bool is_free = status != BAUM_OK || mobility.freedoms > 0;
+  const attempt *attempts = is_free ? ATTEMPTS : WITHOUT_FREEDOM;
+  int count = (int)(is_free ? sizeof ATTEMPTS / sizeof ATTEMPTS[0]
+                            : sizeof WITHOUT_FREEDOM / sizeof WITHOUT_FREEDOM[0]);
+  found best = {.rows = NULL};
+  bool done = false;
+  status = BAUM_OK;
+  for (int k = 0; k < count && !done && status == BAUM_OK; k++) {
+    found now;
+    status = try(study, &attempts[k], watch, &now);
+    bool take = status == BAUM_OK && (k == 0 || better(&now, &best));
+    baum_i_free(take ? best.rows : now.rows);
+    best = take ? now : best;
+    done = best.rows && !best.singular && best.most.error[0] <= CLOSE;
+  }
+  study->reference.rows = best.rows;
+  if (status == BAUM_OK) {
+    settle(study, &best);
+    status = best.rows ? baum_i_study_weigh(study) : BAUM_OK;
+  }
+  return status;
+}
+
+/* ---- given ---- */
+
+/* A run that is asked for channels and goes nowhere. */
+static baum_status make_probe(const baum_study *study, baum_simulation **out)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  o.step = fabs(study->t1 - study->t0);
+  o.start_time = study->t0;
+  o.check_derivatives = false;
+  return baum_simulation_create(study->mechanism, &o, out);
+}
+
+static bool all_known(const double *values, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (isnan(values[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
+/* Channels that velocities do not matter to. */
+static bool is_of_pose(baum_quantity quantity)
+{
+  return quantity == BAUM_Q || quantity == BAUM_BODY_POSE || quantity == BAUM_PHI;
+}
+
+/* Energy and the user's channels of a sample whose q, v and lambda are there. */
+static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_simulation *probe,
+                          double t, double *row)
+{
+  baum_status status = BAUM_OK;
+  bool has_v = all_known(row + l->v, l->nv);
+  for (int i = l->energy; i < l->width; i++) {
+    row[i] = (double)NAN;
+  }
+  if (!all_known(row, l->nq)) {
+    return BAUM_OK;
+  }
+  double *v = row + l->v;
+  double *still = baum_i_alloc((size_t)l->nv, sizeof *still);
+  baum_i_state at = {.t = t, .q = row, .v = has_v ? v : still};
+  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  if (!still) {
+    return baum_i_fail_memory();
+  }
+  if (has_v) {
+    status = baum_i_output(probe, &at, &energy, 1, row + l->energy);
+  }
+  double *next = row + l->user;
+  for (int k = 0; k < study->channel_count && status == BAUM_OK; k++) {
+    if (has_v || is_of_pose(study->channels[k].quantity)) {
+      status = baum_i_output(probe, &at, &study->channels[k], 1, next);
+    }
+    next += baum_channels_width(study->mechanism, &study->channels[k], 1);
+  }
+  baum_i_free(still);
+  return status;
+}
+
+static void fill(double *to, const double *from, int count)
+{
+  for (int i = 0; i < count; i++) {
+    to[i] = from ? from[i] : (double)NAN;
+  }
+}
+
+static baum_status give_one(const baum_study *study, const baum_i_layout *l, int k, double *row)
+{
+  const baum_i_study_reference *r = &study->reference;
+  fill(row, NULL, l->width);
+  if (!r->solution) {
+    fill(row, r->given[0] + (size_t)k * l->nq, l->nq);
+    fill(row + l->v, r->given[1] ? r->given[1] + (size_t)k * l->nv : NULL, l->nv);
+    fill(row + l->lambda, r->given[2] ? r->given[2] + (size_t)k * l->nc : NULL, l->nc);
+    return BAUM_OK;
+  }
+  int answer = r->solution(r->times[k], row, row + l->v, row + l->lambda, r->user);
+  return answer == 0 ? BAUM_OK
+                     : baum_i_fail(BAUM_ERR_CALLBACK, "study: the solution returned %d at t = %g s",
+                                   answer, r->times[k]);
+}
+
+static void trust_given(baum_study *study)
+{
+  baum_i_study_reference *r = &study->reference;
+  baum_i_layout l = baum_i_study_layout(study);
+  double least = pow(10.0, -r->digits);
+  double kinetic = 0.0;
+  for (int k = 0; k < r->n; k++) {
+    kinetic = fmax(kinetic, r->rows[(size_t)k * l.width + l.energy]);
+  }
+  r->out.uncertainty = r->out.uncertainty_q = r->out.uncertainty_v = least;
+  r->out.uncertainty_lambda = least;
+  r->out.uncertainty_energy = least * kinetic;
+  r->out.digits = r->digits;
+  r->out.trusted = true;
+  (void)snprintf(r->text, sizeof r->text, "%s, trusted to %.1f digits",
+                 r->solution ? "a solution by formulas" : "given", r->digits);
+}
+
+static baum_status take_given(baum_study *study)
+{
+  baum_i_study_reference *r = &study->reference;
+  baum_i_layout l = baum_i_study_layout(study);
+  baum_simulation *probe = NULL;
+  r->rows = baum_i_alloc((size_t)r->n * (size_t)l.width, sizeof *r->rows);
+  baum_status status = r->rows ? make_probe(study, &probe) : baum_i_fail_memory();
+  for (int k = 0; k < r->n && status == BAUM_OK; k++) {
+    double *row = r->rows + (size_t)k * l.width;
+    status = give_one(study, &l, k, row);
+    status = status == BAUM_OK ? derive(study, &l, probe, r->times[k], row) : status;
+  }
+  baum_simulation_destroy(probe);
+  status = status == BAUM_OK ? baum_i_study_weigh(study) : status;
+  if (status == BAUM_OK) {
+    trust_given(study);
+  }
+  return status;
+}
+
+/* ---- all ---- */
+
+baum_status baum_i_study_set_times(baum_study *study)
+{
+  baum_i_study_reference *r = &study->reference;
+  if (r->given[0]) {
+    return BAUM_OK;
+  }
+  int n = study->options.samples;
+  double *times = baum_i_alloc((size_t)n, sizeof *times);
+  if (!times) {
+    return baum_i_fail_memory();
+  }
+  for (int k = 0; k < n; k++) {
+    times[k] = k == n - 1 ? study->t1 : study->t0 + (k + 1) * (study->t1 - study->t0) / n;
+  }
+  baum_i_free(r->times);
+  r->times = times;
+  r->n = r->out.samples = n;
+  return BAUM_OK;
+}
+
+baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
+{
+  baum_i_study_reference *r = &study->reference;
+  if (r->rows) {
+    return BAUM_OK;
+  }
+  baum_i_watch longer = *watch;
+  longer.limit = PATIENCE * watch->limit;
+  bool is_given = r->given[0] || r->solution;
+  baum_status status = is_given ? take_given(study) : make_own(study, &longer);
+  if (status != BAUM_OK) {
+    baum_i_free(r->rows);
+    r->rows = NULL;
+  }
+  r->known = status == BAUM_OK;
+  return status;
+}
+
+void baum_i_study_clear_reference(baum_study *study)
+{
+  baum_i_study_reference *r = &study->reference;
+  baum_i_free(r->times);
+  baum_i_free(r->rows);
+  baum_i_free(r->weight);
+  for (int k = 0; k < 3; k++) {
+    baum_i_free(r->given[k]);
+  }
+  *r = (baum_i_study_reference){0};
+}

@@ -1,0 +1,401 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Making a study, saying what is studied, and reading rows. */
+#include <baum/study.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "base/text.h"
+#include "integrate/integrator.h"
+#include "mechanism/definition.h"
+#include "simulate/options.h"
+#include "study/study.h"
+
+/* ---- making and ending ---- */
+
+static void describe_error(baum_study *study)
+{
+  size_t size = sizeof study->error_text;
+  study->error_text[0] = '\0';
+  if (study->channel_count > 0) {
+    baum_i_append(study->error_text, size, "largest error of %d channel%s over all samples, by %g",
+                  study->channel_count, study->channel_count > 1 ? "s" : "", study->unit);
+  } else {
+    baum_i_append(study->error_text, size,
+                  "largest error of all positions over all samples, lengths by %.4g, angles in rad",
+                  study->mechanism->length);
+  }
+}
+
+baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double t1,
+                              baum_study **out)
+{
+  const char *call = "baum_study_create";
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL", call);
+  }
+  *out = NULL;
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
+  }
+  if (!mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
+  }
+  if (!isfinite(t0) || !isfinite(t1) || t0 == t1) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: t0 is %g s and t1 is %g s; they must be finite and differ", call, t0,
+                       t1);
+  }
+  baum_study *study = baum_i_alloc(1, sizeof *study);
+  if (!study) {
+    return baum_i_fail_memory();
+  }
+  study->mechanism = baum_i_mechanism_share(mechanism);
+  study->t0 = t0;
+  study->t1 = t1;
+  study->unit = 1.0;
+  study->options = baum_study_options_default();
+  study->reference.out.digits = (double)NAN;
+  atomic_init(&study->cancelled, 0);
+  describe_error(study);
+  *out = study;
+  return BAUM_OK;
+}
+
+void baum_study_destroy(baum_study *study)
+{
+  if (!study) {
+    return;
+  }
+  baum_i_study_drop_rows(study, 0, 0);
+  baum_i_free(study->rows);
+  baum_i_free(study->methods);
+  baum_i_free(study->channels);
+  baum_i_free(study->options.file);
+  baum_i_study_clear_reference(study);
+  baum_mechanism_destroy(baum_i_mutable(study->mechanism));
+  baum_i_free(study);
+}
+
+void baum_study_cancel(baum_study *study)
+{
+  if (study) {
+    atomic_store(&study->cancelled, 1);
+  }
+}
+
+/* ---- options ---- */
+
+void baum_study_options_init(baum_study_options *options, size_t caller_size)
+{
+  const baum_study_options defaults = {
+    .samples = 100,
+    .threads = 1,
+    .repeats = 5,
+    .row_limit = 10.0,
+    .time_budget = INFINITY,
+    .energy_account = true,
+  };
+  if (baum_i_takes_sized(options, caller_size)) {
+    baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
+  }
+}
+
+static baum_status check_options(const baum_study_options *o)
+{
+  const char *const counts[3] = {"samples", "threads", "repeats"};
+  const int32_t count[3] = {o->samples, o->threads, o->repeats};
+  for (int k = 0; k < 3; k++) {
+    int32_t least = k == 0 ? 2 : 1;
+    if (count[k] < least) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %d, must be >= %d", counts[k],
+                         (int)count[k], (int)least);
+    }
+  }
+  const char *const times[2] = {"row_limit", "time_budget"};
+  const double time[2] = {o->row_limit, o->time_budget};
+  for (int k = 0; k < 2; k++) {
+    if (!(time[k] > 0.0)) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %g s, must be > 0", times[k],
+                         time[k]);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status begun(const char *call, const char *what)
+{
+  return baum_i_fail(BAUM_ERR_STATE, "%s: rows have been run, %s stays as it is", call, what);
+}
+
+static bool same_file(const char *a, const char *b)
+{
+  return a && b ? strcmp(a, b) == 0 : a == b;
+}
+
+static baum_status check_begun(const baum_study *study, const baum_study_options *o)
+{
+  const char *call = "baum_study_set_options";
+  if (study->begun && o->samples != study->options.samples) {
+    return begun(call, "samples");
+  }
+  if (study->begun && o->energy_account != study->options.energy_account) {
+    return begun(call, "energy_account");
+  }
+  return study->begun && !same_file(o->file, study->options.file) ? begun(call, "file") : BAUM_OK;
+}
+
+baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call)
+{
+  size_t given = 0;
+  memcpy(&given, from, sizeof given);
+  if (!baum_i_is_struct_size(given, size)) {
+    return baum_i_fail(
+      BAUM_ERR_STRUCT,
+      "%s: struct_size is %zu, must be %zu, or that of an older version; start from "
+      "the default",
+      call, given, size);
+  }
+  memcpy(to, from, given); /* what an older version lacks has its default */
+  memcpy(to, &size, sizeof size);
+  return BAUM_OK;
+}
+
+baum_status baum_study_set_options(baum_study *study, const baum_study_options *options)
+{
+  const char *call = "baum_study_set_options";
+  if (!study || !options) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
+  }
+  baum_study_options o = baum_study_options_default();
+  baum_status status = baum_i_study_take(&o, sizeof o, options, call);
+  if (status == BAUM_OK) {
+    status = check_options(&o);
+  }
+  if (status == BAUM_OK) {
+    status = check_begun(study, &o);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  char *file = o.file ? baum_i_copy_text(o.file) : NULL;
+  if (o.file && !file) {
+    return baum_i_fail_memory();
+  }
+  baum_i_free(study->options.file);
+  study->options = o;
+  study->options.file = file;
+  return BAUM_OK;
+}
+
+baum_status baum_study_settings(const baum_study *study, double *t0, double *t1,
+                                baum_study_options *options, size_t caller_size)
+{
+  if (!study || (options && !baum_i_takes_sized(options, caller_size))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "baum_study_settings: the study is NULL or the size is 0");
+  }
+  if (t0) {
+    *t0 = study->t0;
+  }
+  if (t1) {
+    *t1 = study->t1;
+  }
+  if (options) {
+    baum_i_give_sized(options, caller_size, &study->options, sizeof study->options);
+  }
+  return BAUM_OK;
+}
+
+/* ---- what error means ---- */
+
+baum_status baum_study_set_error(baum_study *study, const baum_channel *channels, int32_t count,
+                                 double unit)
+{
+  const char *call = "baum_study_set_error";
+  if (!study || !channels || count < 1) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or channels are NULL, or count is not >= 1",
+                       call);
+  }
+  if (!(isfinite(unit) && unit > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: unit is %g, must be finite and > 0", call, unit);
+  }
+  if (baum_channels_width(study->mechanism, channels, count) < 0) {
+    return BAUM_ERR_ARGUMENT;
+  }
+  if (study->begun) {
+    return begun(call, "what error means");
+  }
+  baum_channel *copy = baum_i_copy(channels, (size_t)count, sizeof *copy);
+  if (!copy) {
+    return baum_i_fail_memory();
+  }
+  baum_i_free(study->channels);
+  study->channels = copy;
+  study->channel_count = count;
+  study->unit = unit;
+  describe_error(study);
+  return BAUM_OK;
+}
+
+const char *baum_study_error_text(const baum_study *study)
+{
+  return study ? study->error_text : NULL;
+}
+
+/* ---- the reference ---- */
+
+static baum_status check_digits(const char *call, double digits)
+{
+  if (!(isfinite(digits) && digits > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: digits is %g, must be finite and > 0", call, digits);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_sample_times(const baum_study *study, const double *times, int32_t n)
+{
+  double direction = study->t1 > study->t0 ? 1.0 : -1.0;
+  double last = study->t0;
+  for (int k = 0; k < n; k++) {
+    if (!(direction * (times[k] - last) > 0.0) || !(direction * (study->t1 - times[k]) >= 0.0)) {
+      return baum_i_fail(
+        BAUM_ERR_ARGUMENT,
+        "baum_study_set_reference: times[%d] is %.9g s after %.9g s; times must go "
+        "from %g s, which is not one of them, to %g s",
+        k, times[k], last, study->t0, study->t1);
+    }
+    last = times[k];
+  }
+  return BAUM_OK;
+}
+
+/* Copies of what was given, or nothing. */
+static bool copy_given(const baum_study *study, const double *times, int32_t n,
+                       const double *const given[3], baum_i_study_reference *out)
+{
+  const baum_mechanism *m = study->mechanism;
+  const int widths[3] = {m->nq, m->nv, m->nc};
+  out->times = baum_i_copy(times, (size_t)n, sizeof *times);
+  bool fine = out->times != NULL;
+  for (int k = 0; k < 3 && fine; k++) {
+    if (given[k]) {
+      size_t count = (size_t)n * (size_t)widths[k];
+      out->given[k] =
+        count > 0 ? baum_i_copy(given[k], count, sizeof(double)) : baum_i_alloc(1, sizeof(double));
+      fine = out->given[k] != NULL;
+    }
+  }
+  return fine;
+}
+
+static void put_reference(baum_study *study, const baum_i_study_reference *reference)
+{
+  baum_i_study_clear_reference(study);
+  study->reference = *reference;
+  study->reference.out.digits = (double)NAN;
+}
+
+baum_status baum_study_set_reference(baum_study *study, const double *times, int32_t n,
+                                     const double *q, const double *v, const double *lambda,
+                                     double digits)
+{
+  const char *call = "baum_study_set_reference";
+  if (!study || !times || !q || n < 1) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study, times or q are NULL, or n is not >= 1", call);
+  }
+  baum_status status = check_digits(call, digits);
+  if (status == BAUM_OK) {
+    status = check_sample_times(study, times, n);
+  }
+  if (status == BAUM_OK && study->begun) {
+    status = begun(call, "the reference");
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_study_reference r = {.n = n, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
+  r.out.samples = n;
+  const double *const given[3] = {q, v, lambda};
+  if (!copy_given(study, times, n, given, &r)) {
+    baum_i_free(r.times);
+    for (int k = 0; k < 3; k++) {
+      baum_i_free(r.given[k]);
+    }
+    return baum_i_fail_memory();
+  }
+  put_reference(study, &r);
+  return BAUM_OK;
+}
+
+baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *solution, void *user,
+                                    double digits)
+{
+  const char *call = "baum_study_set_solution";
+  if (!study || !solution) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or solution are NULL", call);
+  }
+  baum_status status = check_digits(call, digits);
+  if (status == BAUM_OK && study->begun) {
+    status = begun(call, "the reference");
+  }
+  if (status == BAUM_OK) {
+    const baum_i_study_reference r = {
+      .solution = solution, .user = user, .digits = digits, .out = {.origin = BAUM_STUDY_SOLUTION}};
+    put_reference(study, &r);
+  }
+  return status;
+}
+
+baum_status baum_study_reference_read(const baum_study *study, baum_study_reference *out,
+                                      size_t caller_size)
+{
+  const char *call = "baum_study_reference_read";
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  baum_status status = baum_i_check_sized(out, caller_size, call);
+  if (status == BAUM_OK) {
+    baum_study_reference whole = study->reference.out;
+    whole.text = study->reference.text;
+    if (!study->reference.known) {
+      whole.uncertainty = whole.uncertainty_q = whole.uncertainty_v = (double)NAN;
+      whole.uncertainty_lambda = whole.uncertainty_energy = whole.digits = (double)NAN;
+    }
+    baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  }
+  return status;
+}
+
+static void give(double *to, const double *from, int count)
+{
+  if (to) {
+    memcpy(to, from, (size_t)count * sizeof *to);
+  }
+}
+
+baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t, double *q,
+                                        double *v, double *lambda)
+{
+  const char *call = "baum_study_reference_sample";
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  const baum_i_study_reference *r = &study->reference;
+  if (!r->rows) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been made", call);
+  }
+  if (k < 0 || k >= r->n) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k, r->n - 1);
+  }
+  baum_i_layout l = baum_i_study_layout(study);
+  const double *row = r->rows + (size_t)k * l.width;
+  give(t, &r->times[k], 1);
+  give(q, row, l.nq);
+  give(v, row + l.v, l.nv);
+  give(lambda, row + l.lambda, l.nc);
+  return BAUM_OK;
+}

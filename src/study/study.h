@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A study from the inside: settings and their rows, the reference they are compared with, and how rows are run.
+ *
+ * A run is compared by its samples: a matrix of one line per sample with the columns of a layout
+ *
+ *   q (nq)   v (nv)   lambda (nc)   kinetic, potential energy (2)   the user's channels
+ */
+#ifndef BAUM_I_STUDY_STUDY_H
+#define BAUM_I_STUDY_STUDY_H
+
+#include <stdatomic.h>
+
+#include <baum/study.h>
+
+#include "base/message.h"
+#include "study/threads.h"
+
+enum {
+  BAUM_I_NAME_SIZE = 160,
+  BAUM_I_NOTE_SIZE = 320,
+  BAUM_I_TEXT_SIZE = 640,
+  BAUM_I_CHANNELS = 4
+};
+
+/* First columns of the parts of a sample. */
+typedef struct baum_i_layout {
+  int nq, nv, nc;
+  int v, lambda, energy, user;
+  int width;
+} baum_i_layout;
+
+/* Largest differences from the reference, as in baum_study_row. */
+typedef struct baum_i_differences {
+  double error[3]; /* whole span, last sample, first half */
+  double q[2];     /* whole span, last sample */
+  double v[2];
+  double lambda[2];
+  double energy[2];
+} baum_i_differences;
+
+typedef struct baum_i_row {
+  baum_study_row out; /* name and message are those below */
+  baum_simulation_options options;
+  double *row_gains; /* own copy of the option */
+  char name[BAUM_I_NAME_SIZE];
+  char message[BAUM_I_NOTE_SIZE];
+  uint64_t key;  /* of the options */
+  double limit;  /* [s] the row limit when it was measured */
+  bool measured; /* errors and all that belongs to the motion are known */
+  bool timed;    /* so are its counts of work and its time, where it is done */
+} baum_i_row;
+
+/* Rows that differ in step or rtol alone. */
+typedef struct baum_i_study_method {
+  uint64_t key;
+  int first;                   /* row, for all they have in common */
+  char name[BAUM_I_NAME_SIZE]; /* of its rows without step or tolerance */
+  double too_fine;             /* step or rtol that has reached the row limit, else 0 */
+} baum_i_study_method;
+
+typedef struct baum_i_study_reference {
+  baum_study_reference out;
+  char text[BAUM_I_TEXT_SIZE];
+  int n;
+  double *times; /* (n) */
+  double *rows;  /* (n x width) NULL: not made */
+  bool known;    /* uncertainties are: it has been made, now or before */
+
+  double *given[3]; /* q, v, lambda as given, or NULL */
+  double digits;    /* as given */
+  baum_study_solution_fn *solution;
+  void *user;
+
+  double *weight; /* (width) on differences */
+} baum_i_study_reference;
+
+struct baum_study {
+  const baum_mechanism *mechanism;
+  double t0;
+  double t1;
+  baum_study_options options; /* file is the study's own */
+
+  baum_channel *channels; /* (channel_count) of the user; none: positions */
+  int channel_count;
+  double unit;
+  char error_text[BAUM_I_NOTE_SIZE];
+
+  baum_i_study_reference reference;
+
+  baum_i_row **rows; /* (row_count) */
+  int row_count;
+  baum_i_study_method *methods; /* (method_count) */
+  int method_count;
+
+  bool begun; /* rows have been run: what they depend on stays */
+  atomic_int cancelled;
+};
+
+/* ---- study.c, rows.c ---- */
+
+/* A struct of a caller, of this version or an older one, over the default that `to` holds. */
+baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
+
+/* Give up rows and methods from these numbers on. */
+void baum_i_study_drop_rows(baum_study *study, int rows, int methods);
+
+/* ---- names.c ---- */
+
+/* Such as "rk4 baumgarte auto". */
+void baum_i_name_method(const baum_simulation_options *options, char *text, size_t size);
+
+/* Adds ", step 0.001 s" or ", rtol 1e-06". */
+void baum_i_name_setting(const baum_simulation_options *options, char *text, size_t size);
+
+/* What tells options from others, with or without step and rtol. */
+uint64_t baum_i_options_key(const baum_simulation_options *options, bool with_setting);
+
+/* Step or rtol; 0 for neither. */
+double baum_i_setting(const baum_simulation_options *options);
+
+/* ---- samples.c ---- */
+
+baum_i_layout baum_i_study_layout(const baum_study *study);
+
+/* The channels of the layout, which are at most BAUM_I_CHANNELS and the user's; returns their number, the user's being
+ * added behind. */
+int baum_i_study_channels(const baum_study *study, baum_channel *channels);
+
+/* Weights of differences from the reference, whose rows are there. BAUM_ERR_MEMORY and what an evaluation may fail with. */
+baum_status baum_i_study_weigh(baum_study *study);
+
+/* Samples against the reference. */
+baum_i_differences baum_i_study_compare(const baum_study *study, const double *rows);
+
+/* ---- one_run.c ---- */
+
+/* When a run has to stop. */
+typedef struct baum_i_watch {
+  const baum_study *study;
+  double limit;    /* [s] of CPU time of this thread */
+  double begin;    /* [s] likewise */
+  double deadline; /* [s] of wall time, when the budget is spent */
+  bool timed_out;
+} baum_i_watch;
+
+typedef struct baum_i_outcome {
+  baum_status status;
+  bool created;
+  baum_counters counters;
+  baum_energy_account account; /* NaN without one */
+  double cpu;                  /* [s] */
+  char message[BAUM_I_NOTE_SIZE];
+} baum_i_outcome;
+
+double baum_i_thread_seconds(void);
+double baum_i_wall_seconds(void);
+
+/* Run through the samples of the reference; rows (n x width) NULL: to the end alone, as users would for the end. */
+void baum_i_study_run_one(const baum_study *study, const baum_simulation_options *options,
+                          baum_i_watch *watch, double *rows, baum_i_outcome *out);
+
+/* Cancelled, or the budget spent? */
+bool baum_i_watch_stops(const baum_i_watch *watch);
+
+/* ---- reference.c ---- */
+
+/* Make the reference: BAUM_OK, also where it is not to be trusted or there is none; BAUM_ERR_MEMORY, what the
+ * solution fails with, and what stops all runs. */
+baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch);
+
+/* Times of the samples, by the options or as given. */
+baum_status baum_i_study_set_times(baum_study *study);
+
+void baum_i_study_clear_reference(baum_study *study);
+
+/* ---- study_file.c ---- */
+
+typedef struct baum_i_study_file baum_i_study_file;
+
+/* Open the file of the options, take rows and reference from it, and go on behind its end. *out is NULL without one. */
+baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
+/* Append what is known; with no file BAUM_OK. */
+baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
+baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row);
+baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row);
+baum_status baum_i_study_file_close(baum_i_study_file *file);
+
+/* ---- work.c ---- */
+
+/* [evaluations] What a run has cost on any machine. */
+double baum_i_study_work(const baum_study *study, const baum_i_row *row);
+
+/* ---- methods.c ---- */
+
+/* The method of a row's options, which is new if need be; -1 without memory. */
+int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row);
+
+/* Rows of a method that are done, timed and not off, from coarse to fine; returns how many. */
+int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity);
+
+#endif

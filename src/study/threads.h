@@ -1,0 +1,22 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The threads of a study. */
+#ifndef BAUM_I_STUDY_THREADS_H
+#define BAUM_I_STUDY_THREADS_H
+
+#include <pthread.h>
+#include <stdbool.h>
+
+typedef struct baum_i_lock {
+  pthread_mutex_t mutex;
+} baum_i_lock;
+
+bool baum_i_lock_make(baum_i_lock *lock);
+void baum_i_lock_end(baum_i_lock *lock);
+void baum_i_lock_take(baum_i_lock *lock);
+void baum_i_lock_give(baum_i_lock *lock);
+
+/* Call work(user, k) for k = 0 to count - 1, each in a thread of its own, the first in this one; those for which there is
+ * no thread are left out. Returns when all are back. */
+void baum_i_threads_run(int count, void (*work)(void *user, int k), void *user);
+
+#endif
