@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Break times: when what acts on a mechanism is known to jump.
+ *  Break times: when what acts on a mechanism is known to jump; inputs that jump by a schedule.
  */
 #ifndef BAUM_BREAKS_H
 #define BAUM_BREAKS_H
 
-#include <baum/mechanism.h>
+#include <baum/simulation.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -33,6 +33,23 @@ BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, c
  *  @return     NULL for NULL, and where there are none
  */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
+
+/** Give an input of a run values from times on: values[k] from times[k] to times[k + 1], the last one for good, and
+ *  before times[0] the value that it has at the call. It is a function of time then, also backward, past times,
+ *  and where baum_simulation_set_state() goes. Every time at which the value changes is a break time of this run, as of
+ *  baum_mechanism_add_break_times(): steps end there and methods that carry their past along begin anew, as they do at
+ *  this call. It replaces a schedule that the input has, and ends with baum_simulation_set_input() or a count of 0,
+ *  which keep what is set and the present value.
+ *  baum_simulation_save() has schedules, and baum_simulation_continue() takes them over.
+ *  @param     input   of the mechanism of the run
+ *  @param[in] times   (count) [s] finite, rising, also before the present one. Copied. NULL when count is 0
+ *  @param[in] values  (count) finite. Copied. NULL when count is 0
+ *  @param     count   [-] >= 0
+ *  @return    as baum_simulation_set_input(); the run is unchanged on failure
+ */
+BAUM_API baum_status baum_simulation_schedule_input(baum_simulation *simulation,
+                                                    baum_input_id input, const double *times,
+                                                    const double *values, int32_t count);
 
 #ifdef __cplusplus
 }

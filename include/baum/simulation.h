@@ -261,9 +261,9 @@ BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
                                               const baum_simulation *from);
 
 /** Change an input from the present time on; it is held until it is changed again, also by
- *  baum_simulation_set_state(). Variable-step methods begin anew, which counters.restarts counts
- *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step. A
- *  value that is the present one changes nothing.
+ *  baum_simulation_set_state(), and a schedule of it ends. Variable-step methods begin anew, which counters.restarts counts
+ *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step, and changes that
+ *  are known before with baum_simulation_schedule_input(). A value that is the present one changes no motion.
  *  @param value  finite
  *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CONVERGENCE (IDA),
  *                BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
@@ -298,7 +298,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 
 /* ---- save and restore ------------------------------------------------------------------------ */
 
-/** Save a run into memory: time, q, v, grid, gains in use, inputs, laws of drivers, counters, warnings, energy account.
+/** Save a run into memory: time, q, v, grid, gains in use, inputs and their schedules, laws of drivers, counters, warnings,
+ *  energy account.
  *  The run forgets what a restored one cannot know, so that the two go on alike, bit for bit: methods of several steps
  *  and those that choose their step begin anew from here, which counters.restarts counts, and KLU chooses its pivots
  *  anew, which may allocate in the next step. One-step methods with a fixed step lose nothing; with blocks
@@ -307,7 +308,8 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  the format, which the library counts up with what a run has. It has version, size, a sum over its bytes, and
  *  fingerprints of the mechanism and the options.
  *  @param[out] buffer    (capacity) of any alignment; NULL: only the size is told, and nothing changes
- *  @param      capacity  [byte] at least what NULL tells, which is the same all through a run
+ *  @param      capacity  [byte] at least what NULL tells, which is the same all through a run but for
+ *                        32 bytes more for each time of a schedule
  *  @param[out] size      [byte] that were written; with NULL the most that will be
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure
  */
@@ -320,7 +322,7 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  must be, too, and cannot be checked, and what these keep for themselves is not saved. Of the options integrator,
  *  formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account must be the same. Gains and
  *  rates that were chosen at the start, and redundant rows, are those of the saved run. Allocates nothing, but for a saved run
- *  that has set drivers, where this one has not.
+ *  that has set drivers, where this one has not, or has more in schedules than this one ever had.
  *  @param[in] buffer  (size) of any alignment; what is behind its end is not looked at
  *  @param     size    [byte] at least what baum_simulation_save() wrote
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (cut off, damaged, none of a run, of another version,

@@ -282,16 +282,17 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
-/* Over a break at the end of the last step. */
-static baum_status pass_break(baum_simulation *run)
+/* Over a break at the end of the last step, and over those that are too near to it for a step between. */
+static baum_status pass_breaks(baum_simulation *run)
 {
+  baum_status status = BAUM_OK;
   baum_i_break next = baum_i_run_next_break(run);
-  if (!baum_i_run_is_at(run, next)) {
-    return BAUM_OK;
+  while (status == BAUM_OK && baum_i_run_is_at(run, next)) {
+    catch_up(run);
+    status = baum_i_run_pass(run, next);
+    run->ahead.t = run->state.t;
+    next = baum_i_run_next_break(run);
   }
-  catch_up(run);
-  baum_status status = baum_i_run_pass(run, next);
-  run->ahead.t = run->state.t;
   return status;
 }
 
@@ -307,7 +308,7 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 {
   baum_status status = watch_last(run, t);
   while (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) > 0.0) {
-    status = pass_break(run);
+    status = pass_breaks(run);
     if (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) <= 0.0) {
       return BAUM_OK; /* t is at the break */
     }
@@ -447,7 +448,7 @@ static baum_status one_step(baum_simulation *run)
   if (status != BAUM_OK) {
     return status;
   }
-  status = pass_break(run);
+  status = pass_breaks(run);
   if (status == BAUM_OK) {
     status = internal_step(run);
   }

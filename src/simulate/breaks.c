@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks. At its time b a function has the value of after. So steps forward end a few roundings before b, where
+/* Declared breaks, of the mechanism and of scheduled inputs. At its time b a function has the value of after. So steps forward end a few roundings before b, where
  * everything is of before, and the next begins at b; backward in time they end at b and begin before it. In between
  * nothing moves. Methods that carry their past along begin anew there.
  */
@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "simulate/account.h"
+#include "simulate/schedule.h"
 
 /* Of the largest time that the method reckons with: stages must not round to b. */
 static const double ROUNDINGS = 16.0;
@@ -25,22 +26,58 @@ static double gap(const baum_simulation *run, double b)
   return ROUNDINGS * DBL_EPSILON * largest;
 }
 
-baum_i_break baum_i_run_next_break(const baum_simulation *run)
+/* A rising list of breaks. */
+typedef struct breaks {
+  double (*time)(const baum_simulation *run, int k);
+  int count;
+} breaks;
+
+static double time_of_mechanism(const baum_simulation *run, int k)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
-  double direction = run->problem.direction;
-  double from = end_of_last_step(run);
-  double found = direction * (double)INFINITY;
-  for (int k = 0; k < m->break_count; k++) {
-    double b = m->breaks[k];
-    /* What stands at b, to rounding, is on its later side. */
-    bool ahead = direction > 0.0 ? b > from : b <= from + 0.5 * gap(run, b);
-    if (ahead && direction * (found - b) > 0.0) {
-      found = b;
+  return run->workspace->mechanism->breaks[k];
+}
+
+static double time_of_jump(const baum_simulation *run, int k)
+{
+  return run->schedule.jumps[k].t;
+}
+
+/* What stands at b, to rounding, is on its later side. */
+static bool is_later(const baum_simulation *run, double t, double b)
+{
+  return b <= (run->problem.direction > 0.0 ? t : t + 0.5 * gap(run, b));
+}
+
+/* The next of a list on the way from t; infinite when there is none. */
+static double next_of(const baum_simulation *run, breaks list, double t)
+{
+  int first = 0; /* not earlier than t */
+  int end = list.count;
+  while (first < end) {
+    int middle = first + (end - first) / 2;
+    if (is_later(run, t, list.time(run, middle))) {
+      first = middle + 1;
+    } else {
+      end = middle;
     }
   }
+  if (run->problem.direction > 0.0) {
+    return first < list.count ? list.time(run, first) : (double)INFINITY;
+  }
+  return first > 0 ? list.time(run, first - 1) : -(double)INFINITY;
+}
+
+baum_i_break baum_i_run_next_break(const baum_simulation *run)
+{
+  const breaks of_mechanism = {time_of_mechanism, run->workspace->mechanism->break_count};
+  const breaks of_inputs = {time_of_jump, run->schedule.count};
+  double from = end_of_last_step(run);
+  double a = next_of(run, of_mechanism, from);
+  double b = next_of(run, of_inputs, from);
+  double found = run->problem.direction > 0.0 ? fmin(a, b) : fmax(a, b);
   double before = isfinite(found) ? found - gap(run, found) : found;
-  return direction > 0.0 ? (baum_i_break){before, found} : (baum_i_break){found, before};
+  return run->problem.direction > 0.0 ? (baum_i_break){before, found}
+                                      : (baum_i_break){found, before};
 }
 
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next)
@@ -56,9 +93,11 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     baum_i_account_read(run, &run->state);
   }
   run->state.t = next.far;
+  baum_i_schedule_move(run, before, next.far);
   baum_status status = baum_i_run_begin_anew(run);
   if (status != BAUM_OK) {
     run->state.t = before;
+    baum_i_schedule_move(run, next.far, before);
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};

@@ -2,7 +2,7 @@
 /* A run that goes on where another one stands, of the same mechanism and with options of its own. */
 #include "base/alloc.h"
 #include "dynamics/immobile.h"
-#include "simulate/run.h"
+#include "simulate/schedule.h"
 
 /* Where a run stands, and what acts on it from outside. */
 typedef struct standing {
@@ -10,6 +10,7 @@ typedef struct standing {
   double *v;          /* (nv) */
   double *inputs;     /* (input_count) */
   double *parameters; /* as of a run; NULL: the mechanism's */
+  baum_i_schedule schedule;
 } standing;
 
 static baum_status copy_standing(const baum_simulation *from, standing *out)
@@ -24,7 +25,7 @@ static baum_status copy_standing(const baum_simulation *from, standing *out)
       baum_i_copy(from->parameters, (size_t)m->parameter_count, sizeof *out->parameters);
   }
   bool complete = out->q && out->v && out->inputs && (out->parameters || !from->parameters);
-  return complete ? BAUM_OK : baum_i_fail_memory();
+  return complete ? baum_i_schedule_copy(&from->schedule, &out->schedule) : baum_i_fail_memory();
 }
 
 static void clear_standing(standing *s)
@@ -33,6 +34,7 @@ static void clear_standing(standing *s)
   baum_i_free(s->v);
   baum_i_free(s->inputs);
   baum_i_free(s->parameters);
+  baum_i_free(s->schedule.jumps);
 }
 
 /* The run gets what acts from outside, and gives its own. */
@@ -40,6 +42,7 @@ static void exchange(baum_simulation *run, standing *s)
 {
   baum_workspace *w = run->workspace;
   double *parameters = run->parameters;
+  baum_i_schedule schedule = run->schedule;
   for (int k = 0; k < w->mechanism->input_count; k++) {
     double input = w->inputs[k];
     w->inputs[k] = s->inputs[k];
@@ -47,6 +50,8 @@ static void exchange(baum_simulation *run, standing *s)
   }
   run->parameters = s->parameters;
   s->parameters = parameters;
+  run->schedule = s->schedule;
+  s->schedule = schedule;
   w->point.parameters = run->parameters ? run->parameters : w->mechanism->parameters;
 }
 

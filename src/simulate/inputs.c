@@ -13,6 +13,7 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/events.h"
+#include "simulate/schedule.h"
 
 static baum_status restart(baum_simulation *run)
 {
@@ -69,16 +70,16 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   }
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
-  if (value == before) {
-    return BAUM_OK;
+  if (value != before) {
+    read_account(simulation);
+    *present = value;
+    status = baum_i_run_begin_anew(simulation);
   }
-  read_account(simulation);
-  *present = value;
-  status = baum_i_run_begin_anew(simulation);
   if (status != BAUM_OK) {
     *present = before;
     return baum_i_run_fail(simulation, status);
   }
+  baum_i_schedule_end(simulation, input.index1 - 1);
   return BAUM_OK;
 }
 

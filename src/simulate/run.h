@@ -32,6 +32,20 @@ typedef struct baum_i_work {
   int64_t forced;
 } baum_i_work;
 
+/* An input jumps at a time, see schedule.h. */
+typedef struct baum_i_jump {
+  double t; /* [s] */
+  double before;
+  double after;
+  int64_t input;
+} baum_i_jump;
+
+typedef struct baum_i_schedule {
+  baum_i_jump *jumps; /* (room), rising in time */
+  int count;
+  int room;
+} baum_i_schedule;
+
 typedef struct baum_i_account baum_i_account;
 typedef struct baum_i_passages baum_i_passages;
 typedef struct baum_i_events baum_i_events;
@@ -50,12 +64,13 @@ struct baum_simulation {
 
   baum_i_passages *passages; /* through singular poses, see passage.h; NULL: not looked for */
 
-  double *parameters;   /* own copy of the mechanism's once a driver is set, else NULL */
-  double *memory;       /* all arrays below */
-  baum_i_state state;   /* reported */
-  baum_i_state ahead;   /* variable step: end of the last internal step */
-  baum_i_state trial;   /* a step under way, or a sample beside the motion */
-  double *acceleration; /* (nv) at the start of a step */
+  double *parameters;       /* own copy of the mechanism's once a driver is set, else NULL */
+  baum_i_schedule schedule; /* of inputs */
+  double *memory;           /* all arrays below */
+  baum_i_state state;       /* reported */
+  baum_i_state ahead;       /* variable step: end of the last internal step */
+  baum_i_state trial;       /* a step under way, or a sample beside the motion */
+  double *acceleration;     /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
   baum_i_grid grid;

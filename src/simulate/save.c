@@ -20,6 +20,7 @@
 #include "simulate/events.h"
 #include "simulate/passage.h"
 #include "simulate/saved.h"
+#include "simulate/schedule.h"
 
 enum { WORD = 8 };
 
@@ -131,6 +132,7 @@ static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED
   case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
   case BAUM_I_SAVED_CHOICE:
   case BAUM_I_SAVED_STATE:
+  case BAUM_I_SAVED_JUMPS:
   default: return part->place;
   }
 }
@@ -305,6 +307,7 @@ static bool has_length(const baum_i_saved_part *part, size_t length)
 {
   switch (part->kind) {
   case BAUM_I_SAVED_NUMBERS: return length == 0 || length == part->size;
+  case BAUM_I_SAVED_JUMPS: return length % sizeof(baum_i_jump) == 0;
   case BAUM_I_SAVED_SOME: return length <= part->size && length % part->unit == 0;
   case BAUM_I_SAVED_NUMBER:
   case BAUM_I_SAVED_INTEGER:
@@ -313,6 +316,23 @@ static bool has_length(const baum_i_saved_part *part, size_t length)
   case BAUM_I_SAVED_STATE:
   default: return length == part->size;
   }
+}
+
+static baum_status check_choice(const baum_i_saved_part *part, const unsigned char *at)
+{
+  if (part->size == 0 || memcmp(at, part->place, part->size) == 0) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer does not fit: %s is not as it is here", part->name);
+}
+
+static baum_status check_jumps(const baum_i_saved_part *part, const unsigned char *at,
+                               size_t length)
+{
+  if (baum_i_schedule_is_sound(at, length, part->integer)) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer is damaged: %s are not in order", part->name);
 }
 
 static baum_status check_part(const baum_i_saved_part *part, const unsigned char *at, size_t length)
@@ -325,11 +345,8 @@ static baum_status check_part(const baum_i_saved_part *part, const unsigned char
   case BAUM_I_SAVED_NUMBER: return check_number(part, at);
   case BAUM_I_SAVED_INTEGER: return check_integer(part, at);
   case BAUM_I_SAVED_TEXT_OF: return check_text(part, at);
-  case BAUM_I_SAVED_CHOICE:
-    if (length > 0 && memcmp(at, part->place, length) != 0) {
-      return refuse("the buffer does not fit: %s is not as it is here", part->name);
-    }
-    return BAUM_OK;
+  case BAUM_I_SAVED_CHOICE: return check_choice(part, at);
+  case BAUM_I_SAVED_JUMPS: return check_jumps(part, at, length);
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_NUMBERS:
   case BAUM_I_SAVED_SOME:
@@ -390,15 +407,19 @@ static bool is_put_back(const baum_i_saved_part *part)
   return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_SOME;
 }
 
-/* A run without numbers of its own gets them when the buffer has some. */
-static baum_status make_numbers(baum_simulation *run, const reader *r, const baum_i_saved *list)
+/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
+static baum_status make_room(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
-  for (int k = 0; k < list->count; k++) {
-    if (list->parts[k].kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
-      return baum_i_run_own_parameters(run);
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < list->count && status == BAUM_OK; k++) {
+    baum_i_saved_kind kind = list->parts[k].kind;
+    if (kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
+      status = baum_i_run_own_parameters(run);
+    } else if (kind == BAUM_I_SAVED_JUMPS) {
+      status = baum_i_schedule_reserve(&run->schedule, (int)(r->length[k] / sizeof(baum_i_jump)));
     }
   }
-  return BAUM_OK;
+  return status;
 }
 
 static void put_numbers_back(baum_simulation *run, const unsigned char *at, size_t length)
@@ -407,6 +428,14 @@ static void put_numbers_back(baum_simulation *run, const unsigned char *at, size
   if (run->parameters) {
     memcpy(run->parameters, length > 0 ? (const void *)at : m->parameters,
            (size_t)m->parameter_count * sizeof *run->parameters);
+  }
+}
+
+static void put_jumps_back(baum_i_schedule *schedule, const unsigned char *at, size_t length)
+{
+  schedule->count = (int)(length / sizeof *schedule->jumps);
+  if (length > 0) {
+    memcpy(schedule->jumps, at, length);
   }
 }
 
@@ -433,6 +462,8 @@ static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *
     const baum_i_saved_part *part = &list->parts[k];
     if (part->kind == BAUM_I_SAVED_NUMBERS) {
       put_numbers_back(run, r->at[k], r->length[k]);
+    } else if (part->kind == BAUM_I_SAVED_JUMPS) {
+      put_jumps_back(&run->schedule, r->at[k], r->length[k]);
     } else if (is_put_back(part) && r->length[k] > 0) {
       memcpy(part->place, r->at[k], r->length[k]);
     }
@@ -454,7 +485,7 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
   reader r = {.bytes = buffer, .size = size};
   baum_status status = check(&r, simulation, &list);
   if (status == BAUM_OK) {
-    status = make_numbers(simulation, &r, &list);
+    status = make_room(simulation, &r, &list);
   }
   if (status != BAUM_OK) {
     return baum_i_run_fail(simulation, status);

@@ -125,6 +125,10 @@ static void list_motion(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_part *numbers = add(list, "parameters", BAUM_I_SAVED_NUMBERS);
   numbers->place = run->parameters;
   numbers->size = (size_t)m->parameter_count * sizeof *run->parameters;
+  baum_i_saved_part *jumps = add(list, "scheduled inputs", BAUM_I_SAVED_JUMPS);
+  jumps->place = run->schedule.jumps;
+  jumps->size = (size_t)run->schedule.count * sizeof *run->schedule.jumps;
+  jumps->integer = m->input_count;
 }
 
 /* Chosen at the start; of another processor it may differ in the last digits. */

@@ -2,14 +2,15 @@
 /* What is saved of a run: one list, by which save.c writes, checks and puts back.
  *
  * Whoever adds something to a run that a later step reads adds it to the list too: in saved.c, or where it is made, as
- * account.c does. BAUM_I_SAVED_VERSION is raised when the meaning of a part changes.
+ * account.c does. BAUM_I_SAVED_VERSION is raised whenever the list, or the meaning of a part, changes;
+ * tests/unit/test_saved.c remembers which list each version had.
  */
 #ifndef BAUM_I_SIMULATE_SAVED_H
 #define BAUM_I_SIMULATE_SAVED_H
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 1, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 2, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */
@@ -20,6 +21,7 @@ typedef enum baum_i_saved_kind {
   /* is put back: */
   BAUM_I_SAVED_STATE,   /* bytes */
   BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
+  BAUM_I_SAVED_JUMPS,   /* of the run's inputs, as many as there are */
   BAUM_I_SAVED_SOME     /* as many of a list as there are */
 } baum_i_saved_kind;
 
@@ -31,7 +33,7 @@ typedef struct baum_i_saved_part {
   size_t used; /* of SOME, in bytes */
   size_t unit; /* of SOME, one of the list */
   double number;
-  int64_t integer;
+  int64_t integer; /* of JUMPS, inputs that there are */
 } baum_i_saved_part;
 
 struct baum_i_saved {

@@ -280,6 +280,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);
+  baum_i_free(simulation->schedule.jumps);
   baum_i_free(simulation->row_gains);
   baum_i_free(simulation);
 }

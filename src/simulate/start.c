@@ -8,6 +8,7 @@
 #include "simulate/account.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
+#include "simulate/schedule.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A drawing further off is more likely to be mounted on a branch that its author did not
@@ -260,6 +261,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   baum_i_message_keep(&kept);
   double start_change = simulation->counters.start_change;
   double energy = 0.0;
+  double before = simulation->state.t;
+  baum_i_schedule_move(simulation, before, t);
   if (is_of_this_run(simulation, t, q, v)) {
     start_as_given(simulation, t, q, v);
   } else {
@@ -278,6 +281,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   if (status != BAUM_OK) {
     simulation->counters.start_change = start_change;
+    baum_i_schedule_move(simulation, t, before);
     baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
     return baum_i_run_fail(simulation, status);
   }

@@ -407,6 +407,11 @@ static baum_status go(baum_simulation *run, const every_element *parts, double s
     status = baum_simulation_get(run, channels, CHANNELS, row);
   }
   if (status == BAUM_OK) {
+    const double times[2] = {0.5 * span, 1.5 * span};
+    const double values[2] = {0.9, 1.1};
+    status = baum_simulation_schedule_input(run, parts->throttle, times, values, 2);
+  }
+  if (status == BAUM_OK) {
     status = baum_simulation_set_state(run, 0.0, state, state + EVERY_NV);
   }
   return status == BAUM_OK ? baum_simulation_advance_to(run, -span) : status;

@@ -157,6 +157,47 @@ static void a_run_refuses_bad_inputs(void **state)
   baum_mechanism_destroy(others.mechanism);
 }
 
+static void a_run_refuses_bad_schedules(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  every_element others = every_element_make(NULL);
+  baum_simulation *run = start(parts.mechanism);
+  const baum_input_id u = parts.throttle;
+  const double rising[3] = {1.0, 2.0, 3.0};
+  ASSERT_SAYS(baum_simulation_schedule_input(NULL, u, rising, rising, 3), BAUM_ERR_ARGUMENT,
+              "baum_simulation_schedule_input: the simulation is NULL");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, NONE, rising, rising, 3), BAUM_ERR_ARGUMENT,
+              "baum_simulation_schedule_input: input is none");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, others.throttle, rising, rising, 3),
+              BAUM_ERR_ARGUMENT, "schedule_input: input is not of this mechanism");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, u, rising, rising, -1), BAUM_ERR_ARGUMENT,
+              "count is negative");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, u, NULL, rising, 3), BAUM_ERR_ARGUMENT,
+              "times or values are NULL");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, u, rising, NULL, 3), BAUM_ERR_ARGUMENT,
+              "times or values are NULL");
+  for (int k = 0; k < BAD_VALUES; k++) {
+    const double bad[3] = {-1.0, 0.5, bad_values[k]};
+    ASSERT_SAYS(baum_simulation_schedule_input(run, u, rising, bad, 3), BAUM_ERR_ARGUMENT,
+                "input 1 \"throttle\": values[2] is |, must be finite");
+    ASSERT_SAYS(baum_simulation_schedule_input(run, u, bad, rising, 3), BAUM_ERR_ARGUMENT,
+                "input 1 \"throttle\": times[2] is | s, must be finite");
+  }
+  const double falling[3] = {1.0, 3.0, 2.0};
+  const double same[3] = {1.0, 1.0, 2.0};
+  ASSERT_SAYS(baum_simulation_schedule_input(run, u, falling, rising, 3), BAUM_ERR_ARGUMENT,
+              "\"throttle\": times[2] is 2 s, must be above times[1], which is 3 s");
+  ASSERT_SAYS(baum_simulation_schedule_input(run, u, same, rising, 3), BAUM_ERR_ARGUMENT,
+              "times[1] is 1 s, must be above times[0], which is 1 s");
+  assert_string_equal(baum_simulation_message(run), "");
+  assert_int_equal(baum_simulation_step(run, 1), BAUM_OK); /* nothing of theirs is there */
+  assert_true(baum_simulation_input(run, u) == 1.0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+  baum_mechanism_destroy(others.mechanism);
+}
+
 /* Where the crank is after 0.1 s: refused laws leave it with its own. */
 static double crank_angle(baum_simulation *run, baum_joint_id pin)
 {
@@ -212,6 +253,7 @@ int main(void)
     cmocka_unit_test(questions_about_inputs_take_null_and_foreign_ids),
     cmocka_unit_test(a_workspace_refuses_bad_inputs),
     cmocka_unit_test(a_run_refuses_bad_inputs),
+    cmocka_unit_test(a_run_refuses_bad_schedules),
     cmocka_unit_test(a_run_refuses_bad_laws_of_drivers),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -31,6 +31,7 @@ typedef struct outcome {
   double v[SAVED_NV_MAX];
   baum_counters counters;
   baum_energy_account account;
+  double input;
   int64_t events;
   double last_event;
   double last_singular;
@@ -70,6 +71,7 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
     int64_t last = out->counters.warnings - 1;
     (void)baum_simulation_warning(run, last, out->warning, sizeof out->warning);
   }
+  out->input = scene->has_input ? baum_simulation_input(run, scene->input) : 0.0;
   look_back(run, out);
   out->counters.wall = 0.0;
   out->counters.max_phi_joint.tag = 0; /* of each mechanism its own */
@@ -86,6 +88,11 @@ static void go_on(baum_simulation *run, const saved_scene *scene, int k)
   }
   if (k % 7 == 3 && scene->law) {
     assert_int_equal(scene->law(run, scene), BAUM_OK);
+  }
+  if (k % 5 == 4 && scene->has_input) { /* also where another one is left of the last */
+    const double times[3] = {t - 0.3 * scene->span * saved_random(k), t, t + 0.5 * scene->span};
+    const double values[3] = {0.7, 1.1, 0.9};
+    assert_int_equal(baum_simulation_schedule_input(run, scene->input, times, values, 3), BAUM_OK);
   }
   assert_true(saved_reached(baum_simulation_advance_to(run, t)));
   if (k % 4 == 1) {
@@ -164,20 +171,20 @@ static void start_the_other(int scene, int count, FILE *buffers, FILE *outcomes)
 static void run_and_save(const saved_scene *scene, FILE *buffers, outcome *came_to, int count)
 {
   baum_simulation *run = saved_scene_start(scene);
-  size_t most = 0;
-  assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
-  char *buffer = malloc(most);
-  assert_non_null(buffer);
   for (int k = 0; k < count; k++) {
     size_t size = 0;
+    size_t most = 0; /* a schedule takes some more */
+    assert_int_equal(baum_simulation_save(run, NULL, 0, &most), BAUM_OK);
+    char *buffer = malloc(most);
+    assert_non_null(buffer);
     assert_int_equal(baum_simulation_save(run, buffer, most, &size), BAUM_OK);
     assert_in_range(size, 64, most);
     assert_int_equal(fwrite(&size, sizeof size, 1, buffers), 1);
     assert_int_equal(fwrite(buffer, 1, size, buffers), size);
+    free(buffer);
     go_on(run, scene, k);
     look(run, scene, &came_to[k]);
   }
-  free(buffer);
   baum_simulation_destroy(run);
 }
 

@@ -64,6 +64,13 @@ static void saving_and_restoring_allocate_nothing(void **state)
 
 /* ---- where memory is needed ---- */
 
+static void schedule(baum_simulation *run, const saved_scene *scene)
+{
+  const double times[2] = {6e-3, 8e-3};
+  const double values[2] = {0.9, 1.1};
+  assert_int_equal(baum_simulation_schedule_input(run, scene->input, times, values, 2), BAUM_OK);
+}
+
 static void going_on_without_memory_changes_nothing(void **state)
 {
   (void)state;
@@ -77,6 +84,7 @@ static void going_on_without_memory_changes_nothing(void **state)
   baum_simulation *to = saved_scene_start(&scene);
   assert_true(saved_reached(baum_simulation_advance_to(from, 5e-3)));
   assert_int_equal(scene.law(from, &scene), BAUM_OK);
+  schedule(from, &scene);
   baum_status status = BAUM_ERR_MEMORY;
   long failures = 0;
   for (; status == BAUM_ERR_MEMORY; failures++) {
@@ -86,7 +94,7 @@ static void going_on_without_memory_changes_nothing(void **state)
     (void)heap_stop();
   }
   assert_int_equal(status, BAUM_OK);
-  assert_true(failures > 3); /* q, v, inputs, numbers of drivers */
+  assert_true(failures > 4); /* q, v, inputs, numbers of drivers, schedules */
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);
   baum_simulation_destroy(to);
@@ -94,8 +102,8 @@ static void going_on_without_memory_changes_nothing(void **state)
   assert_int_equal(heap_blocks(), before); /* in between a solver may keep what it has made */
 }
 
-/* Into a run that has no law of its own yet. */
-static void a_law_restored_without_memory_changes_nothing(void **state)
+/* Into a run that has no law and no schedule of its own yet. */
+static void what_is_restored_without_memory_changes_nothing(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -107,13 +115,16 @@ static void a_law_restored_without_memory_changes_nothing(void **state)
   baum_simulation *from = saved_scene_start(&scene);
   baum_simulation *to = saved_scene_start(&scene);
   assert_int_equal(scene.law(from, &scene), BAUM_OK);
+  schedule(from, &scene);
   assert_true(saved_reached(baum_simulation_step(from, 2)));
   assert_int_equal(baum_simulation_save(from, buffer, sizeof buffer, &size), BAUM_OK);
-  heap_fail(0, false);
-  baum_status status = baum_simulation_restore(to, buffer, size);
-  (void)heap_stop();
-  assert_int_equal(status, BAUM_ERR_MEMORY);
-  assert_true(baum_simulation_time(to) == 0.0);
+  for (int k = 0; k < 2; k++) {
+    heap_fail(k, false);
+    baum_status status = baum_simulation_restore(to, buffer, size);
+    (void)heap_stop();
+    assert_int_equal(status, BAUM_ERR_MEMORY);
+    assert_true(baum_simulation_time(to) == 0.0);
+  }
   assert_int_equal(baum_simulation_restore(to, buffer, size), BAUM_OK);
   assert_true(baum_simulation_time(to) == baum_simulation_time(from));
   baum_simulation_destroy(from);
@@ -126,7 +137,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(saving_and_restoring_allocate_nothing),
     cmocka_unit_test(going_on_without_memory_changes_nothing),
-    cmocka_unit_test(a_law_restored_without_memory_changes_nothing),
+    cmocka_unit_test(what_is_restored_without_memory_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -189,30 +189,6 @@ class baum_report(Structure):
     ]
 
 
-class baum_residual(enum.IntEnum):
-    BAUM_RESIDUAL_INDEX1 = 1
-    BAUM_RESIDUAL_INDEX2 = 2
-    BAUM_RESIDUAL_INDEX3 = 3
-    BAUM_RESIDUAL_GGL = 4
-
-
-class baum_dae(Structure):
-    _fields_ = [
-        ("index", c_int),
-        ("alpha", c_double),
-        ("beta", c_double),
-    ]
-
-
-class baum_sparse(Structure):
-    _fields_ = [
-        ("columns", POINTER(c_int32)),
-        ("rows", POINTER(c_int32)),
-        ("values", c_void_p),
-        ("nonzeros", c_int32),
-    ]
-
-
 class baum_gain_rule(enum.IntEnum):
     BAUM_GAINS_DEFAULT = 0
     BAUM_GAINS_FIXED = 1
@@ -398,6 +374,30 @@ class baum_near_singular(Structure):
         ("jump_error", c_double),
         ("branch", c_int),
         ("joint", baum_joint_id),
+    ]
+
+
+class baum_residual(enum.IntEnum):
+    BAUM_RESIDUAL_INDEX1 = 1
+    BAUM_RESIDUAL_INDEX2 = 2
+    BAUM_RESIDUAL_INDEX3 = 3
+    BAUM_RESIDUAL_GGL = 4
+
+
+class baum_dae(Structure):
+    _fields_ = [
+        ("index", c_int),
+        ("alpha", c_double),
+        ("beta", c_double),
+    ]
+
+
+class baum_sparse(Structure):
+    _fields_ = [
+        ("columns", POINTER(c_int32)),
+        ("rows", POINTER(c_int32)),
+        ("values", c_void_p),
+        ("nonzeros", c_int32),
     ]
 
 
@@ -828,36 +828,6 @@ PROTOTYPES = {
     "baum_mechanism_mobility": (c_int, [c_void_p, POINTER(baum_mobility), c_size_t]),
     "baum_mechanism_report": (c_int, [c_void_p, POINTER(baum_report), c_size_t]),
     "baum_mechanism_check_derivatives": (c_int, [c_void_p]),
-    "baum_mechanism_add_break_times": (c_int, [c_void_p, c_void_p, c_int32]),
-    "baum_mechanism_break_times": (c_void_p, [c_void_p, POINTER(c_int32)]),
-    "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
-    "baum_workspace_destroy": (None, [c_void_p]),
-    "baum_workspace_drawn": (c_int, [c_void_p, c_void_p, c_void_p]),
-    "baum_workspace_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
-    "baum_workspace_input": (c_double, [c_void_p, baum_input_id]),
-    "baum_workspace_phi": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
-    "baum_workspace_jacobian": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
-    "baum_workspace_nu": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
-    "baum_workspace_gamma": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
-    "baum_workspace_mass": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
-    "baum_workspace_force": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
-    "baum_workspace_energy": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p, c_void_p]),
-    "baum_workspace_acceleration": (c_int, [
-        c_void_p, c_double, c_void_p, c_void_p, c_double, c_double, c_void_p, c_void_p,
-    ]),
-    "baum_workspace_reaction": (c_int, [
-        c_void_p, c_double, c_void_p, c_void_p, baum_joint_id, c_void_p,
-    ]),
-    "baum_workspace_residual": (c_int, [
-        c_void_p, POINTER(baum_dae), c_double, c_void_p, c_void_p, c_void_p,
-    ]),
-    "baum_workspace_residual_jacobian": (c_int, [
-        c_void_p, POINTER(baum_dae), c_double, c_double, c_void_p, c_void_p, POINTER(baum_sparse),
-    ]),
-    "baum_workspace_assemble": (c_int, [
-        c_void_p, c_double, c_void_p, c_void_p, POINTER(baum_body_id), c_int32,
-    ]),
-    "baum_workspace_project": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_gains_fixed": (baum_gains, [c_double, c_double]),
     "baum_gains_scaled": (baum_gains, [c_double, c_double]),
     "baum_gains_taylor": (baum_gains, []),
@@ -935,6 +905,39 @@ PROTOTYPES = {
     "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
     "baum_simulation_explain": (c_char_p, [c_void_p]),
     "baum_simulation_message": (c_char_p, [c_void_p]),
+    "baum_mechanism_add_break_times": (c_int, [c_void_p, c_void_p, c_int32]),
+    "baum_mechanism_break_times": (c_void_p, [c_void_p, POINTER(c_int32)]),
+    "baum_simulation_schedule_input": (c_int, [
+        c_void_p, baum_input_id, c_void_p, c_void_p, c_int32,
+    ]),
+    "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
+    "baum_workspace_destroy": (None, [c_void_p]),
+    "baum_workspace_drawn": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
+    "baum_workspace_input": (c_double, [c_void_p, baum_input_id]),
+    "baum_workspace_phi": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_jacobian": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_nu": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_gamma": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_mass": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
+    "baum_workspace_force": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_energy": (c_int, [c_void_p, c_double, c_void_p, c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_acceleration": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, c_double, c_double, c_void_p, c_void_p,
+    ]),
+    "baum_workspace_reaction": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, baum_joint_id, c_void_p,
+    ]),
+    "baum_workspace_residual": (c_int, [
+        c_void_p, POINTER(baum_dae), c_double, c_void_p, c_void_p, c_void_p,
+    ]),
+    "baum_workspace_residual_jacobian": (c_int, [
+        c_void_p, POINTER(baum_dae), c_double, c_double, c_void_p, c_void_p, POINTER(baum_sparse),
+    ]),
+    "baum_workspace_assemble": (c_int, [
+        c_void_p, c_double, c_void_p, c_void_p, POINTER(baum_body_id), c_int32,
+    ]),
+    "baum_workspace_project": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),
     "baum_event_def_init": (None, [POINTER(baum_event_def), c_size_t]),
     "baum_simulation_add_event": (c_int, [c_void_p, POINTER(baum_event_def), POINTER(c_int32)]),
     "baum_simulation_event_count": (c_int64, [c_void_p]),
@@ -1167,8 +1170,6 @@ STRUCTS = [
     baum_user_force_def,
     baum_mobility,
     baum_report,
-    baum_dae,
-    baum_sparse,
     baum_gains,
     baum_amplification,
     baum_simulation_options,
@@ -1176,6 +1177,8 @@ STRUCTS = [
     baum_counters,
     baum_energy_account,
     baum_near_singular,
+    baum_dae,
+    baum_sparse,
     baum_event_def,
     baum_event_record,
     baum_planar_body_def,

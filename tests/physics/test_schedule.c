@@ -1,0 +1,448 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Scheduled inputs: a body on a pin without gravity, turned by a torque that is an input and jumps at three times. Its
+ * motion is known: polynomials of degree 2 in time, which every method of order 2 follows to rounding if it keeps to one
+ * side of a jump.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "step_mode.h"
+
+enum { JUMPS = 3 };
+
+/* One on the grid of STEP, two off it; the last two nearer to each other than a step. */
+static const double TIMES[JUMPS] = {0.5, 1.2345, 1.2361};
+static const double TORQUE[JUMPS + 1] = {3.0, -8.0, 50.0, 1.0}; /* [N m]; inertia 1 kg m^2 */
+static const double STEP = 0.01;
+static const double RTOL = 1e-8;
+
+typedef struct disc {
+  baum_mechanism *mechanism;
+  baum_joint_id pin;
+  baum_joint_id motor; /* none: it is free */
+  baum_input_id torque;
+  baum_input_id other; /* on the other side, 0 at first */
+} disc;
+
+static baum_input_id add_torque(baum_mechanism *m, baum_body_id body, double direction,
+                                double initial)
+{
+  baum_planar_load_def load = baum_planar_load_def_default();
+  load.body = body;
+  load.torque = direction;
+  assert_int_equal(baum_mechanism_add_input(m, NULL, initial, &load.input), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_load(m, &load, NULL), BAUM_OK);
+  return load.input;
+}
+
+static disc make(bool driven)
+{
+  disc d = {.mechanism = NULL};
+  assert_int_equal(baum_mechanism_create(&d.mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(d.mechanism, 0.0, 0.0, 0.0), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.inertia = 1.0;
+  baum_body_id wheel;
+  assert_int_equal(baum_mechanism_add_planar_body(d.mechanism, &body, &wheel), BAUM_OK);
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = wheel;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(d.mechanism, &pin, &d.pin), BAUM_OK);
+  d.torque = add_torque(d.mechanism, wheel, 1.0, TORQUE[0]);
+  d.other = add_torque(d.mechanism, wheel, -1.0, 0.0);
+  if (driven) {
+    baum_driver_def motor = baum_driver_def_default();
+    motor.joint = d.pin;
+    motor.rate = 2.0;
+    assert_int_equal(baum_mechanism_add_driver(d.mechanism, &motor, &d.motor), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(d.mechanism), BAUM_OK);
+  return d;
+}
+
+static void schedule(baum_simulation *run, const disc *d)
+{
+  assert_int_equal(baum_simulation_schedule_input(run, d->torque, TIMES, TORQUE + 1, JUMPS),
+                   BAUM_OK);
+}
+
+static baum_simulation *open_mode(const disc *d, step_mode mode, bool account)
+{
+  baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
+  baum_simulation *run = NULL;
+  o.energy_account = account;
+  assert_int_equal(baum_simulation_create(d->mechanism, &o, &run), BAUM_OK);
+  return run;
+}
+
+static void close_all(baum_simulation *run, disc *d)
+{
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(d->mechanism);
+}
+
+/* ---- what is known ---- */
+
+static double torque_at(double t)
+{
+  int k = 0;
+  while (k < JUMPS && t >= TIMES[k]) {
+    k++;
+  }
+  return TORQUE[k];
+}
+
+/* Angle, rate and work of the torque, from rest at 0; before 0 the torque is the first. */
+static void exact(double t, double *angle, double *rate, double *work)
+{
+  double from = 0.0;
+  *angle = 0.0;
+  *rate = 0.0;
+  *work = 0.0;
+  for (int k = 0; k <= JUMPS && (from < t || k == 0); k++) {
+    double h = (k < JUMPS ? fmin(TIMES[k], t) : t) - from;
+    double change = h * (*rate + 0.5 * h * TORQUE[k]);
+    *angle += change;
+    *work += change * TORQUE[k];
+    *rate += h * TORQUE[k];
+    from += h;
+  }
+}
+
+static double error_now(const baum_simulation *run)
+{
+  double angle = 0.0;
+  double rate = 0.0;
+  double work = 0.0;
+  exact(baum_simulation_time(run), &angle, &rate, &work);
+  return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
+}
+
+/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2) |torque| t in the
+ * angle. Steps of their own: ten tolerances of rates up to 6 rad/s. Generalized-alpha begins with accelerations that are not of its
+ * order: with h^2 50 times 20. */
+static double allowed(step_mode mode)
+{
+  if (!mode.fixed) {
+    return 10.0 * RTOL * 6.0;
+  }
+  bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;
+  bool first = baum_integrator_order(mode.integrator) == 1;
+  return first ? 0.5 * STEP * 8.0 * 2.0 : (alpha ? STEP * STEP * 50.0 * 20.0 : 1e-12);
+}
+
+static baum_counters counters_of(baum_simulation *run)
+{
+  baum_counters counters;
+  assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
+  return counters;
+}
+
+/* ---- free ---- */
+
+static void motions_are_those_between_the_jumps(void **state)
+{
+  (void)state;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(run, &d);
+    int64_t before = counters_of(run).restarts;
+    assert_int_equal(before, step_mode_remembers(mode));
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    baum_counters counters = counters_of(run);
+    assert_true(error_now(run) <= allowed(mode));
+    assert_int_equal(counters.restarts - before >= JUMPS, step_mode_remembers(mode));
+    if (!mode.fixed) { /* nothing else restarts there, or is told by a step that fails */
+      assert_int_equal(counters.restarts - before, JUMPS);
+    }
+    assert_true(baum_simulation_input(run, d.torque) == TORQUE[JUMPS]);
+    close_all(run, &d);
+  }
+}
+
+/* There and back through all jumps, standing at each: a jump has the value of after. */
+static void jumps_are_met_both_ways(void **state)
+{
+  (void)state;
+  static const double targets[] = {0.5,   1.0,    1.2345, 1.2361, 1.7,  1.2361,
+                                   1.235, 1.2345, 0.5,    0.2,    -0.3, 1.3};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(run, &d);
+    for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+      assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
+      ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
+      assert_true(error_now(run) <= 2.0 * allowed(mode));
+      double t = baum_simulation_time(run);
+      assert_true(baum_simulation_input(run, d.torque) == torque_at(t));
+    }
+    close_all(run, &d);
+  }
+}
+
+/* Whole steps, inputs at their times: none passes a jump. */
+static void steps_stop_at_jumps(void **state)
+{
+  (void)state;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(run, &d);
+    int next = 0;
+    while (baum_simulation_time(run) < 2.0) {
+      double from = baum_simulation_time(run);
+      assert_int_equal(baum_simulation_step(run, 1), BAUM_OK);
+      double to = baum_simulation_time(run);
+      if (next < JUMPS && to > TIMES[next] - 1e-12) {
+        assert_true(from < TIMES[next]);
+        ASSERT_NEAR(to, TIMES[next], 0.0, 1e-13); /* 16 roundings of the time before, at most */
+        next++;
+      }
+    }
+    assert_int_equal(next, JUMPS);
+    assert_true(error_now(run) <= allowed(mode));
+    close_all(run, &d);
+  }
+}
+
+/* Two inputs that jump together and nearer to each other than a break is wide: back at the start both are as they were. */
+static void jumps_together_are_all_undone(void **state)
+{
+  (void)state;
+  const double near[2] = {1.2345, 1.2345 * (1.0 + 1e-15)};
+  const double values[2] = {4.0, 5.0};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(run, &d);
+    assert_int_equal(baum_simulation_schedule_input(run, d.other, near, values, 2), BAUM_OK);
+    for (int turn = 0; turn < 2; turn++) {
+      assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+      assert_true(baum_simulation_input(run, d.other) == 5.0);
+      assert_true(baum_simulation_input(run, d.torque) == TORQUE[JUMPS]);
+      assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
+      assert_true(baum_simulation_input(run, d.other) == 0.0);
+      assert_true(baum_simulation_input(run, d.torque) == TORQUE[0]);
+      assert_true(error_now(run) <= 4.0 * allowed(mode));
+    }
+    close_all(run, &d);
+  }
+}
+
+/* An adaptive run is ahead of what it reports when a schedule is given, changed and ended. */
+static void a_schedule_may_be_given_late(void **state)
+{
+  (void)state;
+  static const double later[1] = {1.5};
+  static const double none[1] = {0.0};
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    assert_int_equal(baum_simulation_advance_to(run, 0.499), BAUM_OK);
+    schedule(run, &d);
+    assert_int_equal(baum_simulation_advance_to(run, 1.3), BAUM_OK);
+    assert_true(error_now(run) <= allowed(mode));
+    double rate = baum_simulation_v(run)[2];
+    assert_int_equal(baum_simulation_schedule_input(run, d.torque, later, none, 1), BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(run, 1.6), BAUM_OK);
+    ASSERT_NEAR(baum_simulation_v(run)[2], rate + 0.2 * TORQUE[JUMPS], 0.0, allowed(mode));
+    /* What the schedule was before is no more: back in time it has the value that it had at the call. */
+    assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_OK);
+    ASSERT_NEAR(baum_simulation_v(run)[2], rate - 0.3 * TORQUE[JUMPS], 0.0, 2.0 * allowed(mode));
+    close_all(run, &d);
+  }
+}
+
+static void the_account_closes_over_jumps(void **state)
+{
+  (void)state;
+  printf("\n%-22s %10s %10s\n", "", "residual", "work off");
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, true);
+    schedule(run, &d);
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    baum_energy_account account;
+    assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
+    double angle = 0.0;
+    double rate = 0.0;
+    double work = 0.0;
+    exact(2.0, &angle, &rate, &work);
+    printf("%-20s %s %10.1e %10.1e\n", baum_integrator_name(mode.integrator),
+           mode.fixed ? "h" : " ", account.residual, account.loads - work);
+    /* The error of angles and rates, by torques up to 50 N m and rates up to 6 rad/s. */
+    double most = (50.0 + 6.0) * allowed(mode);
+    ASSERT_NEAR(account.residual, 0.0, 0.0, most);
+    ASSERT_NEAR(account.loads, work, 0.0, most);
+    close_all(run, &d);
+  }
+}
+
+/* ---- driven ---- */
+
+/* The motor holds against the torque, which does not move it. */
+static void kinematics_have_the_effort_of_the_time(void **state)
+{
+  (void)state;
+  static const double targets[] = {0.499999, 0.5, 1.2345, 1.236, 1.2361, 2.0, 1.2345, 1.2, 0.4};
+  disc d = make(true);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(d.mechanism, &o, &run), BAUM_OK);
+  schedule(run, &d);
+  const baum_channel channels[2] = {{.quantity = BAUM_DRIVE_EFFORT, .joint = d.motor},
+                                    {.quantity = BAUM_JOINT_COORDINATE, .joint = d.pin}};
+  for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+    double row[3];
+    double t = targets[i];
+    assert_int_equal(baum_simulation_advance_to(run, t), BAUM_OK);
+    assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
+    ASSERT_NEAR(row[0], -torque_at(t), 0.0, 1e-12); /* rounding of 50 N m */
+    ASSERT_NEAR(row[1], 2.0 * t, 0.0, 1e-13);       /* and of angles */
+  }
+  close_all(run, &d);
+}
+
+/* ---- to other states and runs ---- */
+
+static void inputs_are_those_of_the_time_gone_to(void **state)
+{
+  (void)state;
+  const double q[3] = {0.0, 0.0, 0.0};
+  disc d = make(false);
+  baum_simulation *run = open_mode(&d, (step_mode){baum_rk8(), false}, false);
+  schedule(run, &d);
+  static const double times[] = {1.2345, 0.2, 3.0, 0.5, -1.0};
+  for (size_t k = 0; k < sizeof times / sizeof *times; k++) {
+    assert_int_equal(baum_simulation_set_state(run, times[k], q, q), BAUM_OK);
+    assert_true(baum_simulation_input(run, d.torque) == torque_at(times[k]));
+  }
+  const double broken[3] = {0.0, 0.0, (double)NAN};
+  assert_int_equal(baum_simulation_set_state(run, 3.0, broken, q), BAUM_ERR_ARGUMENT);
+  assert_true(baum_simulation_input(run, d.torque) == TORQUE[0]);
+  close_all(run, &d);
+}
+
+static void another_method_takes_the_schedule_over(void **state)
+{
+  (void)state;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *from = open_mode(&d, (step_mode){baum_rk8(), false}, false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(from, &d);
+    assert_int_equal(baum_simulation_schedule_input(run, d.torque, TIMES, TORQUE, 1), BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(from, 0.8), BAUM_OK);
+    assert_int_equal(baum_simulation_continue(run, from), BAUM_OK);
+    baum_simulation_destroy(from);
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_true(error_now(run) <= 2.0 * allowed(mode));
+    close_all(run, &d);
+  }
+}
+
+/* A run tries another schedule and goes back: what it had is there again. */
+static void restoring_brings_the_schedule_back(void **state)
+{
+  (void)state;
+  static unsigned char buffer[1 << 17];
+  size_t size = 0;
+  double times[100];
+  double values[100];
+  for (int k = 0; k < 100; k++) {
+    times[k] = 0.01 * (k + 1);
+    values[k] = k;
+  }
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    disc d = make(false);
+    baum_simulation *run = open_mode(&d, mode, false);
+    schedule(run, &d);
+    assert_int_equal(baum_simulation_advance_to(run, 0.8), BAUM_OK);
+    assert_int_equal(baum_simulation_save(run, buffer, sizeof buffer, &size), BAUM_OK);
+    assert_int_equal(baum_simulation_schedule_input(run, d.torque, times, values, 100), BAUM_OK);
+    assert_true(baum_simulation_input(run, d.torque) == 79.0);
+    assert_int_equal(baum_simulation_advance_to(run, 1.1), BAUM_OK);
+    assert_int_equal(baum_simulation_restore(run, buffer, size), BAUM_OK);
+    assert_true(baum_simulation_input(run, d.torque) == TORQUE[1]);
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_true(error_now(run) <= 2.0 * allowed(mode));
+    close_all(run, &d);
+  }
+}
+
+/* ---- where it ends ---- */
+
+static void setting_an_input_ends_its_schedule(void **state)
+{
+  (void)state;
+  disc d = make(false);
+  baum_simulation *run = open_mode(&d, (step_mode){baum_rk8(), false}, false);
+  schedule(run, &d);
+  assert_int_equal(baum_simulation_schedule_input(run, d.other, TIMES, TORQUE, 1), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
+  int64_t restarts = counters_of(run).restarts;
+  /* Likewise with the value that it has; no step begins anew. */
+  assert_int_equal(baum_simulation_set_input(run, d.torque, TORQUE[0]), BAUM_OK);
+  assert_int_equal(baum_simulation_schedule_input(run, d.other, NULL, NULL, 0), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+  assert_int_equal(counters_of(run).restarts, restarts);
+  assert_true(baum_simulation_input(run, d.torque) == TORQUE[0]);
+  assert_true(baum_simulation_input(run, d.other) == 0.0);
+  ASSERT_NEAR(baum_simulation_v(run)[2], 2.0 * TORQUE[0], 0.0, 1e-11); /* exact but for rounding */
+  close_all(run, &d);
+}
+
+/* Values that stay the same are no jumps. */
+static void values_that_stay_cost_nothing(void **state)
+{
+  (void)state;
+  static const double times[4] = {0.25, 0.5, 0.75, 1.0};
+  const double values[4] = {TORQUE[0], TORQUE[0], 5.0, 5.0};
+  disc d = make(false);
+  baum_simulation *run = open_mode(&d, (step_mode){baum_rk8(), false}, false);
+  assert_int_equal(baum_simulation_schedule_input(run, d.torque, times, values, 4), BAUM_OK);
+  int64_t restarts = counters_of(run).restarts;
+  assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+  assert_int_equal(counters_of(run).restarts, restarts + 1);
+  close_all(run, &d);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(motions_are_those_between_the_jumps),
+    cmocka_unit_test(jumps_are_met_both_ways),
+    cmocka_unit_test(steps_stop_at_jumps),
+    cmocka_unit_test(jumps_together_are_all_undone),
+    cmocka_unit_test(a_schedule_may_be_given_late),
+    cmocka_unit_test(the_account_closes_over_jumps),
+    cmocka_unit_test(kinematics_have_the_effort_of_the_time),
+    cmocka_unit_test(inputs_are_those_of_the_time_gone_to),
+    cmocka_unit_test(another_method_takes_the_schedule_over),
+    cmocka_unit_test(restoring_brings_the_schedule_back),
+    cmocka_unit_test(setting_an_input_ends_its_schedule),
+    cmocka_unit_test(values_that_stay_cost_nothing),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,72 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The list of what is saved belongs to a version of the format: whoever changes it raises the version. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "base/digest.h"
+#include "pendulum_events.h"
+#include "simulate/saved.h"
+
+/* Names, kinds and sizes of the parts, of a run with all that may be there. A row is never changed: another list gets
+ * another version and a row of its own. */
+static const struct {
+  int version;
+  uint64_t list;
+} VERSIONS[] = {{2, 0x3956a242f9ee4941}};
+
+enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
+
+static uint64_t sum_of(const baum_i_saved *list)
+{
+  baum_i_digest sum = {0};
+  for (int k = 0; k < list->count; k++) {
+    const baum_i_saved_part *part = &list->parts[k];
+    baum_i_digest_add_text(&sum, part->name);
+    baum_i_digest_add_integer(&sum, part->kind);
+    baum_i_digest_add_integer(&sum, (int64_t)part->size);
+    baum_i_digest_add_integer(&sum, (int64_t)part->unit);
+  }
+  return sum.value;
+}
+
+static void the_list_is_that_of_the_version(void **state)
+{
+  (void)state;
+  static baum_i_saved list;
+  swing s = swing_make(1.0);
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_event_def event = baum_event_def_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  o.energy_account = true;
+  event.joint = s.pin;
+  assert_int_equal(baum_simulation_create(s.mechanism, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_add_event(run, &event, NULL), BAUM_OK);
+  baum_i_saved_list(run, &list);
+  assert_non_null(run->account);
+  assert_non_null(run->passages);
+  for (int k = 1; k < VERSION_COUNT; k++) {
+    assert_true(VERSIONS[k].version > VERSIONS[k - 1].version);
+  }
+  assert_int_equal(VERSIONS[VERSION_COUNT - 1].version, BAUM_I_SAVED_VERSION);
+  if (sum_of(&list) != VERSIONS[VERSION_COUNT - 1].list) {
+    fail_msg("what is saved has changed: raise BAUM_I_SAVED_VERSION and add a row with 0x%llx",
+             (unsigned long long)sum_of(&list));
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(s.mechanism);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(the_list_is_that_of_the_version),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
