@@ -7,6 +7,7 @@
 
 #include <baum/breaks.h>
 #include <baum/dynamics.h>
+#include <baum/elements.h>
 #include <baum/events.h>
 #include <baum/mechanism.h>
 #include <baum/planar.h>

@@ -15,10 +15,15 @@ static const baum_i_catalog_mechanism *const MECHANISMS[] = {
   &baum_i_slider_crank_eccentric,
   &baum_i_slider_crank_driven,
   &baum_i_slider_crank_simeon,
+  &baum_i_slider_crank_sundials,
+  &baum_i_four_bar,
   &baum_i_n_four_bar,
   &baum_i_andrews_angles,
   &baum_i_andrews_bodies,
   &baum_i_andrews_a03,
+  &baum_i_car_axis,
+  &baum_i_chain_of_3,
+  &baum_i_chain_of_n,
 };
 
 enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], SENTENCE = 1024 };

@@ -66,10 +66,15 @@ extern const baum_i_catalog_mechanism baum_i_slider_crank;
 extern const baum_i_catalog_mechanism baum_i_slider_crank_eccentric;
 extern const baum_i_catalog_mechanism baum_i_slider_crank_driven;
 extern const baum_i_catalog_mechanism baum_i_slider_crank_simeon;
+extern const baum_i_catalog_mechanism baum_i_slider_crank_sundials;
+extern const baum_i_catalog_mechanism baum_i_four_bar;
 extern const baum_i_catalog_mechanism baum_i_n_four_bar;
 extern const baum_i_catalog_mechanism baum_i_andrews_angles;
 extern const baum_i_catalog_mechanism baum_i_andrews_bodies;
 extern const baum_i_catalog_mechanism baum_i_andrews_a03;
+extern const baum_i_catalog_mechanism baum_i_car_axis;
+extern const baum_i_catalog_mechanism baum_i_chain_of_3;
+extern const baum_i_catalog_mechanism baum_i_chain_of_n;
 
 /* Set this thread's sentence and return the status. */
 #if defined(__GNUC__)

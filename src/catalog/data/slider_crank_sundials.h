@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Slider-crank of SUNDIALS' idaSlCrank_dns.
  * Columns: crank angle, x of the rod's centre, rod angle. */
-#ifndef BAUM_I_CATALOG_DATA_SUNDIALS_SLIDER_CRANK_H
-#define BAUM_I_CATALOG_DATA_SUNDIALS_SLIDER_CRANK_H
+#ifndef BAUM_I_CATALOG_DATA_SLIDER_CRANK_SUNDIALS_H
+#define BAUM_I_CATALOG_DATA_SLIDER_CRANK_SUNDIALS_H
 
 enum { SUNDIALS_SLIDER_CRANK_SAMPLES = 41, SUNDIALS_SLIDER_CRANK_WIDTH = 3 };
 

@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef BAUM_I_CATALOG_CHAIN_H
+#define BAUM_I_CATALOG_CHAIN_H
+
+#include "catalog/parts.h"
+
+/* What all links of a chain have in common. */
+typedef struct baum_i_link {
+  double mass;   /* [kg] */
+  double length; /* [m] */
+  double angle;  /* [rad] at start */
+  double rate;   /* [rad/s] at start */
+} baum_i_link;
+
+/* A chain of uniform rods that hangs on the origin. NULL: as all links. */
+typedef struct baum_i_chain {
+  int links;
+  const double *mass;   /* (links) [kg] */
+  const double *length; /* (links) [m] */
+  const double *angle;  /* (links) [rad] at start */
+  const double *rate;   /* (links) [rad/s] at start */
+  baum_i_link all;
+} baum_i_chain;
+
+/* Three links of different length and mass, whose motion is known. */
+extern const baum_i_chain baum_i_chain_3;
+
+void baum_i_chain_add(baum_i_parts *parts, const baum_i_chain *data);
+
+#endif
