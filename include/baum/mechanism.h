@@ -506,7 +506,8 @@ typedef struct baum_mobility {
   int32_t redundant_rows;    /**< [-] rows that depend on others at every nearby pose. */
   int32_t conflicting_rows;  /**< [-] rows that cannot be met together with the others. */
   int32_t free_bodies;       /**< [-] bodies without a joint. */
-  bool near_singular;        /**< The start pose has fewer independent rows than its neighbours. */
+  bool near_singular;        /**< The start pose has fewer independent rows than its neighbours, or
+                                  comes within 1e-5 of that, relative to the scales. */
   double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
   baum_joint_id worst_joint; /**< Joint of worst_phi. */
   char text[1024];           /**< The same in sentences, by name. */

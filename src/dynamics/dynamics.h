@@ -23,7 +23,7 @@
 /* Dependent rows: found once, at the assembled start pose and its neighbours. */
 typedef struct baum_i_redundancy {
   int rank;               /* of J at the neighbours */
-  int rank_at_start;      /* at the start pose itself; less: it is singular */
+  int rank_at_start;      /* at the start pose itself; less: it is singular, or next to that */
   int count;              /* dropped rows, nc - rank */
   unsigned char *dropped; /* (nc) 1 where a row is left out */
   /* Of least_multipliers.c: */

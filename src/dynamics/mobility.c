@@ -89,8 +89,8 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
     status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* then without names */
   }
   if (report->near_singular) {
-    say(report, " The start pose is singular: %d independent rows, %d nearby.", r->rank_at_start,
-        r->rank);
+    say(report, " The start pose is singular, or all but singular: %d independent rows, %d nearby.",
+        r->rank_at_start, r->rank);
   }
   return status;
 }

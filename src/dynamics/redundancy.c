@@ -6,6 +6,11 @@
  * outside one largest independent set are redundant, and every solver leaves them out. A start pose
  * of lower rank is a singular one.
  *
+ * Next to a singular pose a row that is all but dependent, by its distance d from there, blows up the rounding of those
+ * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear: clear neighbours
+ * decide, and it counts as a singular one. Where none is clear, rows are all but dependent everywhere, as those of two
+ * pins next to each other, and are taken as they are.
+ *
  * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it,
  * and assembled there.
  */
@@ -21,7 +26,15 @@ enum { NEIGHBOURS = 4 };
 /* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that
  * only come near dependence at a generic pose are told apart down to this. */
 static const double RANK_TOLERANCE = 1e-9;
+/* Above this rows are independent without doubt, and do not blow up rounding to that tolerance. */
+static const double CLEAR = 1e-5;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
+
+/* Of a pose; it is clear where both are the same. */
+typedef struct pose_rank {
+  int all;
+  int clear; /* without rows that are all but dependent */
+} pose_rank;
 
 typedef struct search {
   baum_workspace *w;
@@ -30,6 +43,7 @@ typedef struct search {
   double *q;                  /* (nv) neighbour */
   double *x;                  /* (nv) direction */
   unsigned char *independent; /* (nc) of the pose last looked at */
+  bool clear;                 /* the pose whose rank was kept */
 } search;
 
 static void find_column_scale(const search *s)
@@ -45,27 +59,38 @@ static void find_column_scale(const search *s)
   }
 }
 
-/* Rank at a pose; leaves J, M and nu there in the workspace. */
-static baum_status rank_at(const search *s, double t, const double *q, int *rank)
+static baum_status rank_to(const search *s, double t, double tolerance, int *rank)
 {
-  baum_status status = baum_i_position_stage(s->w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  find_column_scale(s);
-  status = baum_i_jacobian_rank(&s->w->structure, s->w->jacobian, s->column_scale, RANK_TOLERANCE,
-                                rank, s->independent);
+  baum_status status = baum_i_jacobian_rank(&s->w->structure, s->w->jacobian, s->column_scale,
+                                            tolerance, rank, s->independent);
   if (status == BAUM_ERR_NOT_FINITE) {
     return baum_i_fail(status, "t = %.9g s: the constraint Jacobian is not finite", t);
   }
   return status;
 }
 
-static void keep_set(baum_i_redundancy *r, const search *s, int rank)
+/* Rank at a pose; leaves J, M and nu there in the workspace. */
+static baum_status rank_at(const search *s, double t, const double *q, pose_rank *rank)
 {
+  baum_status status = baum_i_position_stage(s->w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  find_column_scale(s);
+  status = rank_to(s, t, CLEAR, &rank->clear);
+  rank->all = rank->clear;
+  return status == BAUM_OK && rank->clear < s->w->mechanism->nc
+           ? rank_to(s, t, RANK_TOLERANCE, &rank->all)
+           : status;
+}
+
+static void keep_set(search *s, const pose_rank *rank)
+{
+  baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
-  r->rank = rank;
-  r->count = nc - rank;
+  s->clear = rank->all == rank->clear;
+  r->rank = rank->all;
+  r->count = nc - rank->all;
   for (int i = 0; i < nc; i++) {
     r->dropped[i] = s->independent[i] ? 0 : 1;
   }
@@ -118,25 +143,27 @@ static baum_status find_direction(const search *s, double *size)
 }
 
 /* One neighbour; a pose that cannot be assembled is passed over. */
-static baum_status look_at_neighbour(const search *s, double t, const double *q, double step)
+static baum_status look_at_neighbour(search *s, double t, const double *q, double step)
 {
   baum_workspace *w = s->w;
   for (int i = 0; i < w->mechanism->nv; i++) {
     s->q[i] = q[i] + step * s->x[i];
   }
   baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL);
-  int rank = 0;
+  pose_rank rank = {0, 0};
   if (status == BAUM_OK) {
     status = rank_at(s, t + step, s->q, &rank);
   }
-  if (status == BAUM_OK && rank > w->redundancy.rank) {
-    keep_set(&w->redundancy, s, rank);
+  bool clear = rank.all == rank.clear;
+  bool better = clear == s->clear ? rank.all > w->redundancy.rank : clear;
+  if (status == BAUM_OK && better) {
+    keep_set(s, &rank);
   }
   return status == BAUM_ERR_MEMORY || (status == BAUM_ERR_CALLBACK && !w->point.retry) ? status
                                                                                        : BAUM_OK;
 }
 
-static baum_status look_around(const search *s, double t, const double *q)
+static baum_status look_around(search *s, double t, const double *q)
 {
   double size = 0.0;
   baum_status status = find_direction(s, &size);
@@ -164,11 +191,11 @@ static void keep_all(baum_i_redundancy *r, int nc)
 }
 
 /* The pose to look at is assembled: off the constraints no row depends on others exactly. */
-static baum_status find(const search *s, double t, const double *q)
+static baum_status find(search *s, double t, const double *q)
 {
   baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
-  int rank = 0;
+  pose_rank rank = {0, 0};
   memcpy(s->start, q, (size_t)s->w->mechanism->nv * sizeof *q);
   baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
   bool fits = status == BAUM_OK;
@@ -178,9 +205,9 @@ static baum_status find(const search *s, double t, const double *q)
   if (status != BAUM_OK) {
     return status;
   }
-  keep_set(r, s, rank);
-  r->rank_at_start = rank;
-  if (rank == nc) {
+  keep_set(s, &rank);
+  r->rank_at_start = rank.all;
+  if (rank.clear == nc) {
     return BAUM_OK; /* independent here means independent nearby */
   }
   if (!fits) {
@@ -188,6 +215,7 @@ static baum_status find(const search *s, double t, const double *q)
     return BAUM_OK;
   }
   status = look_around(s, t, s->start);
+  r->rank_at_start = s->clear ? rank.clear : rank.all;
   if (status == BAUM_OK && r->count > 0 && !r->kkt) {
     status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
   }
@@ -206,8 +234,12 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   unsigned char *independent = baum_i_alloc(nc, 1);
   baum_status status = BAUM_ERR_MEMORY;
   if (memory && independent) {
-    const search s = {workspace,       memory,          memory + nv,
-                      memory + 2 * nv, memory + 3 * nv, independent};
+    search s = {.w = workspace,
+                .column_scale = memory,
+                .start = memory + nv,
+                .q = memory + 2 * nv,
+                .x = memory + 3 * nv,
+                .independent = independent};
     status = find(&s, t, q);
   } else {
     status = baum_i_fail_memory();

@@ -85,7 +85,9 @@ static baum_status warn_redundancy(baum_simulation *run)
                     r->count, r->count == 1 ? "row" : "rows", names);
   }
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
-    baum_i_run_warn(run, "the start pose is singular: %d independent constraint rows, %d nearby",
+    baum_i_run_warn(run,
+                    "the start pose is singular, or all but singular: %d independent constraint "
+                    "rows, %d nearby",
                     r->rank_at_start, r->rank);
   }
   return BAUM_OK;
