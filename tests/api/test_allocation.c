@@ -151,6 +151,43 @@ static void steps_samples_and_channels_allocate_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+/* Jumps of an input in every third step or so, which some methods restart for. */
+static void jumps_of_inputs_allocate_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  enum { JUMPS = 50 };
+  double times[JUMPS];
+  double values[JUMPS];
+  for (int k = 0; k < JUMPS; k++) {
+    times[k] = 3.3e-3 * (k + 1);
+    values[k] = 1.0 - 0.1 * (k % 2);
+  }
+  every_element parts = every_element_make(NULL);
+  baum_simulation_options o;
+  for (int k = 0; find_pair(k, &o); k++) {
+    baum_simulation *run = NULL;
+    assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
+    assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, JUMPS),
+                     BAUM_OK);
+    assert_true(reached_the_end(baum_simulation_advance_to(run, times[4])));
+    int64_t full = counters_of(run).full_factorizations;
+    heap_watch();
+    assert_true(reached_the_end(baum_simulation_step(run, 10)));
+    assert_true(reached_the_end(baum_simulation_advance_to(run, times[9])));
+    long allocations = heap_stop();
+    assert_true(baum_simulation_input(run, parts.throttle) == values[9]);
+    if (allocations != 0 || counters_of(run).full_factorizations != full) {
+      fail_msg("%s, %s: %ld allocations", baum_integrator_name(o.integrator),
+               baum_formulation_name(o.formulation), allocations);
+    }
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 /* A state to evaluate at. */
 typedef struct point {
   double q[EVERY_NV];
@@ -522,6 +559,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(steps_samples_and_channels_allocate_nothing),
+    cmocka_unit_test(jumps_of_inputs_allocate_nothing),
     cmocka_unit_test(evaluations_allocate_nothing),
     cmocka_unit_test(building_survives_every_failing_allocation),
     cmocka_unit_test(replacing_survives_every_failing_allocation),

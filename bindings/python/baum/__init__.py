@@ -24,7 +24,7 @@ from .integrators import (
     stability_outline, stability_statement,
 )
 from .mechanism import Mechanism, Mobility, Report, Sizes
-from .run import Counters, EnergyAccount, NearSingular, Run
+from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
 from .workspace import Workspace
 
@@ -39,7 +39,7 @@ def has(feature):
 
 
 __all__ = [
-    "Amplification", "Body", "Channel", "Counters", "EnergyAccount", "Error", "Force", "Gains",
+    "Amplification", "Body", "Channel", "Counters", "EnergyAccount", "Error", "Event", "Force", "Gains",
     "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Report", "Retry", "Run", "Simulation",
     "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy",
     "energy_account",

@@ -24,13 +24,19 @@ NearSingular.__doc__ = """An interval in which a run was near a singular pose; s
 baum_near_singular in simulation.h. The branch is a word such as "continued" or "left"."""
 
 
+Event = namedtuple("Event", "t event direction")
+Event.__doc__ = """An event that has happened: when [s], its number as Simulation.event() has given
+it, and 1 for rising in time or -1 for falling."""
+
+
 class Run:
     """Samples of a run. t is (n), q (n x nq), v (n x nv); run["B.phi"] or run[m["B"].phi] (n x
     columns) is a recorded channel. Poses and velocities of bodies need no recording, they are parts
     of q and v.
 
-    status: OK, WARNED or STOP_CANCELLED (then the samples end early); counters; explain: in words
-    how it was done; warnings: list of sentences; energy_account: at the end, None without the option.
+    status: OK, WARNED, or STOP_CANCELLED and STOP_EVENT (then the samples end early); counters;
+    explain: in words how it was done; warnings: list of sentences; near_singular, events: of the whole
+    simulation so far; energy_account: at the end, None without the option.
     """
 
     def __init__(self, mechanism, layout, times, rows, status, account):
@@ -38,6 +44,8 @@ class Run:
         self.t = times
         self.status = status
         self.counters, self.explain, self.warnings = account
+        self.near_singular = []
+        self.events = []
         self.energy_account = None
         self._layout = layout
         self._rows = rows

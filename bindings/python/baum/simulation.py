@@ -13,7 +13,7 @@ from .errors import Error, Status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
-from .run import Counters, EnergyAccount, NearSingular, Run
+from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from ._values import address, integer, number, vector
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
@@ -148,6 +148,7 @@ class Simulation:
         self._keep = _progress(self._progress)
         self._has_account = bool(options.get("energy_account"))
         self._layouts = {}
+        self._event_functions = []
         self._warned = 0
         self._seconds_per_step = None
         struct = make_options(integrator, options)
@@ -191,7 +192,12 @@ class Simulation:
 
     def _is_short(self, count):
         seconds = self._seconds_per_step
-        return seconds is not None and seconds * count < AT_ONCE and not self.mechanism.has_python
+        return seconds is not None and seconds * count < AT_ONCE and not self._has_python
+
+    @property
+    def _has_python(self):
+        """Whether calls may come back through Python."""
+        return self.mechanism.has_python or bool(self._event_functions)
 
     def sample(self, times, record=()):
         """Advance through times [s] and return a Run: q, v and the channels in `record` at each of
@@ -220,6 +226,8 @@ class Simulation:
     def _make_run(self, layout, times, rows, done, status):
         account = (self.counters, self.explain, self.warnings)
         run = Run(self.mechanism, layout, times[:done], rows[:done], status, account)
+        run.near_singular = self.near_singular
+        run.events = self.events
         run.energy_account = self.energy_account if self._has_account else None
         return run
 
@@ -238,6 +246,16 @@ class Simulation:
         inputs often goes best with a fixed step, or with "rk8"."""
         input = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, input.id, number(value, input.name))
+
+    def schedule_input(self, input, times, values):
+        """Give an input values[k] from times[k] [s] on, rising; before the first it has its present
+        one. No step passes a time, and methods with a past begin anew there. set_input() ends it."""
+        input = self.mechanism.find("input", input)
+        times = vector(np.atleast_1d(times), None, f"{input.name}: times")
+        values = vector(np.atleast_1d(values), len(times), f"{input.name}: values")
+        self._call(
+            lib.baum_simulation_schedule_input, input.id, address(times), address(values), len(times)
+        )
 
     @property
     def inputs(self):
@@ -274,21 +292,21 @@ class Simulation:
             struct.tolerance = number(tolerance, "tolerance")
         if function is not None:
             struct.function = event_function(function, self._sizes.nq, self._sizes.nv)
-            self._event_functions = [*getattr(self, "_event_functions", []), struct.function]
+            self._event_functions.append(struct.function)
         index = ctypes.c_int32()
         self._call(lib.baum_simulation_add_event, ctypes.byref(struct), ctypes.byref(index))
         return index.value
 
     @property
     def events(self):
-        """What has happened so far, of which the last 1024 are kept: (time [s], event, direction)."""
+        """What has happened so far, of which the last 1024 are kept: Event(t, event, direction)."""
         count = lib.baum_simulation_event_count(self._owner._address)
         record = _abi.baum_event_record()
         happened = []
         for k in range(max(0, count - 1024), count):
             size = ctypes.sizeof(record)
             self._call(lib.baum_simulation_event, k, ctypes.byref(record), size)
-            happened.append((record.t, record.event, record.direction))
+            happened.append(Event(record.t, record.event, record.direction))
         return happened
 
     def save(self):
@@ -339,7 +357,7 @@ class Simulation:
 
     def _call(self, function, *arguments):
         """A short call; in a thread of its own only when it may come back through Python."""
-        if self.mechanism.has_python:
+        if self._has_python:
             return _calls.interruptible(self._owner.call, function, *arguments)
         return self._owner.call(function, *arguments)
 
