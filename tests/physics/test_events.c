@@ -166,7 +166,7 @@ static void check_records(const baum_simulation *run, const swing *s, step_mode 
     baum_event_record r = record_of(run, k);
     assert_int_equal(r.event, want[k].event);
     assert_int_equal(r.direction, want[k].direction);
-    ASSERT_NEAR(r.t, want[k].quarters * s->quarter, 0.0, motion_error(mode, 12.0));
+    ASSERT_NEAR(r.t, want[k].quarters * s->quarter, 0.0, motion_error(mode, fabs(r.t)));
   }
 }
 
@@ -314,6 +314,8 @@ static void turning_at_an_event_finds_it_once(void **state)
 
 enum { CASES = 1000, FIXED_CASES = 100 };
 
+static const double RANDOM_RTOL = 1e-6;
+
 /* One call of a kind that chance chooses, towards `end` and not beyond. */
 static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 {
@@ -336,13 +338,13 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
 }
 
 /* A swing of random height, watched at 0 and at rest, each terminal or not, by random calls. Returns how many events
- * are not the right ones. */
-static int random_case(step_mode mode, uint64_t *seed)
+ * are not the right ones; `worst` becomes at least the error of a time, of the time. */
+static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));
   /* Euler's swings grow; with this step by less than the room between events. */
   double h = baum_integrator_order(mode.integrator) == 1 ? 1e-4 : STEP;
-  baum_simulation_options o = step_mode_options(mode, h, 1e-6);
+  baum_simulation_options o = step_mode_options(mode, h, RANDOM_RTOL);
   baum_simulation *run = open_run(&s, &o);
   (void)add_angle(run, &s, 0.0, 0, uniform(seed, 0.0, 1.0) < 0.5);
   (void)add_rest(run, 0);
@@ -356,11 +358,24 @@ static int random_case(step_mode mode, uint64_t *seed)
   for (int k = 0; k < 4 && !wrong; k++) {
     baum_event_record r = record_of(run, k);
     wrong += r.event != k % 2;
-    /* Errors of the motion, more for swings near the top; neighbours are a quarter apart. */
-    wrong += !(fabs(r.t - (k + 1) * s.quarter) <= (mode.fixed ? 0.1 * s.quarter : 1e-3));
+    *worst = fmax(*worst, fabs(r.t - (k + 1) * s.quarter) / fmax(r.t, 1.0));
+    /* Neighbours are a quarter apart. */
+    wrong += !(fabs(r.t - (k + 1) * s.quarter) <= 0.1 * s.quarter);
   }
   close_all(run, &s);
   return wrong;
+}
+
+/* Of the time. With tolerances ten of them; BDF methods have larger errors in the motion itself, the more the nearer a
+ * swing comes to the top, measured 13 (IDA) and 40 tolerances (CVODE), and 1.5 times that is allowed. */
+static double random_error(step_mode mode)
+{
+  if (mode.fixed) {
+    return 0.1;
+  }
+  const char *name = baum_integrator_name(mode.integrator);
+  double tolerances = strcmp(name, "cvode_bdf") == 0 ? 60.0 : 10.0;
+  return RANDOM_RTOL * (strcmp(name, "ida") == 0 ? 20.0 : tolerances);
 }
 
 static void no_event_is_lost_in_random_cases(void **state)
@@ -371,12 +386,14 @@ static void no_event_is_lost_in_random_cases(void **state)
     int cases = mode.fixed ? FIXED_CASES : CASES;
     uint64_t seed = 42 + (uint64_t)k;
     int wrong = 0;
+    double worst = 0.0;
     for (int i = 0; i < cases; i++) {
-      wrong += random_case(mode, &seed) != 0;
+      wrong += random_case(mode, &seed, &worst) != 0;
     }
-    printf("%-20s %s %d of %d wrong\n", baum_integrator_name(mode.integrator),
-           mode.fixed ? "h" : " ", wrong, cases);
+    printf("%-20s %s %d of %d wrong, times off by %.1e\n", baum_integrator_name(mode.integrator),
+           mode.fixed ? "h" : " ", wrong, cases, worst);
     assert_int_equal(wrong, 0);
+    assert_true(worst <= random_error(mode));
   }
 }
 
