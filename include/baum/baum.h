@@ -12,6 +12,7 @@
 #include <baum/mechanism.h>
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
+#include <baum/report.h>
 #include <baum/simulation.h>
 #include <baum/spline.h>
 #include <baum/stabilization.h>

@@ -118,4 +118,7 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
 /* Formulation offered? */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
 
+/* Such as "6.4.1"; "none" in a build without. */
+const char *baum_i_sundials_version(void);
+
 #endif

@@ -88,6 +88,11 @@ static const baum_integrator IDA = {
   .destroy = destroy,
 };
 
+const char *baum_i_sundials_version(void)
+{
+  return "none";
+}
+
 const baum_integrator *baum_cvode_adams(void)
 {
   return &ADAMS;

@@ -277,4 +277,9 @@ void baum_i_sundials_unload(const baum_i_problem *problem, N_Vector from, double
   memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
 }
 
+const char *baum_i_sundials_version(void)
+{
+  return SUNDIALS_VERSION;
+}
+
 #endif

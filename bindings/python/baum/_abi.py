@@ -606,18 +606,6 @@ class baum_planar_curve_def(Structure):
     ]
 
 
-class baum_spline_driver_def(Structure):
-    _fields_ = [
-        ("struct_size", c_size_t),
-        ("name", c_char_p),
-        ("joint", baum_joint_id),
-        ("times", c_void_p),
-        ("values", c_void_p),
-        ("count", c_int32),
-        ("periodic", c_bool),
-    ]
-
-
 baum_study_progress_fn = CFUNCTYPE(c_int, c_void_p, c_int32, c_int32, c_void_p)
 
 
@@ -749,6 +737,25 @@ class baum_study_method(Structure):
         ("slope", c_double),
         ("work_per_digit", c_double),
         ("cpu_per_digit", c_double),
+    ]
+
+
+class baum_report_form(enum.IntEnum):
+    BAUM_REPORT_TEXT = 0
+    BAUM_REPORT_CSV = 1
+    BAUM_REPORT_JSON = 2
+    BAUM_REPORT_PAGE = 3
+
+
+class baum_spline_driver_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("joint", baum_joint_id),
+        ("times", c_void_p),
+        ("values", c_void_p),
+        ("count", c_int32),
+        ("periodic", c_bool),
     ]
 
 
@@ -1090,16 +1097,6 @@ PROTOTYPES = {
     "baum_mechanism_set_planar_curve": (c_int, [
         c_void_p, baum_joint_id, POINTER(baum_planar_curve_def),
     ]),
-    "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
-    "baum_mechanism_add_spline_driver": (c_int, [
-        c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
-    ]),
-    "baum_mechanism_get_spline_driver": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def), c_size_t,
-    ]),
-    "baum_mechanism_set_spline_driver": (c_int, [
-        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def),
-    ]),
     "baum_study_create": (c_int, [c_void_p, c_double, c_double, POINTER(c_void_p)]),
     "baum_study_destroy": (None, [c_void_p]),
     "baum_study_options_init": (None, [POINTER(baum_study_options), c_size_t]),
@@ -1139,6 +1136,18 @@ PROTOTYPES = {
     "baum_study_recommend_budget": (c_int, [
         c_void_p, c_double, POINTER(baum_simulation_options), c_size_t, c_char_p, c_size_t,
     ]),
+    "baum_study_write": (c_int, [c_void_p, c_int, c_char_p, c_char_p]),
+    "baum_study_print": (c_int, [c_void_p, c_int, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)]),
+    "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
+    "baum_mechanism_add_spline_driver": (c_int, [
+        c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spline_driver": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spline_driver": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spline_driver_def),
+    ]),
     "baum_version": (c_char_p, []),
     "baum_has": (c_bool, [c_char_p]),
 }
@@ -1165,9 +1174,9 @@ DEFAULTS = {
     baum_planar_rack_and_pinion_def: "baum_planar_rack_and_pinion_def_init",
     baum_planar_gear_def: "baum_planar_gear_def_init",
     baum_planar_curve_def: "baum_planar_curve_def_init",
-    baum_spline_driver_def: "baum_spline_driver_def_init",
     baum_study_options: "baum_study_options_init",
     baum_study_grid: "baum_study_grid_init",
+    baum_spline_driver_def: "baum_spline_driver_def_init",
 }
 
 STRUCTS = [
@@ -1206,10 +1215,10 @@ STRUCTS = [
     baum_planar_rack_and_pinion_def,
     baum_planar_gear_def,
     baum_planar_curve_def,
-    baum_spline_driver_def,
     baum_study_options,
     baum_study_grid,
     baum_study_row,
     baum_study_reference,
     baum_study_method,
+    baum_spline_driver_def,
 ]

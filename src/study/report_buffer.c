@@ -1,0 +1,206 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Texts of any length, put together piece by piece, and numbers that do not depend on the locale. */
+#include "study/report_buffer.h"
+
+#include <math.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+void baum_i_buffer_clear(baum_i_buffer *buffer)
+{
+  baum_i_free(buffer->text);
+  *buffer = (baum_i_buffer){0};
+}
+
+/* Room for so many more and their zero; NULL without. */
+static char *room(baum_i_buffer *buffer, size_t more)
+{
+  char *text = buffer->failed ? NULL : baum_i_grow(buffer->text, buffer->used + more + 1, 1);
+  if (!text) {
+    buffer->failed = true;
+    return NULL;
+  }
+  buffer->text = text;
+  return text + buffer->used;
+}
+
+static void put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
+{
+  char *to = room(buffer, count);
+  if (to) {
+    memcpy(to, bytes, count);
+    to[count] = '\0';
+    buffer->used += count;
+  }
+}
+
+void baum_i_put(baum_i_buffer *buffer, const char *text)
+{
+  put_bytes(buffer, text, strlen(text));
+}
+
+void baum_i_putf(baum_i_buffer *buffer, const char *format, ...)
+{
+  va_list arguments;
+  va_list again;
+  va_start(arguments, format);
+  va_copy(again, arguments);
+  int count = vsnprintf(NULL, 0, format, arguments);
+  char *to = count < 0 ? NULL : room(buffer, (size_t)count);
+  if (to) {
+    (void)vsnprintf(to, (size_t)count + 1, format, again);
+    buffer->used += (size_t)count;
+  }
+  va_end(again);
+  va_end(arguments);
+}
+
+void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width)
+{
+  int gap = width - baum_i_length(text);
+  baum_i_putf(buffer, "%s%*s", text, gap > 0 ? gap : 0, "");
+}
+
+/* ---- texts of users ---- */
+
+/* Bytes of the character that begins here; 0 when it is no UTF-8 (RFC 3629). */
+static size_t character(const unsigned char *s)
+{
+  if (s[0] < 0x80) {
+    return 1;
+  }
+  size_t count = s[0] >= 0xf0 ? 4 : s[0] >= 0xe0 ? 3 : 2;
+  uint32_t code = s[0] & (0x7fU >> count);
+  for (size_t k = 1; k < count; k++) {
+    if ((s[k] & 0xc0) != 0x80) {
+      return 0;
+    }
+    code = code << 6 | (s[k] & 0x3fU);
+  }
+  static const uint32_t LEAST[] = {0, 0, 0x80, 0x800, 0x10000};
+  bool is_surrogate = code >= 0xd800 && code <= 0xdfff;
+  return s[0] < 0xc0 || s[0] > 0xf4 || code < LEAST[count] || code > 0x10ffff || is_surrogate
+           ? 0
+           : count;
+}
+
+int baum_i_length(const char *text)
+{
+  int count = 0;
+  for (; *text; text++) {
+    count += ((unsigned char)*text & 0xc0) != 0x80;
+  }
+  return count;
+}
+
+/* What stands for a character; NULL: the character itself. */
+typedef const char *escape_fn(char c);
+
+static void put_escaped(baum_i_buffer *buffer, const char *text, escape_fn *escape)
+{
+  while (*text) {
+    const unsigned char *s = (const unsigned char *)text;
+    size_t count = character(s);
+    bool is_control = s[0] < 0x20 || s[0] == 0x7f;
+    const char *instead = count == 0 ? "\xef\xbf\xbd" : is_control ? " " : escape(*text);
+    if (instead) {
+      baum_i_put(buffer, instead);
+    } else {
+      put_bytes(buffer, text, count);
+    }
+    text += count ? count : 1;
+  }
+}
+
+static const char *html(char c)
+{
+  switch (c) {
+  case '&': return "&amp;";
+  case '<': return "&lt;";
+  case '>': return "&gt;";
+  case '"': return "&quot;";
+  case '\'': return "&#39;";
+  default: return NULL;
+  }
+}
+
+static const char *json(char c)
+{
+  return c == '"' ? "\\\"" : c == '\\' ? "\\\\" : NULL;
+}
+
+static const char *csv(char c)
+{
+  return c == '"' ? "\"\"" : NULL;
+}
+
+void baum_i_put_html(baum_i_buffer *buffer, const char *text)
+{
+  put_escaped(buffer, text, html);
+}
+
+void baum_i_put_json(baum_i_buffer *buffer, const char *text)
+{
+  put_escaped(buffer, text, json);
+}
+
+void baum_i_put_csv(baum_i_buffer *buffer, const char *text)
+{
+  put_escaped(buffer, text, csv);
+}
+
+/* ---- numbers ---- */
+
+/* What is none of the characters of a number is the locale's point, of any length. */
+static void mend_point(char *text)
+{
+  size_t digits = strspn(text, "+-0123456789e");
+  size_t point = strcspn(text + digits, "0123456789e");
+  if (point > 0) {
+    text[digits] = '.';
+    memmove(text + digits + 1, text + digits + point, strlen(text + digits + point) + 1);
+  }
+}
+
+baum_i_number baum_i_fixed(double x, int digits)
+{
+  baum_i_number out;
+  double capped = fmax(-1e15, fmin(x, 1e15));
+  (void)snprintf(out.text, sizeof out.text, "%.*f", digits, capped);
+  mend_point(out.text);
+  return out;
+}
+
+baum_i_number baum_i_short(double x, int digits)
+{
+  baum_i_number out = {"-"};
+  if (fabs(x) >= 1e3 && fabs(x) < 1e7) {
+    (void)snprintf(out.text, sizeof out.text, "%.0f", x);
+  } else if (isfinite(x)) {
+    (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
+    mend_point(out.text);
+  } else if (isinf(x)) {
+    (void)snprintf(out.text, sizeof out.text, "%sinfinite", x < 0.0 ? "-" : "");
+  }
+  return out;
+}
+
+baum_i_number baum_i_exact(double x, const char *otherwise)
+{
+  baum_i_number out = {""};
+  if (!isfinite(x)) {
+    (void)snprintf(out.text, sizeof out.text, "%s", otherwise);
+    return out;
+  }
+  int digits = 15;
+  do {
+    (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
+  } while (strtod(out.text, NULL) != x && digits++ < 17);
+  mend_point(out.text);
+  return out;
+}

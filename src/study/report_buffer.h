@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Texts of any length, put together piece by piece, and numbers that do not depend on the locale. */
+#ifndef BAUM_I_STUDY_REPORT_BUFFER_H
+#define BAUM_I_STUDY_REPORT_BUFFER_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include "base/message.h"
+
+/* All-zero is empty. Once memory has run out nothing is added any more. */
+typedef struct baum_i_buffer {
+  char *text; /* (used), zero-terminated; NULL while empty */
+  size_t used;
+  bool failed;
+} baum_i_buffer;
+
+void baum_i_buffer_clear(baum_i_buffer *buffer);
+void baum_i_put(baum_i_buffer *buffer, const char *text);
+/* Not for floating point, whose point may be a comma: give baum_i_short() and the like as texts. */
+void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2, 3);
+/* A text at the left of a column of so many characters. */
+void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
+
+/* Texts of users within HTML, also in attributes in double quotes, and within the quotes of JSON and CSV. Bytes that are no
+ * UTF-8 become U+FFFD, control characters spaces. */
+void baum_i_put_html(baum_i_buffer *buffer, const char *text);
+void baum_i_put_json(baum_i_buffer *buffer, const char *text);
+void baum_i_put_csv(baum_i_buffer *buffer, const char *text);
+
+/* A number as text, which lives to the end of the full expression. */
+typedef struct baum_i_number {
+  char text[40];
+} baum_i_number;
+
+/* So many digits behind the point, of up to 1e15. */
+baum_i_number baum_i_fixed(double x, int digits);
+/* So many digits in all, but those of whole numbers from 1e3 to 1e7; "-" for what is not a number. */
+baum_i_number baum_i_short(double x, int digits);
+/* The shortest that is read back as it is; `otherwise` for NaN and infinities. */
+baum_i_number baum_i_exact(double x, const char *otherwise);
+
+/* Characters of a UTF-8 text. */
+int baum_i_length(const char *text);
+
+#endif

@@ -1,0 +1,51 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Where a report is made: libraries, compiler, processor, date. */
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include <baum/version.h>
+
+#include "integrate/integrator.h"
+#include "study/report.h"
+
+#if defined(__clang__)
+#define COMPILER __VERSION__ /* with its name */
+#elif defined(__GNUC__)
+#define COMPILER "gcc " __VERSION__
+#else
+#define COMPILER "not known"
+#endif
+
+/* As Linux tells it. */
+static void read_cpu(char *cpu, size_t size)
+{
+  char line[512];
+  FILE *file = fopen("/proc/cpuinfo", "r");
+  while (file && fgets(line, sizeof line, file)) {
+    const char *colon = strchr(line, ':');
+    if (strncmp(line, "model name", 10) == 0 && colon) {
+      line[strcspn(line, "\n")] = '\0';
+      (void)snprintf(cpu, size, "%s", colon + 1 + strspn(colon + 1, " "));
+      break;
+    }
+  }
+  if (file) {
+    (void)fclose(file);
+  }
+}
+
+void baum_i_environment_read(baum_i_environment *out)
+{
+  *out = (baum_i_environment){.baum = baum_version(),
+                              .sundials = baum_i_sundials_version(),
+                              .compiler = COMPILER,
+                              .cpu = "not known"};
+  read_cpu(out->cpu, sizeof out->cpu);
+  time_t now = time(NULL);
+  struct tm parts;
+  if (!gmtime_r(&now, &parts) ||
+      strftime(out->date, sizeof out->date, "%Y-%m-%dT%H:%M:%SZ", &parts) == 0) {
+    (void)snprintf(out->date, sizeof out->date, "not known");
+  }
+}
