@@ -443,6 +443,8 @@ typedef struct baum_counters {
                                 may be. */
   int64_t forced_steps;    /**< [-] of rk8 and dp5, taken over a singular pose whatever their error
                                 estimate. */
+  double energy_residual;  /**< [J] of the energy account at present, what the method itself has gained
+                                or lost; NaN without the option energy_account. */
 } baum_counters;
 
 /** Read the counters.

@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/sized.h"
-#include "simulate/run.h"
+#include "simulate/account.h"
 
 /* ---- warnings ---- */
 
@@ -271,6 +271,14 @@ static void tell_damping(const baum_simulation *run, baum_counters *c)
   c->damping = stabilized ? -log1p(-a->damping) / run->options.step : (double)NAN;
 }
 
+static baum_status tell_residual(baum_simulation *run, baum_counters *c)
+{
+  double columns[BAUM_I_ACCOUNT_WIDTH] = {0.0};
+  baum_status status = run->account ? baum_i_account_put(run, &run->state, columns) : BAUM_OK;
+  c->energy_residual = run->account ? columns[BAUM_I_ACCOUNT_WIDTH - 1] : (double)NAN;
+  return status;
+}
+
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                      size_t caller_size)
 {
@@ -287,6 +295,10 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
     return status;
   }
   baum_counters *c = &simulation->counters;
+  status = tell_residual(simulation, c);
+  if (status != BAUM_OK) {
+    return status;
+  }
   baum_i_run_count(simulation);
   predict(simulation, c);
   c->energy_change = kinetic + potential - simulation->start_energy;

@@ -130,7 +130,7 @@ static void closes_with_the_order(void **state)
 /* ---- steps of the method's choice ---- */
 
 /* 100, in units of rtol. Orders of BDF and IDA end at 5, so that their own errors fall by 6.8 per decade of rtol only:
- * below 1e-6 they have that much more. Index 3 of IDA, whose velocities are outside of its error test, is far above its
+ * below 1e-6 they have that much more (what_is_left_is_the_error_of_the_motion). Index 3 of IDA, whose velocities are outside of its error test, is far above its
  * tolerance in all else too. */
 static double allowed(const baum_simulation_options *options)
 {
@@ -188,12 +188,83 @@ static void sundials_closes_to_the_tolerance(void **state)
   close_all(baum_ida());
 }
 
+/* ---- what the residual is ---- */
+
+/* Largest of a motion: q against another one's (where there is one) and the energies of an account. */
+typedef struct motion {
+  double q[TIMES][WIDTH];
+  double error;    /* of q, in m and rad: links of 1 m */
+  double residual; /* these of the largest kinetic energy */
+  double works;    /* of violation and projection */
+} motion;
+
+static motion follow(const baum_mechanism *m, baum_simulation_options options, const motion *exact)
+{
+  motion out = {.error = 0.0};
+  double kinetic = 0.0;
+  int32_t nq = 0;
+  baum_simulation *run = NULL;
+  options.energy_account = true;
+  check(baum_mechanism_sizes(m, &nq, NULL, NULL));
+  check(baum_simulation_create(m, &options, &run));
+  for (int k = 0; k < TIMES; k++) {
+    baum_energy_account a;
+    check(baum_simulation_advance_to(run, account_scenes[ACCOUNT_QUIET].span * (k + 1) / TIMES));
+    check(baum_simulation_energy_account(run, &a, sizeof a));
+    for (int i = 0; i < nq; i++) {
+      out.q[k][i] = baum_simulation_q(run)[i];
+      out.error = fmax(out.error, exact ? fabs(out.q[k][i] - exact->q[k][i]) : 0.0);
+    }
+    kinetic = fmax(kinetic, a.kinetic);
+    out.residual = fmax(out.residual, fabs(a.residual));
+    out.works = fmax(out.works, fabs(a.violation) + fabs(a.projection));
+  }
+  out.residual /= kinetic;
+  out.works /= kinetic;
+  baum_simulation_destroy(run);
+  return out;
+}
+
+/* Where next to nothing does work, the residual is the change of T + V, without any sum of works. It is no larger than
+ * the error of the motion: what BDF and IDA leave at tight tolerances is theirs. */
+static void what_is_left_is_the_error_of_the_motion(void **state)
+{
+  (void)state;
+  need_sundials();
+  const struct {
+    const baum_integrator *integrator;
+    baum_formulation formulation;
+  } methods[] = {{baum_cvode_bdf(), BAUM_FORMULATION_PROJECTION},
+                 {baum_ida(), BAUM_FORMULATION_GGL},
+                 {baum_ida(), BAUM_FORMULATION_INDEX2}};
+  baum_mechanism *m = account_build(&account_scenes[ACCOUNT_QUIET]);
+  assert_non_null(m);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk8();
+  options.rtol = 1e-13;
+  const motion exact = follow(m, options, NULL);
+  printf("\nresiduals, works and errors of the motion over rtol, at rtol 1e-8 and 1e-10\n");
+  for (int k = 0; k < 6; k++) {
+    options.integrator = methods[k / 2].integrator;
+    options.formulation = methods[k / 2].formulation;
+    options.rtol = k % 2 == 0 ? 1e-8 : 1e-10;
+    motion got = follow(m, options, &exact);
+    print_head(&account_scenes[ACCOUNT_QUIET], &options);
+    printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
+           got.error / options.rtol);
+    assert_true(got.works <= 0.05 * got.residual);
+    assert_true(got.residual <= 2.0 * got.error); /* 0.7 to 1 times */
+  }
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(closes_with_the_order),
     cmocka_unit_test(pairs_close_to_the_tolerance),
     cmocka_unit_test(sundials_closes_to_the_tolerance),
+    cmocka_unit_test(what_is_left_is_the_error_of_the_motion),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

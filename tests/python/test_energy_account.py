@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """The energy account of a run."""
 
+import math
 import unittest
 
 import baum
@@ -23,13 +24,16 @@ class EnergyAccount(unittest.TestCase):
         account = run.energy_account
         self.assertEqual(run["energy_account"].shape, (3, 12))
         self.assertEqual(run["energy_account"][-1, -1], account.residual)
+        self.assertEqual(run.counters.energy_residual, account.residual)
         # of 1.6 J; rk4 at 1000 steps a second is far better
         self.assertLess(abs(account.residual), 1e-9)
         self.assertGreater(account.kinetic, 1.0)
         self.assertGreater(account.evaluations, 0)
 
     def test_without_the_option_there_is_none(self):
-        self.assertIsNone(pendulum().simulate([0.0, 0.1], "rk4", step=1e-2).energy_account)
+        run = pendulum().simulate([0.0, 0.1], "rk4", step=1e-2)
+        self.assertIsNone(run.energy_account)
+        self.assertTrue(math.isnan(run.counters.energy_residual))
 
 
 if __name__ == "__main__":

@@ -47,6 +47,13 @@ static baum_energy_account read_account(baum_simulation *run)
   return out;
 }
 
+static double residual_in_counters(baum_simulation *run)
+{
+  baum_counters out;
+  check(baum_simulation_counters(run, &out, sizeof out));
+  return out.energy_residual;
+}
+
 /* A frozen mechanism to t = 1, then both are gone. */
 static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options options)
 {
@@ -56,6 +63,7 @@ static baum_energy_account run_to_1(baum_mechanism *m, baum_simulation_options o
   check(baum_simulation_advance_to(run, 1.0));
   baum_energy_account out = read_account(run);
   ASSERT_NEAR(out.residual, 0.0, 0.0, CLOSE);
+  assert_true(residual_in_counters(run) == out.residual);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
   return out;
@@ -382,6 +390,7 @@ static void what_has_no_account_says_so(void **state)
   baum_energy_account out;
   o.energy_account = false;
   check(baum_simulation_create(m, &o, &run));
+  assert_true(isnan(residual_in_counters(run)));
   ASSERT_SAYS(baum_simulation_energy_account(run, &out, sizeof out), BAUM_ERR_STATE,
               "energy_account");
   ASSERT_SAYS(baum_simulation_energy_account(NULL, &out, sizeof out), BAUM_ERR_ARGUMENT,

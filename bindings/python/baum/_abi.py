@@ -334,6 +334,7 @@ class baum_counters(Structure):
         ("near_singular_intervals", c_int64),
         ("branch_warnings", c_int64),
         ("forced_steps", c_int64),
+        ("energy_residual", c_double),
     ]
 
 
