@@ -73,6 +73,8 @@ typedef struct baum_study_options {
                             none. */
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress, not owned. Default: NULL. */
+  bool rehearse; /**< Run one row of each method over twice the span and from other starts, for what
+                      baum_study_recommend() leaves as a margin. Default: true. */
 } baum_study_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -114,7 +116,7 @@ typedef struct baum_study_grid {
                           1000 times the rate of the motion. Default: 2. */
   double coarsest; /**< [s] > 0, longest step of order 2 and more. Default: NaN, by the rate of the
                         motion. */
-  double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: 1e-12. */
+  double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: 1e-13. */
 } baum_study_grid;
 
 /** Set the default grid; writes at most caller_size bytes.
@@ -376,6 +378,9 @@ typedef struct baum_study_method {
   double slope; /**< [-] d log error / d log step or rtol where errors fall; NaN: not known. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN likewise. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN likewise. */
+  double
+    growth; /**< [-] largest error of one of its rows over twice the span and from starts nearby, over
+                      its error; infinite where it fails there, NaN: not known. */
 } baum_study_method;
 
 /** Number of methods; 0 for NULL. */

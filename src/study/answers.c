@@ -4,10 +4,11 @@
  * Between two rows of a method error and cost are taken to lie on straight lines over the logarithm of step or rtol.
  * A recommendation for the error E asks for
  *
- *   error x growth x MARGIN <= E,   growth = error over the whole span / error over its first half, 1 to MOST_GROWTH
+ *   error x growth x MARGIN <= E
  *
- * so that it holds for twice the span if errors go on growing as they have (2 to the power with which they do), and for
- * starts nearby. The row that fulfils it and the next finer one must do so both: a lucky row does not count.
+ * with the growth that rehearsals have shown, of the method or the median of all if that is more, or where there is none that from the first half of the span
+ * to the whole, which goes on if errors grow as a power of time. The row that fulfils it and the next finer one must do so
+ * both: a lucky row does not count.
  */
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +25,7 @@ static const double MARGIN = 2.0;
 static const double MOST_GROWTH = 100.0;
 static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
 
-enum { MOST_ROWS = 256 };
+enum { MOST_ROWS = 256, MOST_METHODS = 256 };
 
 /* ---- front ---- */
 
@@ -68,6 +69,29 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
+/* Rows from cheap to dear, as many as there is room for. */
+typedef struct list {
+  int32_t *rows;
+  int capacity;
+  int count; /* may be more than the capacity */
+} list;
+
+/* What is dearer moves up, and out beyond the capacity. */
+static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
+{
+  double c = cost_of(study->rows[k], cost);
+  int at = l->count < l->capacity ? l->count : l->capacity;
+  for (; at > 0 && cost_of(study->rows[l->rows[at - 1]], cost) > c; at--) {
+    if (at < l->capacity) {
+      l->rows[at] = l->rows[at - 1];
+    }
+  }
+  if (at < l->capacity) {
+    l->rows[at] = k;
+  }
+  l->count++;
+}
+
 baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
                              int32_t *rows, int32_t *count)
 {
@@ -80,25 +104,13 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count or rows are NULL, or capacity is negative",
                        call);
   }
-  int found = 0;
+  list found = {.rows = rows, .capacity = capacity};
   for (int k = 0; k < study->row_count; k++) {
-    if (!is_answer(study->rows[k]) || is_beaten(study, k, cost)) {
-      continue;
+    if (is_answer(study->rows[k]) && !is_beaten(study, k, cost)) {
+      insert(study, &found, k, cost);
     }
-    /* Into its place: what is dearer moves up, and out beyond the capacity. */
-    int at = found < capacity ? found : capacity;
-    double c = cost_of(study->rows[k], cost);
-    for (; at > 0 && cost_of(study->rows[rows[at - 1]], cost) > c; at--) {
-      if (at < capacity) {
-        rows[at] = rows[at - 1];
-      }
-    }
-    if (at < capacity) {
-      rows[at] = k;
-    }
-    found++;
   }
-  *count = found;
+  *count = found.count;
   return BAUM_OK;
 }
 
@@ -202,30 +214,56 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-static double growth_of(const baum_i_row *row)
+static int by_value(const void *a, const void *b)
 {
-  double growth = row->out.error / row->out.error_half;
-  return growth > 1.0 ? fmin(growth, MOST_GROWTH) : 1.0;
+  double x = *(const double *)a;
+  double y = *(const double *)b;
+  return (x > y) - (x < y);
+}
+
+/* Of all methods that have been rehearsed to the end; NaN where there is none. A method that was lucky there has at least
+ * this. */
+static double median_growth(const baum_study *study)
+{
+  double growths[MOST_METHODS];
+  int count = 0;
+  for (int k = 0; k < study->method_count && count < MOST_METHODS; k++) {
+    if (isfinite(study->methods[k].growth)) {
+      growths[count++] = study->methods[k].growth;
+    }
+  }
+  qsort(growths, (size_t)count, sizeof *growths, by_value);
+  return count > 0 ? growths[count / 2] : (double)NAN;
+}
+
+static double growth_of(const baum_study *study, const baum_i_row *row)
+{
+  double own = study->methods[row->out.method].growth;
+  double growth = fmax(own, median_growth(study));
+  if (isnan(growth)) {
+    growth = fmin(row->out.error / row->out.error_half, MOST_GROWTH);
+  }
+  return growth > 1.0 ? growth : 1.0;
 }
 
 /* What an error is expected to be at most, for twice the span and starts nearby. */
-static double expected(const baum_i_row *row, bool with_margin)
+static double expected(const baum_study *study, const baum_i_row *row, bool with_margin)
 {
-  return with_margin ? row->out.error * growth_of(row) * MARGIN : row->out.error;
+  return with_margin ? row->out.error * growth_of(study, row) * MARGIN : row->out.error;
 }
 
 /* The coarsest place of a method where the error is kept; the next finer row keeps it too. */
-static bool find_place(const baum_i_row *const *rows, int count, double error, bool with_margin,
-                       place *out)
+static bool find_place(const baum_study *study, const baum_i_row *const *rows, int count,
+                       double error, bool with_margin, place *out)
 {
   for (int k = 0; k < count; k++) {
-    double here = expected(rows[k], with_margin);
-    bool next = k + 1 == count || expected(rows[k + 1], with_margin) <= error;
+    double here = expected(study, rows[k], with_margin);
+    bool next = k + 1 == count || expected(study, rows[k + 1], with_margin) <= error;
     if (here > error || !next) {
       continue;
     }
     *out = (place){rows[k], rows[k], 0.0};
-    double before = k > 0 ? expected(rows[k - 1], with_margin) : 0.0;
+    double before = k > 0 ? expected(study, rows[k - 1], with_margin) : 0.0;
     if (before > error) {
       *out = (place){rows[k - 1], rows[k], share_at(before, here, error)};
     }
@@ -253,7 +291,7 @@ static bool find_best(const baum_study *study, const question *q, place *best)
     if (count == 0 || rows[0]->out.unstable || rows[0]->options.integrator == q->without) {
       continue;
     }
-    if (find_place(rows, count, q->error, q->with_margin, &p) &&
+    if (find_place(study, rows, count, q->error, q->with_margin, &p) &&
         (!best->fine || place_cost(&p, q->cost) < place_cost(best, q->cost))) {
       *best = p;
     }
@@ -325,12 +363,12 @@ static void add_margin(const baum_study *study, const place *p, const question *
     baum_i_append(why, size, "; nothing is left for other starts or a longer span");
     return;
   }
-  double growth = fmax(growth_of(p->coarse), growth_of(p->fine));
-  baum_i_append(
-    why, size,
-    "; that leaves a factor %.2g below %.2g: errors have grown by %.2g from half the span "
-    "to the whole, and %g is for other starts",
-    q->error / place_error(p), q->error, growth, MARGIN);
+  double growth = growth_of(study, p->fine);
+  baum_i_append(why, size,
+                "; that is %.2g times less than %.2g, for over twice the span and from starts "
+                "nearby errors have "
+                "grown by up to %.2g",
+                q->error / place_error(p), q->error, growth);
   add_rival(study, p, *q, why, size);
 }
 
@@ -409,27 +447,49 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   return deliver(study, &o, best, caller_size);
 }
 
-/* The most exact place of a method whose time is within the budget. */
-static bool find_affordable(const baum_i_row *const *rows, int count, double seconds, place *out)
+/* More exact, or as exact and quicker? */
+static bool beats(const place *p, const place *other)
 {
-  bool found = false;
+  if (!other->fine) {
+    return true;
+  }
+  double e[2] = {place_error(p), place_error(other)};
+  double c[2] = {place_cost(p, BAUM_STUDY_CPU), place_cost(other, BAUM_STUDY_CPU)};
+  return e[0] < e[1] || (e[0] == e[1] && c[0] < c[1]);
+}
+
+/* The most exact place of a method whose time is within the budget. */
+static void find_affordable(const baum_i_row *const *rows, int count, double seconds, place *best)
+{
   for (int k = 0; k < count; k++) {
-    if (rows[k]->out.cpu > seconds) {
-      if (k > 0 && rows[k - 1]->out.cpu <= seconds && rows[k]->out.error < rows[k - 1]->out.error) {
-        place p = {rows[k - 1], rows[k], share_at(rows[k - 1]->out.cpu, rows[k]->out.cpu, seconds)};
-        if (!found || place_error(&p) < place_error(out)) {
-          *out = p;
-          found = true;
-        }
-      }
+    place p = {rows[k], rows[k], 0.0};
+    double here = rows[k]->out.cpu;
+    double before = k > 0 ? rows[k - 1]->out.cpu : (double)INFINITY;
+    if (here > seconds && before <= seconds && rows[k]->out.error < rows[k - 1]->out.error) {
+      p = (place){rows[k - 1], rows[k], share_at(before, here, seconds)};
+    } else if (here > seconds) {
       continue;
     }
-    if (!found || rows[k]->out.error < place_error(out)) {
-      *out = (place){rows[k], rows[k], 0.0};
-      found = true;
+    if (beats(&p, best)) {
+      *best = p;
     }
   }
-  return found;
+}
+
+/* The same of all methods; returns the least time of any row. */
+static double find_most_exact(const baum_study *study, double seconds, place *best)
+{
+  double quickest = (double)INFINITY;
+  *best = (place){.coarse = NULL};
+  for (int m = 0; m < study->method_count; m++) {
+    const baum_i_row *rows[MOST_ROWS];
+    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
+    if (count > 0 && !rows[0]->out.unstable) {
+      quickest = fmin(quickest, rows[0]->out.cpu);
+      find_affordable(rows, count, seconds, best);
+    }
+  }
+  return quickest;
 }
 
 baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
@@ -444,33 +504,19 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   if (!(seconds > 0.0)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be > 0", call, seconds);
   }
-  place chosen;
-  bool found = false;
-  double quickest = (double)INFINITY;
-  for (int m = 0; m < study->method_count; m++) {
-    const baum_i_row *rows[MOST_ROWS];
-    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
-    place p;
-    if (count == 0 || rows[0]->out.unstable) {
-      continue;
-    }
-    quickest = fmin(quickest, rows[0]->out.cpu);
-    if (find_affordable(rows, count, seconds / SPEED_MARGIN, &p) &&
-        (!found || place_error(&p) < place_error(&chosen) ||
-         (place_error(&p) == place_error(&chosen) &&
-          place_cost(&p, BAUM_STUDY_CPU) < place_cost(&chosen, BAUM_STUDY_CPU)))) {
-      chosen = p;
-      found = true;
-    }
+  place p;
+  double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
+  if (!p.fine) {
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: no row is done in %.3g s, with a quarter of it to spare; the quickest takes "
+      "%.3g s",
+      call, seconds, quickest);
   }
-  if (!found) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row is done in %.3g s; the quickest takes %.3g s",
-                       call, seconds, quickest);
-  }
-  baum_simulation_options o = options_of(study, &chosen);
+  baum_simulation_options o = options_of(study, &p);
   if (why && size > 0) {
-    explain(&chosen, &o, why, size);
-    baum_i_append(why, size, "; a quarter is left of %.3g ms", 1e3 * seconds);
+    explain(&p, &o, why, size);
+    baum_i_append(why, size, "; a fifth of %.3g ms is left, for times vary", 1e3 * seconds);
   }
   return deliver(study, &o, best, caller_size);
 }

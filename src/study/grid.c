@@ -27,7 +27,7 @@ static const double LARGEST_RTOL = 1e-2;
 void baum_study_grid_init(baum_study_grid *grid, size_t caller_size)
 {
   const baum_study_grid defaults = {
-    .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = 1e-12};
+    .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = 1e-13};
   if (baum_i_takes_sized(grid, caller_size)) {
     baum_i_give_sized(grid, caller_size, &defaults, sizeof defaults);
   }

@@ -32,7 +32,7 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
   }
   study->methods = methods;
   baum_i_study_method *method = &methods[study->method_count];
-  *method = (baum_i_study_method){.key = key, .first = row};
+  *method = (baum_i_study_method){.key = key, .first = row, .growth = (double)NAN};
   baum_i_name_method(options, method->name, sizeof method->name);
   return study->method_count++;
 }
@@ -128,6 +128,7 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
                              .gains = o->gains,
                              .fixed_step = !isnan(o->step),
                              .least_error = none,
+                             .growth = method->growth,
                              .slope = none,
                              .work_per_digit = none,
                              .cpu_per_digit = none};

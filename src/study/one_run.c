@@ -57,8 +57,10 @@ static baum_simulation_options complete(const baum_study *study,
   return o;
 }
 
-static baum_status sample(const baum_study *study, baum_simulation *run, double *rows)
+static baum_status sample(const baum_i_task *task, baum_simulation *run, double *rows)
 {
+  const baum_study *study = task->study;
+  const baum_i_course *course = task->course;
   baum_i_layout l = baum_i_study_layout(study);
   baum_channel *channels =
     baum_i_alloc((size_t)study->channel_count + BAUM_I_CHANNELS, sizeof *channels);
@@ -66,28 +68,28 @@ static baum_status sample(const baum_study *study, baum_simulation *run, double 
     return baum_i_fail_memory();
   }
   int count = baum_i_study_channels(study, channels);
-  for (int k = 0; k < study->reference.n * l.width; k++) {
+  for (int k = 0; k < course->n * l.width; k++) {
     rows[k] = (double)NAN;
   }
-  baum_status status = baum_simulation_sample(run, study->reference.times, study->reference.n,
-                                              channels, count, rows, NULL);
+  baum_status status =
+    baum_simulation_sample(run, course->times, course->n, channels, count, rows, NULL);
   baum_i_free(channels);
   return status;
 }
 
 /* Kinematics solves poses at the times asked for: these are its cost. */
-static baum_status advance(const baum_study *study, baum_simulation *run,
-                           const baum_simulation_options *options)
+static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
-  const baum_i_study_reference *r = &study->reference;
+  const baum_i_course *course = task->course;
   baum_status status = BAUM_OK;
-  for (int k = 0; options->integrator->without_freedom && k < r->n && status >= BAUM_OK; k++) {
-    status = baum_simulation_advance_to(run, r->times[k]);
+  for (int k = 0; task->options->integrator->without_freedom && k < course->n && status >= BAUM_OK;
+       k++) {
+    status = baum_simulation_advance_to(run, course->times[k]);
     if (status == BAUM_STOP_CANCELLED) {
       return status;
     }
   }
-  return status < BAUM_OK ? status : baum_simulation_advance_to(run, study->t1);
+  return status < BAUM_OK ? status : baum_simulation_advance_to(run, course->times[course->n - 1]);
 }
 
 static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome *out)
@@ -105,21 +107,26 @@ static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome
   }
 }
 
-void baum_i_study_run_one(const baum_study *study, const baum_simulation_options *options,
-                          baum_i_watch *watch, double *rows, baum_i_outcome *out)
+void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
+                          baum_i_outcome *out)
 {
+  const baum_study *study = task->study;
   *out = (baum_i_outcome){0};
-  baum_simulation_options o = complete(study, options, watch, rows != NULL);
+  baum_simulation_options o = complete(study, task->options, watch, rows != NULL);
   baum_simulation *run = NULL;
   watch->timed_out = false;
   watch->begin = baum_i_thread_seconds();
   out->status = baum_simulation_create(study->mechanism, &o, &run);
+  if (out->status == BAUM_OK && task->course->q) {
+    out->status = baum_simulation_set_state(run, study->t0, task->course->q, task->course->v);
+  }
   out->created = out->status == BAUM_OK;
   if (!out->created) {
     (void)snprintf(out->message, sizeof out->message, "%s", baum_message());
+    baum_simulation_destroy(run);
     return;
   }
-  out->status = rows ? sample(study, run, rows) : advance(study, run, &o);
+  out->status = rows ? sample(task, run, rows) : advance(task, run);
   read_outcome(run, o.energy_account, out);
   baum_simulation_destroy(run);
   out->cpu = baum_i_thread_seconds() - watch->begin;

@@ -51,8 +51,9 @@ static const attempt WITHOUT_FREEDOM[] = {
 typedef struct found {
   double *rows; /* of the reference, or NULL */
   baum_i_differences most;
-  bool singular; /* a run was near a singular pose */
-  bool failed;   /* a run did not reach the end */
+  bool singular;                   /* a run was near a singular pose */
+  bool failed;                     /* a run did not reach the end */
+  baum_simulation_options options; /* of the reference */
   char text[BAUM_I_TEXT_SIZE];
 } found;
 
@@ -96,7 +97,8 @@ static baum_status join(baum_study *study, const baum_simulation_options *o, bau
                         double *rows, found *out)
 {
   baum_i_outcome outcome;
-  baum_i_study_run_one(study, o, watch, rows, &outcome);
+  const baum_i_task task = {study, o, &study->reference.course};
+  baum_i_study_run_one(&task, watch, rows, &outcome);
   if (outcome.status == BAUM_ERR_MEMORY || baum_i_watch_stops(watch)) {
     return outcome.status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : BAUM_STOP_CANCELLED;
   }
@@ -110,11 +112,11 @@ static baum_status join(baum_study *study, const baum_simulation_options *o, bau
     return BAUM_OK;
   }
   out->singular = out->singular || outcome.counters.near_singular_intervals > 0;
-  if (!study->reference.rows) {
-    study->reference.rows = rows;
+  if (!study->reference.course.rows) {
+    study->reference.course.rows = rows;
     return baum_i_study_weigh(study);
   }
-  baum_i_differences d = baum_i_study_compare(study, rows);
+  baum_i_differences d = baum_i_study_compare(study, &study->reference.course, rows);
   keep_most(&out->most, &d);
   return BAUM_OK;
 }
@@ -133,7 +135,7 @@ static void describe(const attempt *a, found *out)
 /* Four runs, the reference first. Leaves study->reference.rows as it was. */
 static baum_status try(baum_study *study, const attempt *a, baum_i_watch *watch, found *out)
 {
-  baum_i_study_reference *r = &study->reference;
+  baum_i_course *r = &study->reference.course;
   size_t size = (size_t)r->n * (size_t)baum_i_study_layout(study).width;
   *out = (found){.most = {.error = {ROUNDING, ROUNDING, ROUNDING}}};
   double *rows[2] = {baum_i_alloc(size, sizeof(double)), baum_i_alloc(size, sizeof(double))};
@@ -147,6 +149,7 @@ static baum_status try(baum_study *study, const attempt *a, baum_i_watch *watch,
   }
   if (!out->failed) {
     describe(a, out);
+    out->options = setting(a, 0, 1);
   }
   r->rows = NULL;
   baum_i_free(rows[1]);
@@ -178,6 +181,7 @@ static void settle(baum_study *study, const found *best)
   out->uncertainty_lambda = fmax(best->most.lambda[0], ROUNDING);
   out->uncertainty_energy = best->most.energy[0];
   out->digits = -log10(out->uncertainty);
+  r->options = best->options;
   out->trusted = best->rows && !best->singular && out->uncertainty <= TRUSTED;
   (void)snprintf(r->text, sizeof r->text, "%s", best->text);
   if (!best->rows) {
@@ -195,17 +199,24 @@ static void settle(baum_study *study, const found *best)
   }
 }
 
-static baum_status make_own(baum_study *study, baum_i_watch *watch)
+/* The attempts that suit the mechanism. */
+static const attempt *attempts_for(const baum_mechanism *mechanism, int *count)
 {
   baum_mobility mobility;
-  baum_status status = baum_mechanism_mobility(study->mechanism, &mobility, sizeof mobility);
+  baum_status status = baum_mechanism_mobility(mechanism, &mobility, sizeof mobility);
   bool is_free = status != BAUM_OK || mobility.freedoms > 0;
-  const attempt *attempts = is_free ? ATTEMPTS : WITHOUT_FREEDOM;
-  int count = (int)(is_free ? sizeof ATTEMPTS / sizeof ATTEMPTS[0]
-                            : sizeof WITHOUT_FREEDOM / sizeof WITHOUT_FREEDOM[0]);
+  *count = (int)(is_free ? sizeof ATTEMPTS / sizeof ATTEMPTS[0]
+                         : sizeof WITHOUT_FREEDOM / sizeof WITHOUT_FREEDOM[0]);
+  return is_free ? ATTEMPTS : WITHOUT_FREEDOM;
+}
+
+static baum_status make_own(baum_study *study, baum_i_watch *watch)
+{
+  int count = 0;
+  const attempt *attempts = attempts_for(study->mechanism, &count);
   found best = {.rows = NULL};
   bool done = false;
-  status = BAUM_OK;
+  baum_status status = BAUM_OK;
   for (int k = 0; k < count && !done && status == BAUM_OK; k++) {
     found now;
     status = try(study, &attempts[k], watch, &now);
@@ -214,18 +225,17 @@ static baum_status make_own(baum_study *study, baum_i_watch *watch)
     best = take ? now : best;
     done = best.rows && !best.singular && best.most.error[0] <= CLOSE;
   }
-  study->reference.rows = best.rows;
-  if (status == BAUM_OK) {
-    settle(study, &best);
-    status = best.rows ? baum_i_study_weigh(study) : BAUM_OK;
+  study->reference.course.rows = best.rows;
+  if (status != BAUM_OK) {
+    return status;
   }
-  return status;
+  settle(study, &best);
+  return best.rows ? baum_i_study_weigh(study) : BAUM_OK;
 }
 
 /* ---- given ---- */
 
-/* A run that is asked for channels and goes nowhere. */
-static baum_status make_probe(const baum_study *study, baum_simulation **out)
+baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out)
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_rk4();
@@ -302,10 +312,10 @@ static baum_status give_one(const baum_study *study, const baum_i_layout *l, int
     fill(row + l->lambda, r->given[2] ? r->given[2] + (size_t)k * l->nc : NULL, l->nc);
     return BAUM_OK;
   }
-  int answer = r->solution(r->times[k], row, row + l->v, row + l->lambda, r->user);
+  int answer = r->solution(r->course.times[k], row, row + l->v, row + l->lambda, r->user);
   return answer == 0 ? BAUM_OK
                      : baum_i_fail(BAUM_ERR_CALLBACK, "study: the solution returned %d at t = %g s",
-                                   answer, r->times[k]);
+                                   answer, r->course.times[k]);
 }
 
 static void trust_given(baum_study *study)
@@ -314,8 +324,8 @@ static void trust_given(baum_study *study)
   baum_i_layout l = baum_i_study_layout(study);
   double least = pow(10.0, -r->digits);
   double kinetic = 0.0;
-  for (int k = 0; k < r->n; k++) {
-    kinetic = fmax(kinetic, r->rows[(size_t)k * l.width + l.energy]);
+  for (int k = 0; k < r->course.n; k++) {
+    kinetic = fmax(kinetic, r->course.rows[(size_t)k * l.width + l.energy]);
   }
   r->out.uncertainty = r->out.uncertainty_q = r->out.uncertainty_v = least;
   r->out.uncertainty_lambda = least;
@@ -331,12 +341,13 @@ static baum_status take_given(baum_study *study)
   baum_i_study_reference *r = &study->reference;
   baum_i_layout l = baum_i_study_layout(study);
   baum_simulation *probe = NULL;
-  r->rows = baum_i_alloc((size_t)r->n * (size_t)l.width, sizeof *r->rows);
-  baum_status status = r->rows ? make_probe(study, &probe) : baum_i_fail_memory();
-  for (int k = 0; k < r->n && status == BAUM_OK; k++) {
-    double *row = r->rows + (size_t)k * l.width;
+  baum_i_course *course = &r->course;
+  course->rows = baum_i_alloc((size_t)course->n * (size_t)l.width, sizeof *course->rows);
+  baum_status status = course->rows ? baum_i_study_probe(study, &probe) : baum_i_fail_memory();
+  for (int k = 0; k < course->n && status == BAUM_OK; k++) {
+    double *row = course->rows + (size_t)k * l.width;
     status = give_one(study, &l, k, row);
-    status = status == BAUM_OK ? derive(study, &l, probe, r->times[k], row) : status;
+    status = status == BAUM_OK ? derive(study, &l, probe, course->times[k], row) : status;
   }
   baum_simulation_destroy(probe);
   status = status == BAUM_OK ? baum_i_study_weigh(study) : status;
@@ -362,16 +373,16 @@ baum_status baum_i_study_set_times(baum_study *study)
   for (int k = 0; k < n; k++) {
     times[k] = k == n - 1 ? study->t1 : study->t0 + (k + 1) * (study->t1 - study->t0) / n;
   }
-  baum_i_free(r->times);
-  r->times = times;
-  r->n = r->out.samples = n;
+  baum_i_free(r->course.times);
+  r->course.times = times;
+  r->course.n = r->out.samples = n;
   return BAUM_OK;
 }
 
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
 {
   baum_i_study_reference *r = &study->reference;
-  if (r->rows) {
+  if (r->course.rows) {
     return BAUM_OK;
   }
   baum_i_watch longer = *watch;
@@ -379,8 +390,8 @@ baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
   bool is_given = r->given[0] || r->solution;
   baum_status status = is_given ? take_given(study) : make_own(study, &longer);
   if (status != BAUM_OK) {
-    baum_i_free(r->rows);
-    r->rows = NULL;
+    baum_i_free(r->course.rows);
+    r->course.rows = NULL;
   }
   r->known = status == BAUM_OK;
   return status;
@@ -389,8 +400,7 @@ baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
 void baum_i_study_clear_reference(baum_study *study)
 {
   baum_i_study_reference *r = &study->reference;
-  baum_i_free(r->times);
-  baum_i_free(r->rows);
+  baum_i_study_clear_course(&r->course);
   baum_i_free(r->weight);
   for (int k = 0; k < 3; k++) {
     baum_i_free(r->given[k]);

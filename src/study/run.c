@@ -7,8 +7,9 @@
 #include "base/alloc.h"
 #include "study/study.h"
 
-static const double OFF = 0.1;       /* [-] error of positions of another motion */
-static const double TIMED_FOR = 0.2; /* [s] a row is not repeated beyond that */
+static const double OFF = 0.1;           /* [-] error of positions of another motion */
+static const double REHEARSED_FOR = 5.0; /* row limits */
+static const double TIMED_FOR = 0.2;     /* [s] a row is not repeated beyond that */
 
 /* What the threads share. */
 typedef struct crew {
@@ -92,8 +93,8 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
     (void)snprintf(row->message, sizeof row->message, "it takes more than %g s", watch->limit);
   }
   take_motion(outcome, out);
-  if (out->state == BAUM_STUDY_DONE && study->reference.rows) {
-    baum_i_differences d = baum_i_study_compare(study, samples);
+  if (out->state == BAUM_STUDY_DONE && study->reference.course.rows) {
+    baum_i_differences d = baum_i_study_compare(study, &study->reference.course, samples);
     grade(study, &d, out);
     out->off = d.q[0] > OFF || out->branch_warnings > 0;
   }
@@ -172,7 +173,8 @@ static void measure_row(crew *c, baum_i_row *row, double *samples)
   baum_i_lock_give(&c->lock);
   baum_i_outcome outcome = {0};
   if (!passed) {
-    baum_i_study_run_one(c->study, &row->options, &watch, samples, &outcome);
+    const baum_i_task task = {c->study, &row->options, &c->study->reference.course};
+    baum_i_study_run_one(&task, &watch, samples, &outcome);
   }
   bool stopped = outcome.status == BAUM_STOP_CANCELLED && !watch.timed_out;
   baum_i_lock_take(&c->lock);
@@ -189,16 +191,25 @@ static void measure_row(crew *c, baum_i_row *row, double *samples)
   baum_i_lock_give(&c->lock);
 }
 
-static void work(void *self, int k)
+/* Memory for the samples of one run, or NULL. */
+static double *samples_of(crew *c)
 {
-  (void)k;
-  crew *c = self;
-  size_t size = (size_t)c->study->reference.n * (size_t)baum_i_study_layout(c->study).width;
+  size_t size = (size_t)c->study->reference.course.n * (size_t)baum_i_study_layout(c->study).width;
   double *samples = baum_i_alloc(size, sizeof *samples);
   if (!samples) {
     baum_i_lock_take(&c->lock);
     give_up(c, baum_i_fail_memory());
     baum_i_lock_give(&c->lock);
+  }
+  return samples;
+}
+
+static void work(void *self, int k)
+{
+  (void)k;
+  crew *c = self;
+  double *samples = samples_of(c);
+  if (!samples) {
     return;
   }
   baum_i_row *row = NULL;
@@ -206,6 +217,82 @@ static void work(void *self, int k)
     measure_row(c, row, samples);
   }
   baum_i_free(samples);
+}
+
+/* ---- rehearsals ---- */
+
+/* The next method whose growth is not known, or -1. */
+static int next_method(crew *c)
+{
+  const baum_i_watch watch = {.study = c->study, .deadline = c->deadline};
+  int method = -1;
+  baum_i_lock_take(&c->lock);
+  while (method < 0 && c->next < c->study->method_count && c->status == BAUM_OK &&
+         !baum_i_watch_stops(&watch)) {
+    method = baum_i_study_wants_rehearsal(c->study, c->next) ? c->next : -1;
+    c->next++;
+  }
+  baum_i_lock_give(&c->lock);
+  return method;
+}
+
+static void rehearse(void *self, int k)
+{
+  (void)k;
+  crew *c = self;
+  double *samples = samples_of(c);
+  int method = -1;
+  while (samples && (method = next_method(c)) >= 0) {
+    baum_i_watch watch = {.study = c->study,
+                          .limit = REHEARSED_FOR * c->study->options.row_limit,
+                          .deadline = c->deadline};
+    double growth = baum_i_study_rehearse(c->study, method, &watch, samples);
+    baum_i_lock_take(&c->lock);
+    if (!baum_i_watch_stops(&watch)) {
+      c->study->methods[method].growth = growth;
+      c->study->methods[method].rehearsed = true;
+      baum_status status = baum_i_study_file_growth(c->file, &c->study->methods[method]);
+      if (status != BAUM_OK) {
+        give_up(c, status);
+      }
+    }
+    baum_i_lock_give(&c->lock);
+  }
+  baum_i_free(samples);
+}
+
+static bool some_to_rehearse(const baum_study *study)
+{
+  if (!study->options.rehearse) {
+    return false;
+  }
+  for (int k = 0; k < study->method_count; k++) {
+    if (baum_i_study_wants_rehearsal(study, k)) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static void rehearse_all(crew *c)
+{
+  bool known = c->study->reference.course.rows != NULL;
+  if (!known || c->status != BAUM_OK || !some_to_rehearse(c->study)) {
+    return;
+  }
+  baum_i_watch watch = {.study = c->study,
+                        .limit = REHEARSED_FOR * c->study->options.row_limit,
+                        .deadline = c->deadline};
+  baum_status status =
+    c->study->rehearsed ? BAUM_OK : baum_i_study_make_rehearsals(c->study, &watch);
+  if (status != BAUM_OK) {
+    give_up(c, status);
+    return;
+  }
+  int methods = c->study->method_count;
+  int threads = c->study->options.threads;
+  c->next = 0;
+  baum_i_threads_run(threads < methods ? threads : methods, rehearse, c);
 }
 
 /* ---- order ---- */
@@ -280,13 +367,14 @@ static void take_times(const baum_study *study, const baum_i_outcome *first, con
 static baum_status time_row(crew *c, baum_i_row *row)
 {
   baum_i_watch watch = {.study = c->study, .limit = (double)INFINITY, .deadline = c->deadline};
+  const baum_i_task task = {c->study, &row->options, &c->study->reference.course};
   baum_i_outcome first = {0};
   double least[2] = {(double)INFINITY, (double)INFINITY};
   double sum = 0.0;
   int repeats = 0;
   while (repeats < c->study->options.repeats && sum < TIMED_FOR) {
     baum_i_outcome outcome;
-    baum_i_study_run_one(c->study, &row->options, &watch, NULL, &outcome);
+    baum_i_study_run_one(&task, &watch, NULL, &outcome);
     if (outcome.status < BAUM_OK) {
       return baum_i_fail(outcome.status, "study: %s, when it was timed: %s", row->name,
                          outcome.message);
@@ -359,7 +447,7 @@ static baum_status prepare(crew *c)
 {
   baum_study *study = c->study;
   baum_status status = BAUM_OK;
-  if (!some_to_measure(study) && study->reference.known) {
+  if (!some_to_measure(study) && !some_to_rehearse(study) && study->reference.known) {
     return BAUM_OK;
   }
   if (wants_check(study) && !study->reference.known) {
@@ -383,6 +471,7 @@ static void run_rows(crew *c)
   if (threads > 0) {
     baum_i_threads_run(threads, work, c);
   }
+  rehearse_all(c);
   time_rows(c);
   baum_i_lock_end(&c->lock);
 }

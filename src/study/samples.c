@@ -56,7 +56,8 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   baum_workspace *w = NULL;
   baum_status status = baum_workspace_create(study->mechanism, &w);
   if (status == BAUM_OK) {
-    status = baum_i_position_stage(w, study->reference.times[0], study->reference.rows);
+    status =
+      baum_i_position_stage(w, study->reference.course.times[0], study->reference.course.rows);
   }
   if (status == BAUM_OK) {
     baum_i_row_displacements(w, rows);
@@ -68,15 +69,16 @@ static baum_status measure_rows(const baum_study *study, double *rows)
 /* Divide the weights of some columns by the largest weighed value of the reference in any of them. */
 static void normalize(const baum_study *study, const baum_i_layout *l, int first, int count)
 {
-  const baum_i_study_reference *r = &study->reference;
+  const baum_i_course *course = &study->reference.course;
+  double *weight = study->reference.weight;
   double largest = 0.0;
-  for (int k = 0; k < r->n; k++) {
+  for (int k = 0; k < course->n; k++) {
     for (int i = first; i < first + count; i++) {
-      largest = fmax(largest, fabs(r->rows[(size_t)k * l->width + i]) * r->weight[i]);
+      largest = fmax(largest, fabs(course->rows[(size_t)k * l->width + i]) * weight[i]);
     }
   }
   for (int i = first; i < first + count && largest > 0.0; i++) {
-    r->weight[i] /= largest;
+    weight[i] /= largest;
   }
 }
 
@@ -135,22 +137,22 @@ static void take(double of[2], double value)
   of[1] = value;
 }
 
-baum_i_differences baum_i_study_compare(const baum_study *study, const double *rows)
+baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_course *course,
+                                        const double *rows)
 {
-  const baum_i_study_reference *r = &study->reference;
   baum_i_layout l = baum_i_study_layout(study);
   double none = (double)NAN;
   baum_i_differences d = {
     {none, none, none}, {none, none}, {none, none}, {none, none}, {none, none}};
-  for (int k = 0; k < r->n; k++) {
+  for (int k = 0; k < course->n; k++) {
     const double *got = rows + (size_t)k * l.width;
-    const double *wanted = r->rows + (size_t)k * l.width;
+    const double *wanted = course->rows + (size_t)k * l.width;
     take(d.q, largest_of(study, got, wanted, 0, l.nq));
     take(d.v, largest_of(study, got, wanted, l.v, l.v + l.nv));
     take(d.lambda, largest_of(study, got, wanted, l.lambda, l.lambda + l.nc));
     take(d.energy, of_energy(got, wanted, l.energy));
     take(d.error, l.user < l.width ? largest_of(study, got, wanted, l.user, l.width) : d.q[1]);
-    if (fabs(r->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
+    if (fabs(course->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
       d.error[2] = d.error[0];
     }
   }

@@ -76,6 +76,9 @@ void baum_study_destroy(baum_study *study)
   baum_i_free(study->channels);
   baum_i_free(study->options.file);
   baum_i_study_clear_reference(study);
+  for (int k = 0; k < BAUM_I_REHEARSALS; k++) {
+    baum_i_study_clear_course(&study->rehearsals[k]);
+  }
   baum_mechanism_destroy(baum_i_mutable(study->mechanism));
   baum_i_free(study);
 }
@@ -98,6 +101,7 @@ void baum_study_options_init(baum_study_options *options, size_t caller_size)
     .row_limit = 10.0,
     .time_budget = INFINITY,
     .energy_account = true,
+    .rehearse = true,
   };
   if (baum_i_takes_sized(options, caller_size)) {
     baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
@@ -279,8 +283,8 @@ static bool copy_given(const baum_study *study, const double *times, int32_t n,
 {
   const baum_mechanism *m = study->mechanism;
   const int widths[3] = {m->nq, m->nv, m->nc};
-  out->times = baum_i_copy(times, (size_t)n, sizeof *times);
-  bool fine = out->times != NULL;
+  out->course.times = baum_i_copy(times, (size_t)n, sizeof *times);
+  bool fine = out->course.times != NULL;
   for (int k = 0; k < 3 && fine; k++) {
     if (given[k]) {
       size_t count = (size_t)n * (size_t)widths[k];
@@ -317,11 +321,12 @@ baum_status baum_study_set_reference(baum_study *study, const double *times, int
   if (status != BAUM_OK) {
     return status;
   }
-  baum_i_study_reference r = {.n = n, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
+  baum_i_study_reference r = {
+    .course = {.n = n}, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
   r.out.samples = n;
   const double *const given[3] = {q, v, lambda};
   if (!copy_given(study, times, n, given, &r)) {
-    baum_i_free(r.times);
+    baum_i_free(r.course.times);
     for (int k = 0; k < 3; k++) {
       baum_i_free(r.given[k]);
     }
@@ -384,7 +389,7 @@ baum_status baum_study_reference_sample(const baum_study *study, int32_t k, doub
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
-  const baum_i_study_reference *r = &study->reference;
+  const baum_i_course *r = &study->reference.course;
   if (!r->rows) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been made", call);
   }

@@ -50,21 +50,31 @@ typedef struct baum_i_row {
   bool timed;    /* so are its counts of work and its time, where it is done */
 } baum_i_row;
 
+/* A motion, and where it is looked at. */
+typedef struct baum_i_course {
+  int n;
+  double *times; /* (n) */
+  double *rows;  /* (n x width) NULL: not known */
+  double *q;     /* (nq) the start, or NULL: as drawn */
+  double *v;     /* (nv) likewise */
+} baum_i_course;
+
 /* Rows that differ in step or rtol alone. */
 typedef struct baum_i_study_method {
   uint64_t key;
   int first;                   /* row, for all they have in common */
   char name[BAUM_I_NAME_SIZE]; /* of its rows without step or tolerance */
   double too_fine;             /* step or rtol that has reached the row limit, else 0 */
+  double growth;               /* see rehearse.c; NaN: not known */
+  bool rehearsed;              /* it is as well known as it can be */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
-  int n;
-  double *times; /* (n) */
-  double *rows;  /* (n x width) NULL: not made */
-  bool known;    /* uncertainties are: it has been made, now or before */
+  baum_i_course course;            /* rows NULL: not made */
+  baum_simulation_options options; /* of its best run; integrator NULL where there is none */
+  bool known;                      /* uncertainties are: it has been made, now or before */
 
   double *given[3]; /* q, v, lambda as given, or NULL */
   double digits;    /* as given */
@@ -73,6 +83,9 @@ typedef struct baum_i_study_reference {
 
   double *weight; /* (width) on differences */
 } baum_i_study_reference;
+
+/* Of other starts, over twice the span. */
+enum { BAUM_I_REHEARSALS = 3 };
 
 struct baum_study {
   const baum_mechanism *mechanism;
@@ -86,6 +99,8 @@ struct baum_study {
   char error_text[BAUM_I_NOTE_SIZE];
 
   baum_i_study_reference reference;
+  baum_i_course rehearsals[BAUM_I_REHEARSALS];
+  bool rehearsed; /* they have been made */
 
   baum_i_row **rows; /* (row_count) */
   int row_count;
@@ -129,8 +144,9 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 /* Weights of differences from the reference, whose rows are there. BAUM_ERR_MEMORY and what an evaluation may fail with. */
 baum_status baum_i_study_weigh(baum_study *study);
 
-/* Samples against the reference. */
-baum_i_differences baum_i_study_compare(const baum_study *study, const double *rows);
+/* Samples of a run against a motion that is known, with the weights of the reference. */
+baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_course *course,
+                                        const double *rows);
 
 /* ---- one_run.c ---- */
 
@@ -155,9 +171,16 @@ typedef struct baum_i_outcome {
 double baum_i_thread_seconds(void);
 double baum_i_wall_seconds(void);
 
-/* Run through the samples of the reference; rows (n x width) NULL: to the end alone, as users would for the end. */
-void baum_i_study_run_one(const baum_study *study, const baum_simulation_options *options,
-                          baum_i_watch *watch, double *rows, baum_i_outcome *out);
+/* What is run, and from where through which samples. */
+typedef struct baum_i_task {
+  const baum_study *study;
+  const baum_simulation_options *options;
+  const baum_i_course *course;
+} baum_i_task;
+
+/* Run through the samples of the course; rows (n x width) NULL: to the last one alone. */
+void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
+                          baum_i_outcome *out);
 
 /* Cancelled, or the budget spent? */
 bool baum_i_watch_stops(const baum_i_watch *watch);
@@ -168,10 +191,28 @@ bool baum_i_watch_stops(const baum_i_watch *watch);
  * solution fails with, and what stops all runs. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch);
 
+/* A run that is asked for channels and goes nowhere. */
+baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out);
+
 /* Times of the samples, by the options or as given. */
 baum_status baum_i_study_set_times(baum_study *study);
 
 void baum_i_study_clear_reference(baum_study *study);
+
+/* ---- rehearse.c ---- */
+
+/* Make the motions that are rehearsed with. BAUM_OK, also where some cannot be made; BAUM_ERR_MEMORY. */
+baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch);
+
+/* Is there a method that is to be rehearsed, and can be? */
+bool baum_i_study_wants_rehearsal(const baum_study *study, int method);
+
+/* How much larger an error of a method is there; samples: (n x width) to work in. NaN: not known, also when the watch has
+ * stopped it. */
+double baum_i_study_rehearse(const baum_study *study, int method, baum_i_watch *watch,
+                             double *samples);
+
+void baum_i_study_clear_course(baum_i_course *course);
 
 /* ---- study_file.c ---- */
 
@@ -183,6 +224,7 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row);
 baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row);
+baum_status baum_i_study_file_growth(baum_i_study_file *file, const baum_i_study_method *method);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
 
 /* ---- work.c ---- */

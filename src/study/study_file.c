@@ -4,7 +4,8 @@
  *   baum-study 1 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX #SUM
  *   reference DIGITS ... | TEXT #SUM
  *   row KEY STATE STATUS ... | MESSAGE #SUM
- *   time KEY EVALUATIONS ... | #SUM
+ *   time KEY EVALUATIONS ... #SUM
+ *   growth KEY NUMBER #SUM
  *
  * KEY is a sum over the options of a row, so that rows may be added in any order. SUM is over the line before it: a line
  * that is cut off or damaged is not a result, and its row is run again. Of two lines of one row the last counts.
@@ -243,7 +244,7 @@ static uint64_t digest_reference(const baum_study *study)
   uint64_t value = digest_numbers(&r->digits, 1, (uint64_t)r->out.origin);
   for (int k = 0; k < 3; k++) {
     if (r->given[k]) {
-      value = digest_numbers(r->given[k], (size_t)r->n * (size_t)widths[k], value);
+      value = digest_numbers(r->given[k], (size_t)r->course.n * (size_t)widths[k], value);
     }
   }
   return value;
@@ -258,7 +259,7 @@ static void mark_study(const baum_study *study, mark marks[MARKS])
     {"structure", "the elements of the mechanism", print.structure},
     {"numbers", "the numbers of the mechanism", print.numbers},
     {"span", "the time span", digest_numbers(span, 2, 0)},
-    {"samples", "the samples", digest_numbers(r->times, (size_t)r->n, 0)},
+    {"samples", "the samples", digest_numbers(r->course.times, (size_t)r->course.n, 0)},
     {"error", "what error means", digest_error(study)},
     {"account", "the option energy_account", study->options.energy_account},
     {"reference", "the reference", digest_reference(study)},
@@ -358,6 +359,18 @@ static void take_reference(baum_study *study, const char *rest)
   }
 }
 
+static void take_growth(const baum_study *study, const char *text)
+{
+  char *end = NULL;
+  uint64_t key = strtoull(text, &end, 16);
+  for (int k = 0; k < study->method_count; k++) {
+    if (study->methods[k].key == key) {
+      study->methods[k].growth = strtod(end, NULL);
+      study->methods[k].rehearsed = true;
+    }
+  }
+}
+
 static void take_line(baum_study *study, char *line)
 {
   if (!check_line(line)) {
@@ -365,6 +378,10 @@ static void take_line(baum_study *study, char *line)
   }
   if (strncmp(line, "reference ", 10) == 0) {
     take_reference(study, line + 9);
+    return;
+  }
+  if (strncmp(line, "growth ", 7) == 0) {
+    take_growth(study, line + 7);
     return;
   }
   bool is_row = strncmp(line, "row ", 4) == 0;
@@ -512,5 +529,15 @@ baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *r
   }
   baum_i_append(line, LINE, "time %016" PRIx64, row->key);
   write_fields(line, &row->out, TIMED, TIMED_COUNT);
+  return write_line(file, line);
+}
+
+baum_status baum_i_study_file_growth(baum_i_study_file *file, const baum_i_study_method *method)
+{
+  char line[LINE] = "";
+  if (!file) {
+    return BAUM_OK;
+  }
+  baum_i_append(line, LINE, "growth %016" PRIx64 " %.17g", method->key, method->growth);
   return write_line(file, line);
 }

@@ -7,5 +7,5 @@ double baum_i_study_work(const baum_study *study, const baum_i_row *row)
 {
   (void)study;
   const baum_study_row *r = &row->out;
-  return (double)r->evaluations + (double)r->factorizations;
+  return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
 }

@@ -622,6 +622,7 @@ class baum_study_options(Structure):
         ("file", c_char_p),
         ("progress", baum_study_progress_fn),
         ("user", c_void_p),
+        ("rehearse", c_bool),
     ]
 
 
@@ -738,6 +739,7 @@ class baum_study_method(Structure):
         ("slope", c_double),
         ("work_per_digit", c_double),
         ("cpu_per_digit", c_double),
+        ("growth", c_double),
     ]
 
 

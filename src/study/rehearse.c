@@ -1,0 +1,163 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What becomes of errors over twice the span and from other starts.
+ *
+ * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they may grow hundredfold.
+ * So one row of each method is run once more, over twice the span, from the start as drawn and from two others whose
+ * velocities differ by NUDGE of their size, or, where all is at rest, of the rate of the motion. There is a reference for
+ * each, by the setting of the study's own. The growth of a method is the largest of these errors over that of the row.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "dynamics/dynamics.h"
+#include "integrate/integrator.h"
+#include "simulate/run.h"
+#include "study/study.h"
+
+static const double NUDGE = 0.05;
+static const double TYPICAL = 1e-5; /* error of the row that is rehearsed with, as near as may be */
+
+void baum_i_study_clear_course(baum_i_course *course)
+{
+  baum_i_free(course->times);
+  baum_i_free(course->rows);
+  baum_i_free(course->q);
+  baum_i_free(course->v);
+  *course = (baum_i_course){0};
+}
+
+/* ---- motions ---- */
+
+static baum_status allocate(const baum_study *study, baum_i_course *course)
+{
+  const baum_mechanism *m = study->mechanism;
+  size_t n = (size_t)study->reference.course.n;
+  course->n = (int)n;
+  course->times = baum_i_alloc(n, sizeof(double));
+  course->rows = baum_i_alloc(n * (size_t)baum_i_study_layout(study).width, sizeof(double));
+  course->q = baum_i_alloc((size_t)m->nq, sizeof(double));
+  course->v = baum_i_alloc((size_t)m->nv, sizeof(double));
+  return course->times && course->rows && course->q && course->v ? BAUM_OK : baum_i_fail_memory();
+}
+
+/* Start as drawn, nudged by a share of the velocities. */
+static baum_status set_start(const baum_study *study, double nudge, baum_i_course *course)
+{
+  const baum_mechanism *m = study->mechanism;
+  baum_simulation *probe = NULL;
+  baum_workspace *w = NULL;
+  baum_status status = baum_i_study_probe(study, &probe);
+  if (status == BAUM_OK) {
+    status = baum_workspace_create(study->mechanism, &w);
+  }
+  if (status == BAUM_OK) {
+    memcpy(course->q, baum_simulation_q(probe), (size_t)m->nq * sizeof(double));
+    memcpy(course->v, baum_simulation_v(probe), (size_t)m->nv * sizeof(double));
+    double still = baum_i_scaled_size(m, course->v) > 0.0 ? 0.0 : probe->problem.rate;
+    for (int i = 0; i < m->nv; i++) {
+      course->v[i] += nudge * (course->v[i] + still * m->scale[i]);
+    }
+    status = nudge != 0.0 ? baum_workspace_project(w, study->t0, course->q, course->v) : BAUM_OK;
+  }
+  baum_workspace_destroy(w);
+  baum_simulation_destroy(probe);
+  return status;
+}
+
+static baum_simulation_options reference_options(const baum_study *study)
+{
+  baum_simulation_options o = study->reference.options;
+  if (!o.integrator) {
+    o = baum_simulation_options_default();
+    o.integrator = baum_rk8();
+    o.formulation = BAUM_FORMULATION_PROJECTION;
+    o.rtol = 1e-12;
+  }
+  return o;
+}
+
+/* One motion; its rows are given up where it cannot be made. */
+static baum_status make_one(const baum_study *study, double nudge, baum_i_watch *watch,
+                            baum_i_course *course)
+{
+  baum_status status = allocate(study, course);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  for (int k = 0; k < course->n; k++) {
+    course->times[k] = study->t0 + 2.0 * (study->reference.course.times[k] - study->t0);
+  }
+  baum_i_outcome outcome = {.status = set_start(study, nudge, course)};
+  if (outcome.status == BAUM_OK) {
+    const baum_simulation_options o = reference_options(study);
+    const baum_i_task task = {study, &o, course};
+    baum_i_study_run_one(&task, watch, course->rows, &outcome);
+  }
+  if (outcome.status == BAUM_ERR_MEMORY) {
+    return baum_i_fail_memory();
+  }
+  if (outcome.status < BAUM_OK || outcome.status == BAUM_STOP_CANCELLED) {
+    baum_i_free(course->rows);
+    course->rows = NULL;
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch)
+{
+  static const double NUDGES[BAUM_I_REHEARSALS] = {0.0, NUDGE, -NUDGE};
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < BAUM_I_REHEARSALS && status == BAUM_OK; k++) {
+    baum_i_study_clear_course(&study->rehearsals[k]);
+    status = make_one(study, NUDGES[k], watch, &study->rehearsals[k]);
+  }
+  study->rehearsed = status == BAUM_OK && !baum_i_watch_stops(watch);
+  return status;
+}
+
+/* ---- a method ---- */
+
+/* The row whose error is nearest to a typical one, in logarithms. */
+static const baum_i_row *typical_row(const baum_study *study, int method)
+{
+  const baum_i_row *found = NULL;
+  for (int k = 0; k < study->row_count; k++) {
+    const baum_i_row *row = study->rows[k];
+    bool fits = row->out.method == method && row->out.state == BAUM_STUDY_DONE && !row->out.off &&
+                !row->out.at_floor && row->out.error > 0.0 && isfinite(row->out.error);
+    if (fits &&
+        (!found || fabs(log(row->out.error / TYPICAL)) < fabs(log(found->out.error / TYPICAL)))) {
+      found = row;
+    }
+  }
+  return found;
+}
+
+bool baum_i_study_wants_rehearsal(const baum_study *study, int method)
+{
+  return !study->methods[method].rehearsed && typical_row(study, method) != NULL;
+}
+
+double baum_i_study_rehearse(const baum_study *study, int method, baum_i_watch *watch,
+                             double *samples)
+{
+  const baum_i_row *row = typical_row(study, method);
+  double growth = (double)NAN;
+  for (int k = 0; row && k < BAUM_I_REHEARSALS; k++) {
+    const baum_i_course *course = &study->rehearsals[k];
+    if (!course->rows) {
+      continue;
+    }
+    const baum_i_task task = {study, &row->options, course};
+    baum_i_outcome outcome;
+    baum_i_study_run_one(&task, watch, samples, &outcome);
+    if (baum_i_watch_stops(watch)) {
+      return (double)NAN;
+    }
+    bool ended = outcome.status == BAUM_OK || outcome.status == BAUM_WARNED;
+    baum_i_differences d = baum_i_study_compare(study, course, samples);
+    growth = fmax(growth, ended ? d.error[0] / row->out.error : (double)INFINITY);
+  }
+  return growth;
+}
