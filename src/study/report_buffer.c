@@ -17,21 +17,22 @@ void baum_i_buffer_clear(baum_i_buffer *buffer)
   *buffer = (baum_i_buffer){0};
 }
 
-/* Room for so many more and their zero; NULL without. */
-static char *room(baum_i_buffer *buffer, size_t more)
+/* A place for so many more and their zero; NULL without. */
+static char *place(baum_i_buffer *buffer, size_t more)
 {
-  char *text = buffer->failed ? NULL : baum_i_grow(buffer->text, buffer->used + more + 1, 1);
-  if (!text) {
-    buffer->failed = true;
-    return NULL;
+  size_t wanted = buffer->used + more + 1;
+  if (!buffer->failed && wanted > buffer->room) {
+    char *text = baum_i_grow(buffer->text, 2 * wanted, 1);
+    buffer->text = text ? text : buffer->text;
+    buffer->room = text ? 2 * wanted : buffer->room;
+    buffer->failed = !text;
   }
-  buffer->text = text;
-  return text + buffer->used;
+  return buffer->failed ? NULL : buffer->text + buffer->used;
 }
 
 static void put_bytes(baum_i_buffer *buffer, const char *bytes, size_t count)
 {
-  char *to = room(buffer, count);
+  char *to = place(buffer, count);
   if (to) {
     memcpy(to, bytes, count);
     to[count] = '\0';
@@ -51,7 +52,7 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...)
   va_start(arguments, format);
   va_copy(again, arguments);
   int count = vsnprintf(NULL, 0, format, arguments);
-  char *to = count < 0 ? NULL : room(buffer, (size_t)count);
+  char *to = count < 0 ? NULL : place(buffer, (size_t)count);
   if (to) {
     (void)vsnprintf(to, (size_t)count + 1, format, again);
     buffer->used += (size_t)count;
@@ -117,6 +118,12 @@ static void put_escaped(baum_i_buffer *buffer, const char *text, escape_fn *esca
   }
 }
 
+static const char *plain(char c)
+{
+  (void)c;
+  return NULL;
+}
+
 static const char *html(char c)
 {
   switch (c) {
@@ -139,6 +146,11 @@ static const char *csv(char c)
   return c == '"' ? "\"\"" : NULL;
 }
 
+void baum_i_put_plain(baum_i_buffer *buffer, const char *text)
+{
+  put_escaped(buffer, text, plain);
+}
+
 void baum_i_put_html(baum_i_buffer *buffer, const char *text)
 {
   put_escaped(buffer, text, html);
@@ -157,7 +169,7 @@ void baum_i_put_csv(baum_i_buffer *buffer, const char *text)
 /* ---- numbers ---- */
 
 /* What is none of the characters of a number is the locale's point, of any length. */
-static void mend_point(char *text)
+void baum_i_mend_point(char *text)
 {
   size_t digits = strspn(text, "+-0123456789e");
   size_t point = strcspn(text + digits, "0123456789e");
@@ -172,7 +184,7 @@ baum_i_number baum_i_fixed(double x, int digits)
   baum_i_number out;
   double capped = fmax(-1e15, fmin(x, 1e15));
   (void)snprintf(out.text, sizeof out.text, "%.*f", digits, capped);
-  mend_point(out.text);
+  baum_i_mend_point(out.text);
   return out;
 }
 
@@ -183,7 +195,7 @@ baum_i_number baum_i_short(double x, int digits)
     (void)snprintf(out.text, sizeof out.text, "%.0f", x);
   } else if (isfinite(x)) {
     (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
-    mend_point(out.text);
+    baum_i_mend_point(out.text);
   } else if (isinf(x)) {
     (void)snprintf(out.text, sizeof out.text, "%sinfinite", x < 0.0 ? "-" : "");
   }
@@ -201,6 +213,6 @@ baum_i_number baum_i_exact(double x, const char *otherwise)
   do {
     (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
   } while (strtod(out.text, NULL) != x && digits++ < 17);
-  mend_point(out.text);
+  baum_i_mend_point(out.text);
   return out;
 }

@@ -12,6 +12,7 @@
 typedef struct baum_i_buffer {
   char *text; /* (used), zero-terminated; NULL while empty */
   size_t used;
+  size_t room;
   bool failed;
 } baum_i_buffer;
 
@@ -22,8 +23,9 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2
 /* A text at the left of a column of so many characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 
-/* Texts of users within HTML, also in attributes in double quotes, and within the quotes of JSON and CSV. Bytes that are no
+/* Texts of users as they are, within HTML, also in attributes in double quotes, and within the quotes of JSON and CSV. Bytes that are no
  * UTF-8 become U+FFFD, control characters spaces. */
+void baum_i_put_plain(baum_i_buffer *buffer, const char *text);
 void baum_i_put_html(baum_i_buffer *buffer, const char *text);
 void baum_i_put_json(baum_i_buffer *buffer, const char *text);
 void baum_i_put_csv(baum_i_buffer *buffer, const char *text);
@@ -39,6 +41,9 @@ baum_i_number baum_i_fixed(double x, int digits);
 baum_i_number baum_i_short(double x, int digits);
 /* The shortest that is read back as it is; `otherwise` for NaN and infinities. */
 baum_i_number baum_i_exact(double x, const char *otherwise);
+
+/* The point of whatever locale becomes a point. */
+void baum_i_mend_point(char *text);
 
 /* Characters of a UTF-8 text. */
 int baum_i_length(const char *text);

@@ -19,8 +19,8 @@ static void put_heading(const baum_i_survey *survey, baum_i_buffer *out)
 {
   const baum_i_environment *e = &survey->environment;
   const baum_study_reference *r = &survey->reference;
-  baum_i_putf(out, "%s\n", survey->title);
-  baum_i_putf(out, "span       %s s to %s s, %d samples\n", baum_i_short(survey->t0, 6).text,
+  baum_i_put_plain(out, survey->title);
+  baum_i_putf(out, "\nspan       %s s to %s s, %d samples\n", baum_i_short(survey->t0, 6).text,
               baum_i_short(survey->t1, 6).text,
               (int)(r->samples ? r->samples : survey->options.samples));
   baum_i_putf(out, "settings   %d", survey->row_count);
@@ -42,7 +42,9 @@ static void put_advice(const baum_i_survey *survey, baum_i_buffer *out)
   baum_i_put(out, "\nWhat to take for an error, cheapest by work\n");
   for (int k = 0; k < BAUM_I_ADVICE; k++) {
     const baum_i_advice *advice = &survey->advice[BAUM_STUDY_WORK][k];
-    baum_i_putf(out, "%7.0e  %s\n", advice->error, advice->why);
+    baum_i_putf(out, "%7.0e  ", advice->error);
+    baum_i_put_plain(out, advice->why);
+    baum_i_put(out, "\n");
   }
 }
 
@@ -140,7 +142,9 @@ static void put_messages(const baum_i_survey *survey, baum_i_buffer *out)
   for (int k = 0; k < survey->row_count; k++) {
     const baum_i_report_row *row = &survey->rows[k];
     if (row->message) {
-      baum_i_putf(out, "%s: %s: %s\n", row->row.name, row->state, row->message);
+      baum_i_putf(out, "%s: %s: ", row->row.name, row->state);
+      baum_i_put_plain(out, row->message);
+      baum_i_put(out, "\n");
     }
   }
 }

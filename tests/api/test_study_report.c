@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reports of a study: what is in them, what users' names cannot do to them, and files that are whole or not there. */
+#include <math.h>
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <cmocka.h>
+
+#include "report_scene.h"
+#include "sentence.h"
+
+static const baum_report_form FORMS[] = {BAUM_REPORT_TEXT, BAUM_REPORT_CSV, BAUM_REPORT_JSON,
+                                         BAUM_REPORT_PAGE};
+enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
+
+static const char PATH[] = "test_study_report.out";
+static const char PART[] = "test_study_report.out.part";
+
+static report_scene scene;
+
+static int set_up(void **state)
+{
+  (void)state;
+  scene = report_scene_make();
+  return !scene.study || baum_study_run(scene.study) != BAUM_OK;
+}
+
+static int tear_down(void **state)
+{
+  (void)state;
+  report_scene_end(&scene);
+  (void)remove(PATH);
+  return 0;
+}
+
+static char *print(const baum_study *study, baum_report_form form)
+{
+  size_t size = 0;
+  assert_int_equal(baum_study_print(study, form, REPORT_TITLE, NULL, 0, &size), BAUM_OK);
+  char *text = malloc(size + 1);
+  assert_non_null(text);
+  assert_int_equal(baum_study_print(study, form, REPORT_TITLE, text, size + 1, NULL), BAUM_OK);
+  assert_int_equal(strlen(text), size);
+  return text;
+}
+
+static int count(const char *text, const char *part)
+{
+  int found = 0;
+  for (; (text = strstr(text, part)); text++) {
+    found++;
+  }
+  return found;
+}
+
+/* ---- what is in them ---- */
+
+static void rows_are_what_the_tests_want(void **state)
+{
+  (void)state;
+  assert_int_equal(baum_study_row_count(scene.study), REPORT_ROWS);
+  for (int k = 0; k < REPORT_ROWS; k++) {
+    baum_study_row row;
+    assert_int_equal(baum_study_row_at(scene.study, k, &row, sizeof row), BAUM_OK);
+    assert_int_equal(row.state, k == REPORT_REFUSED_ROW ? BAUM_STUDY_REFUSED : BAUM_STUDY_DONE);
+    if (k == REPORT_WARNED_ROW) {
+      assert_non_null(strstr(row.message, REPORT_JOINT));
+    }
+  }
+}
+
+static void a_text_names_every_row_and_what_was_said(void **state)
+{
+  (void)state;
+  char *text = print(scene.study, BAUM_REPORT_TEXT);
+  for (int k = 0; k < REPORT_ROWS; k++) {
+    baum_study_row row;
+    assert_int_equal(baum_study_row_at(scene.study, k, &row, sizeof row), BAUM_OK);
+    assert_true(count(text, row.name) >= 1);
+  }
+  assert_true(count(text, "refused") >= 3); /* of the counts, of its row, of what was said */
+  assert_true(count(text, "unstable") >= 1);
+  assert_int_equal(count(text, "What to take"), 1);
+  assert_int_equal(count(text, "\n  1e-10  "), 1);
+  assert_int_equal(count(text, "\t") + count(text, "\xff"), 0);
+  free(text);
+}
+
+static void a_csv_has_a_line_for_each_row_and_as_many_cells(void **state)
+{
+  (void)state;
+  char *text = print(scene.study, BAUM_REPORT_CSV);
+  assert_int_equal(count(text, "\r\n"), 1 + REPORT_ROWS);
+  assert_int_equal(strncmp(text, "name,state,integrator,formulation,gains,", 40), 0);
+  int titles = 1;
+  for (const char *c = text; *c != '\r'; c++) {
+    titles += *c == ',';
+  }
+  const char *row = strstr(text, "\r\n") + 2;
+  int cells = 1;
+  bool quoted = false;
+  for (; *row != '\r'; row++) {
+    quoted ^= *row == '"';
+    cells += !quoted && *row == ',';
+  }
+  assert_int_equal(cells, titles);
+  free(text);
+}
+
+static void a_json_has_null_for_what_is_not_known(void **state)
+{
+  (void)state;
+  char *text = print(scene.study, BAUM_REPORT_JSON);
+  assert_int_equal(count(text, "\"state\": \"refused\""), 1);
+  assert_int_equal(count(text, "nan"), 0);
+  assert_int_equal(count(text, "inf"), 0);
+  const char *refused = strstr(text, "\"state\": \"refused\"");
+  assert_int_equal(strncmp(strstr(refused, "\"error\": "), "\"error\": null", 13), 0);
+  const char *units = strstr(text, "\"units\": ");
+  assert_non_null(units);
+  assert_non_null(strstr(units, "\"cpu\": \"s\""));
+  free(text);
+}
+
+static void a_page_draws_every_row_and_loads_nothing(void **state)
+{
+  (void)state;
+  char *page = print(scene.study, BAUM_REPORT_PAGE);
+  assert_int_equal(count(page, "<svg class=\"chart\""), 4);
+  assert_int_equal(count(page, "<svg class=\"map\""), 1);        /* rk2 alone has gains */
+  assert_int_equal(count(page, "<tr data-m="), REPORT_ROWS + 4); /* and methods */
+  assert_int_equal(count(page, "http"), 1);                      /* http-equiv */
+  assert_int_equal(count(page, "default-src 'none'"), 1);
+  free(page);
+}
+
+static void a_page_has_no_markup_of_users(void **state)
+{
+  (void)state;
+  char *page = print(scene.study, BAUM_REPORT_PAGE);
+  assert_int_equal(count(page, "<script>"), 1);
+  assert_int_equal(count(page, "</title><script>"), 0);
+  assert_int_equal(count(page, "<img"), 0);
+  assert_true(count(page, "&lt;img src=x onerror=&quot;") >= 1);
+  assert_true(count(page, "&lt;script&gt;") >= 2); /* title, heading */
+  free(page);
+}
+
+static void a_study_that_has_not_been_run_is_reported_too(void **state)
+{
+  (void)state;
+  report_scene fresh = report_scene_make();
+  baum_study *empty = NULL;
+  assert_int_equal(baum_study_create(fresh.mechanism, 0.0, 1.0, &empty), BAUM_OK);
+  for (int k = 0; k < FORM_COUNT; k++) {
+    char *text = print(fresh.study, FORMS[k]);
+    assert_true(count(text, "waiting") >= REPORT_ROWS || FORMS[k] == BAUM_REPORT_TEXT);
+    free(text);
+    text = print(empty, FORMS[k]);
+    assert_true(strlen(text) > 100);
+    free(text);
+  }
+  baum_study_destroy(empty);
+  report_scene_end(&fresh);
+}
+
+/* ---- calls ---- */
+
+static void a_buffer_that_is_too_short_gets_the_beginning(void **state)
+{
+  (void)state;
+  char text[11];
+  size_t size = 0;
+  memset(text, 'x', sizeof text);
+  assert_int_equal(
+    baum_study_print(scene.study, BAUM_REPORT_TEXT, "a title", text, sizeof text, &size), BAUM_OK);
+  assert_string_equal(text, "a title\nsp");
+  assert_true(size > 1000);
+}
+
+static void bad_calls_are_refused(void **state)
+{
+  (void)state;
+  char text[8];
+  const baum_study *s = scene.study;
+  baum_report_form none = (baum_report_form)17;
+  ASSERT_SAYS(baum_study_print(NULL, BAUM_REPORT_CSV, NULL, text, 8, NULL), BAUM_ERR_ARGUMENT,
+              "baum_study_print|study is NULL");
+  ASSERT_SAYS(baum_study_print(s, none, NULL, text, 8, NULL), BAUM_ERR_ARGUMENT, "form is 17");
+  ASSERT_SAYS(baum_study_print(s, BAUM_REPORT_CSV, NULL, NULL, 8, NULL), BAUM_ERR_ARGUMENT,
+              "text is NULL");
+  ASSERT_SAYS(baum_study_write(s, BAUM_REPORT_CSV, NULL, NULL), BAUM_ERR_ARGUMENT,
+              "baum_study_write|path");
+  ASSERT_SAYS(baum_study_write(s, BAUM_REPORT_CSV, NULL, ""), BAUM_ERR_ARGUMENT, "path");
+  ASSERT_SAYS(baum_study_write(NULL, BAUM_REPORT_CSV, NULL, PATH), BAUM_ERR_ARGUMENT, "NULL");
+}
+
+/* ---- files ---- */
+
+static char *read_file(const char *path)
+{
+  static char text[1 << 20];
+  FILE *file = fopen(path, "rb");
+  assert_non_null(file);
+  size_t size = fread(text, 1, sizeof text - 1, file);
+  (void)fclose(file);
+  text[size] = '\0';
+  return text;
+}
+
+static bool exists(const char *path)
+{
+  struct stat found;
+  return stat(path, &found) == 0;
+}
+
+static void a_file_has_what_is_printed_and_replaces_an_older_one(void **state)
+{
+  (void)state;
+  for (int k = 0; k < 2; k++) {
+    char *text = print(scene.study, BAUM_REPORT_CSV);
+    assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_CSV, NULL, PATH), BAUM_OK);
+    assert_string_equal(read_file(PATH), text);
+    assert_false(exists(PART));
+    free(text);
+  }
+}
+
+static void a_full_disk_is_told_and_a_device_stays_one(void **state)
+{
+  (void)state;
+  struct stat found;
+  if (stat("/dev/full", &found) != 0) {
+    skip();
+  }
+  for (int k = 0; k < FORM_COUNT; k++) {
+    ASSERT_SAYS(baum_study_write(scene.study, FORMS[k], NULL, "/dev/full"), BAUM_ERR_FILE,
+                "/dev/full|written|No space left");
+  }
+  assert_int_equal(stat("/dev/full", &found), 0);
+  assert_true(S_ISCHR(found.st_mode));
+}
+
+/* A limit on the size of files stands for a disk that is full in the midst. */
+static void a_failed_write_leaves_the_older_file(void **state)
+{
+  (void)state;
+  assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_CSV, NULL, PATH), BAUM_OK);
+  char *before = print(scene.study, BAUM_REPORT_CSV);
+  struct rlimit old;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const struct rlimit little = {.rlim_cur = 4096, .rlim_max = old.rlim_max};
+  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
+  baum_status status = baum_study_write(scene.study, BAUM_REPORT_PAGE, NULL, PATH);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
+  (void)signal(SIGXFSZ, handler);
+  ASSERT_SAYS(status, BAUM_ERR_FILE, "test_study_report.out|written|too large");
+  assert_string_equal(read_file(PATH), before);
+  assert_false(exists(PART));
+  free(before);
+}
+
+static void a_folder_that_is_not_there_is_told(void **state)
+{
+  (void)state;
+  ASSERT_SAYS(baum_study_write(scene.study, BAUM_REPORT_PAGE, NULL, "no/such/folder.html"),
+              BAUM_ERR_FILE, "no/such/folder.html|opened|No such file");
+}
+
+static void what_a_killed_program_has_left_is_no_hindrance(void **state)
+{
+  (void)state;
+  FILE *left = fopen(PART, "w");
+  assert_non_null(left);
+  (void)fclose(left);
+  assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_JSON, NULL, PATH), BAUM_OK);
+  assert_false(exists(PART));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(rows_are_what_the_tests_want),
+    cmocka_unit_test(a_text_names_every_row_and_what_was_said),
+    cmocka_unit_test(a_csv_has_a_line_for_each_row_and_as_many_cells),
+    cmocka_unit_test(a_json_has_null_for_what_is_not_known),
+    cmocka_unit_test(a_page_draws_every_row_and_loads_nothing),
+    cmocka_unit_test(a_page_has_no_markup_of_users),
+    cmocka_unit_test(a_study_that_has_not_been_run_is_reported_too),
+    cmocka_unit_test(a_buffer_that_is_too_short_gets_the_beginning),
+    cmocka_unit_test(bad_calls_are_refused),
+    cmocka_unit_test(a_file_has_what_is_printed_and_replaces_an_older_one),
+    cmocka_unit_test(a_full_disk_is_told_and_a_device_stays_one),
+    cmocka_unit_test(a_failed_write_leaves_the_older_file),
+    cmocka_unit_test(a_folder_that_is_not_there_is_told),
+    cmocka_unit_test(what_a_killed_program_has_left_is_no_hindrance),
+  };
+  return cmocka_run_group_tests(tests, set_up, tear_down);
+}

@@ -1,0 +1,135 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Texts and numbers of reports: what is escaped, and that numbers are read back as they were. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "study/report_buffer.h"
+
+typedef void put_fn(baum_i_buffer *buffer, const char *text);
+
+static void check_put(put_fn *put, const char *text, const char *want)
+{
+  baum_i_buffer buffer = {0};
+  put(&buffer, text);
+  assert_false(buffer.failed);
+  assert_string_equal(buffer.text, want);
+  assert_int_equal(buffer.used, strlen(want));
+  baum_i_buffer_clear(&buffer);
+}
+
+static void html_has_no_markup_of_users(void **state)
+{
+  (void)state;
+  check_put(baum_i_put_html, "<a href=\"x\" id='y'>&amp;</a>",
+            "&lt;a href=&quot;x&quot; id=&#39;y&#39;&gt;&amp;amp;&lt;/a&gt;");
+}
+
+static void json_and_csv_keep_their_quotes(void **state)
+{
+  (void)state;
+  check_put(baum_i_put_json, "a\"b\\c", "a\\\"b\\\\c");
+  check_put(baum_i_put_csv, "a\"b\\c, d", "a\"\"b\\c, d");
+}
+
+static void control_characters_become_spaces(void **state)
+{
+  (void)state;
+  check_put(baum_i_put_html, "a\x1b[1m\r\nb\x7f", "a [1m  b ");
+  check_put(baum_i_put_json, "a\tb\nc", "a b c");
+  check_put(baum_i_put_plain, "a\x1b]0;<b>\"", "a ]0;<b>\"");
+}
+
+static void what_is_no_utf8_is_replaced(void **state)
+{
+  (void)state;
+  const char *const good[] = {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xf4\x8f\xbf\xbf"};
+  for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
+    check_put(baum_i_put_json, good[k], good[k]);
+  }
+  check_put(baum_i_put_json, "\xff", "\xef\xbf\xbd");
+  check_put(baum_i_put_json, "\x80z", "\xef\xbf\xbdz");
+  check_put(baum_i_put_json, "\xc3", "\xef\xbf\xbd");                 /* cut off */
+  check_put(baum_i_put_json, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/", too long */
+  check_put(baum_i_put_json, "\xed\xa0\x80",
+            "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
+  check_put(baum_i_put_json, "\xf4\x90\x80\x80",     /* beyond Unicode */
+            "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
+}
+
+static void exact_numbers_are_read_back(void **state)
+{
+  (void)state;
+  const double numbers[] = {0.0, 1.0, -1.0 / 3.0, 1e-6, 0.1 + 0.2, DBL_MIN, DBL_MAX, 5e-324, 1e22};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    baum_i_number text = baum_i_exact(numbers[k], "");
+    double back = strtod(text.text, NULL);
+    assert_memory_equal(&back, &numbers[k], sizeof back);
+  }
+  assert_string_equal(baum_i_exact(1e-6, "").text, "1e-06");
+  assert_string_equal(baum_i_exact((double)NAN, "null").text, "null");
+  assert_string_equal(baum_i_exact(-(double)INFINITY, "null").text, "null");
+}
+
+static void short_numbers_are_for_people(void **state)
+{
+  (void)state;
+  assert_string_equal(baum_i_short(1.2345e-8, 3).text, "1.23e-08");
+  assert_string_equal(baum_i_short(54321.0, 2).text, "54321");
+  assert_string_equal(baum_i_short(1.2e7, 2).text, "1.2e+07");
+  assert_string_equal(baum_i_short((double)NAN, 3).text, "-");
+  assert_string_equal(baum_i_short((double)INFINITY, 3).text, "infinite");
+  assert_string_equal(baum_i_fixed(-2.25, 1).text, "-2.2");
+  assert_int_equal(strlen(baum_i_fixed(1e300, 1).text), strlen("1000000000000000.0"));
+}
+
+/* Locales with a comma are rarely installed: here is what snprintf() gives in one. */
+static void points_do_not_depend_on_the_locale(void **state)
+{
+  (void)state;
+  const char *const texts[][2] = {{"1,5e-06", "1.5e-06"},
+                                  {"-12\xd9\xab"
+                                   "25",
+                                   "-12.25"},
+                                  {"1.5", "1.5"},
+                                  {"17", "17"},
+                                  {"1e+10", "1e+10"}};
+  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
+    char text[16];
+    memcpy(text, texts[k][0], strlen(texts[k][0]) + 1);
+    baum_i_mend_point(text);
+    assert_string_equal(text, texts[k][1]);
+  }
+}
+
+static void columns_are_as_wide_as_characters(void **state)
+{
+  (void)state;
+  baum_i_buffer buffer = {0};
+  baum_i_put_left(&buffer, "\xc3\xa9t\xc3\xa9", 5);
+  baum_i_put_left(&buffer, "longer", 2);
+  assert_string_equal(buffer.text, "\xc3\xa9t\xc3\xa9  longer");
+  baum_i_buffer_clear(&buffer);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(html_has_no_markup_of_users),
+    cmocka_unit_test(json_and_csv_keep_their_quotes),
+    cmocka_unit_test(control_characters_become_spaces),
+    cmocka_unit_test(what_is_no_utf8_is_replaced),
+    cmocka_unit_test(exact_numbers_are_read_back),
+    cmocka_unit_test(short_numbers_are_for_people),
+    cmocka_unit_test(points_do_not_depend_on_the_locale),
+    cmocka_unit_test(columns_are_as_wide_as_characters),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
