@@ -9,7 +9,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations control_loop predictive_control kinematics}
+names=${*:-pendulum slider_crank stability_region formulations control_loop predictive_control events kinematics}
 out=$PWD/out
 
 # shellcheck disable=SC2086

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What happens at times: a pendulum that falls against a stop and bounces, at times that the run
+finds, and one that is kicked by a torque at times that are known before."""
+import sys
+
+import numpy as np
+
+import baum
+from support.report import Report
+
+LENGTH = 1.0  # [m] of a uniform rod of 1 kg
+ANGLE = 1.0  # [rad] at which it is let go
+STOP = 0.0  # [rad] straight below the pin
+RESTITUTION = 0.9  # of the speed that a bounce leaves
+BOUNCES = 8
+KICKS = (1.0, 10.0), (1.05, 0.0), (2.0, 10.0), (2.05, 0.0), (3.0, 10.0), (3.05, 0.0)  # s, N m
+
+
+def pendulum():
+    m = baum.Mechanism()
+    place = LENGTH / 2 * np.sin(ANGLE), -LENGTH / 2 * np.cos(ANGLE)
+    rod = m.planar_body(
+        "rod", mass=1, inertia=LENGTH**2 / 12, position=place, angle=ANGLE, angular_velocity=0
+    )
+    m.revolute("pin", m.ground, rod, point=(0, 0))
+    m.load("motor", rod, torque=1, input=m.input("kick"))
+    return m.freeze()
+
+
+def quarter(angle):
+    """A quarter of the period of swings to an angle [s]: K(sin(angle / 2)) sqrt(2 l / (3 g)), K by
+    the arithmetic-geometric mean."""
+    a, b = 1.0, np.cos(angle / 2)
+    for _ in range(8):
+        a, b = (a + b) / 2, np.sqrt(a * b)
+    return np.pi / (2 * a) * np.sqrt(2 * LENGTH / (3 * 9.81))
+
+
+def exact_times():
+    """Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into
+    1 - cos(angle)."""
+    left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
+    between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
+    return quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
+
+
+def bounces(m):
+    """Times [s] and rates before [rad/s]."""
+    s = m.simulation("rk8", rtol=1e-10)
+    s.event("pin", STOP, direction=-1, name="stop")
+    rows = []
+    while len(rows) < BOUNCES and s.advance_to(100) == baum.Status.STOP_EVENT:
+        rows.append((s.time, s.v[2]))
+        s.set_state(s.time, s.q, -RESTITUTION * s.v)
+    return np.array(rows).T
+
+
+def main():
+    report = Report("events")
+    m = pendulum()
+    times, rates = bounces(m)
+    error = times - exact_times()
+    columns = {
+        "t": ("t [s]", "12.9f"),
+        "rate": ("rate before [rad/s]", "12.9f"),
+        "error": ("error of t [s]", "9.1e"),
+    }
+    report.table("bounces", columns, np.stack([times, rates, error], axis=1).tolist())
+
+    s = m.simulation("rk8", rtol=1e-10, energy_account=True)
+    s.schedule_input("kick", *np.transpose(KICKS))
+    kicked = s.sample([t for t, _ in KICKS], record=["energy_account"])
+    names = [f"{name} [J]" for name in ("kinetic", "potential", "work of kicks", "residual")]
+    columns = {name: (name, "12.4e") for name in ("t [s]", *names)}
+    account = kicked["energy_account"][:, [0, 1, 2, -1]]
+    report.table("kicks", columns, np.column_stack([kicked.t, account]).tolist())
+    report.counters(kicked.counters)
+
+    report.expect("times of bounces, off by [s]", abs(error).max(), 1e-8)
+    report.expect("residual of the energy [J]", abs(account[:, -1]).max(), 1e-8)
+    report.expect("rejected steps where kicks are known", kicked.counters.rejected, 5)
+    return report.end()
+
+
+if __name__ == "__main__":
+    sys.exit(main())
