@@ -371,6 +371,12 @@ baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, dou
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
+baum_status baum_i_cvode_explain_flag(int flag)
+{
+  const baum_i_sundials sundials = {.integrator = "cvode"};
+  return baum_i_sundials_fail(&sundials, FLAGS, flag, 1e-3);
+}
+
 /* ---- the two integrators ---- */
 
 static const baum_formulation ADAMS_FORMULATIONS[] = {

@@ -10,4 +10,7 @@
 baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, double gamma,
                                       const double *r, double *x);
 
+/* The sentence of a flag, as of a step of 0.001 s from t = 0 that no evaluation failed in. */
+baum_status baum_i_cvode_explain_flag(int flag);
+
 #endif

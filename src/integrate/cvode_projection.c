@@ -56,7 +56,7 @@ int baum_i_cvode_project(baum_i_sundials *sundials, double t, N_Vector y, N_Vect
     status = baum_i_normal_part(w, N_VGetArrayPointer(error), normal);
     subtract(status == BAUM_OK ? n : 0, normal, N_VGetArrayPointer(error));
   }
-  return status == BAUM_OK ? 0 : 1;
+  return status == BAUM_OK ? 0 : answer(sundials, status);
 }
 
 #endif

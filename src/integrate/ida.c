@@ -538,6 +538,12 @@ const double *baum_i_ida_multipliers(const void *run)
   return N_VGetArrayPointer(self->y) + mechanism->nq + mechanism->nv;
 }
 
+baum_status baum_i_ida_explain_flag(int flag)
+{
+  const baum_i_sundials sundials = {.integrator = "ida"};
+  return baum_i_sundials_fail(&sundials, FLAGS, flag, 1e-3);
+}
+
 /* ---- the integrator ---- */
 
 static const baum_formulation FORMULATIONS[] = {

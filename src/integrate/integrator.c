@@ -11,6 +11,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/message.h"
@@ -103,6 +104,17 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem)
 {
   return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));
+}
+
+baum_status baum_i_fail_in_step(baum_status status, const char *sentence, const char *integrator,
+                                double t, double h)
+{
+  char length[48] = "";
+  if (h != 0.0) {
+    (void)snprintf(length, sizeof length, ", %.3g s long", fabs(h));
+  }
+  return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", sentence, integrator, t,
+                     length);
 }
 
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,

@@ -115,6 +115,10 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
 /* Does a run remember steps, so that it has to be told when it begins anew? */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
+/* The sentence of an evaluation that failed, with the step from t in which that was; h: 0 where none had begun. */
+baum_status baum_i_fail_in_step(baum_status status, const char *sentence, const char *integrator,
+                                double t, double h);
+
 /* Formulation offered? */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);
 

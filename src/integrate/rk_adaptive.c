@@ -73,10 +73,10 @@ static const double SHORTEST = 10.0 * DBL_EPSILON;
 
 /* ---- failures ---- */
 
-static baum_status fail_with_evaluation(const adaptive_run *run, double t)
+/* h: 0 where no step has begun. */
+static baum_status fail_with_evaluation(const adaptive_run *run, double h)
 {
-  return baum_i_fail(run->last.status, "%.800s (in a step of %s from t = %.9g s)",
-                     run->last.sentence, run->pair->name, t);
+  return baum_i_fail_in_step(run->last.status, run->last.sentence, run->pair->name, run->t, h);
 }
 
 static void remember(adaptive_run *run, baum_status status)
@@ -102,7 +102,7 @@ static baum_status fail_short(const adaptive_run *run, const baum_i_problem *pro
 {
   bool near = fabs(run->t - run->last.t) * problem->rate <= 1e-6;
   if (run->last.status != BAUM_OK && near) {
-    return fail_with_evaluation(run, run->t);
+    return fail_with_evaluation(run, h);
   }
   return baum_i_fail(
     BAUM_ERR_STEP,
@@ -193,7 +193,7 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
   baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
   if (status != BAUM_OK) {
     remember(run, status);
-    return fail_with_evaluation(run, run->t);
+    return fail_with_evaluation(run, 0.0);
   }
   run->usual = 0.0; /* no step before counts */
   run->pivot = see_pivot(run, problem);
@@ -340,7 +340,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     if (status != BAUM_OK) {
       remember(run, status);
       if (!may_shorten(problem, status)) {
-        return fail_with_evaluation(run, run->t);
+        return fail_with_evaluation(run, run->h);
       }
       least = 0.0; /* for another reason, perhaps */
       baum_i_step_control_halve(&run->control, fabs(run->h));

@@ -189,17 +189,18 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   return sundials->stopped ? -1 : 1;
 }
 
-static baum_status fail_with_evaluation(const baum_i_sundials *sundials)
+/* step: 0 where none was tried. */
+static baum_status fail_with_evaluation(const baum_i_sundials *sundials, double step)
 {
-  return baum_i_fail(sundials->evaluation, "%s (in a step of %s from t = %.9g s)",
-                     sundials->sentence, sundials->integrator, sundials->t);
+  return baum_i_fail_in_step(sundials->evaluation, sundials->sentence, sundials->integrator,
+                             sundials->t, step);
 }
 
 baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
                                  int flag, double step)
 {
   if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials);
+    return fail_with_evaluation(sundials, step);
   }
   while (flags->flag != 0 && flags->flag != flag) {
     flags++;
@@ -228,12 +229,13 @@ baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, doub
     return BAUM_OK;
   }
   if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials);
+    return fail_with_evaluation(sundials, after - before);
   }
   return baum_i_fail(BAUM_ERR_STEP,
-                     "t = %.9g s: %s: the step became too small to change the time; the motion may "
-                     "be singular here, or rtol = %g is too small",
-                     sundials->t, sundials->integrator, sundials->problem->rtol);
+                     "t = %.9g s: %s: the step became too small to change the time (%.3g s); the "
+                     "motion may be singular here, or rtol = %g is too small",
+                     sundials->t, sundials->integrator, fabs(after - before),
+                     sundials->problem->rtol);
 }
 
 double baum_i_sundials_inside(const baum_i_sundials *sundials, double t, double end, double last)

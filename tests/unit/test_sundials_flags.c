@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What CVODE and IDA answer when they give up, as sentences: flag by flag, and as far as runs can be brought to it. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#if BAUM_HAVE_SUNDIALS
+
+#include <cvode/cvode.h>
+#include <ida/ida.h>
+
+#include "integrate/cvode.h"
+#include "integrate/ida.h"
+#include "sentence.h"
+
+/* ---- flag by flag ---- */
+
+/* What a call of one step can answer where no evaluation has failed; an evaluation tells itself. */
+static const struct {
+  int cvode;
+  int ida;
+  baum_status status;
+  const char *words;
+} FLAGS[] = {
+  {CV_TOO_MUCH_ACC, IDA_TOO_MUCH_ACC, BAUM_ERR_STEP, "more digits than double precision has"},
+  {CV_ERR_FAILURE, IDA_ERR_FAIL, BAUM_ERR_STEP, "error stays above the tolerance"},
+  {CV_CONV_FAILURE, IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE, "iteration does not converge"},
+  {CV_TOO_CLOSE, 0, BAUM_ERR_STEP, "no first step can be found"}, /* IDA has none */
+  {CV_LSETUP_FAIL, IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR, "cannot be factored; take"},
+  {CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR, "cannot be solved with; take"},
+  {CV_NLS_FAIL, IDA_NLS_FAIL, BAUM_ERR_CONVERGENCE, "iteration failed; take"},
+  {CV_ILL_INPUT, IDA_ILL_INPUT, BAUM_ERR_NOT_FINITE, "not finite; the motion grows"},
+  {CV_MEM_FAIL, IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
+};
+enum { FLAG_COUNT = sizeof FLAGS / sizeof *FLAGS };
+
+static void check_flag(const char *name, int flag, baum_status status, int known)
+{
+  char words[40];
+  (void)snprintf(words, sizeof words, "%s failed with flag %d", name, flag);
+  baum_status want = known >= 0 ? FLAGS[known].status : BAUM_ERR_INTEGRATOR;
+  const char *meaning = known >= 0 ? FLAGS[known].words : words;
+  if (status != want || strncmp(baum_message(), "t = 0 s: ", 9) != 0 ||
+      !strstr(baum_message(), name) || !strstr(baum_message(), meaning) ||
+      !strstr(baum_message(), "(step 0.001 s")) {
+    fail_msg("flag %d of %s: %s: %s", flag, name, baum_status_name(status), baum_message());
+  }
+}
+
+static void every_flag_has_a_sentence_with_time_and_step(void **state)
+{
+  (void)state;
+  for (int flag = CV_UNRECOGNIZED_ERR; flag < 0; flag++) {
+    int known[2] = {-1, -1};
+    for (int k = 0; k < FLAG_COUNT; k++) {
+      known[0] = FLAGS[k].cvode == flag ? k : known[0];
+      known[1] = FLAGS[k].ida == flag ? k : known[1];
+    }
+    check_flag("cvode", flag, baum_i_cvode_explain_flag(flag), known[0]);
+    check_flag("ida", flag, baum_i_ida_explain_flag(flag), known[1]);
+  }
+}
+
+/* ---- brought about ---- */
+
+typedef enum fault {
+  FAULT_NONE,
+  FAULT_JUMPS, /* another force at every time: steps converge and err */
+  FAULT_NOISE, /* and at every place: they do not converge */
+  FAULT_NAN,
+  FAULT_RETRIES,
+  FAULT_STOPS
+} fault;
+
+/* Of 1, and says nothing of x. */
+static double noise(double x)
+{
+  uint64_t bits;
+  memcpy(&bits, &x, sizeof bits);
+  bits = (bits ^ (bits >> 29)) * UINT64_C(0xbf58476d1ce4e5b9);
+  return (double)(bits >> 11) * 0x1p-53 - 0.5;
+}
+
+static int force(double t, const double *q, const double *v, const double *inputs, double *out,
+                 void *user)
+{
+  const fault *now = user;
+  (void)v;
+  (void)inputs;
+  out[0] = 0.0;
+  out[1] = 0.0;
+  switch (*now) {
+  case FAULT_JUMPS: out[0] = 1e10 * noise(t); break;
+  case FAULT_NOISE: out[0] = 1e20 * noise(q[0] + t); break;
+  case FAULT_NAN: out[0] = (double)NAN; break;
+  case FAULT_RETRIES: return 1;
+  case FAULT_STOPS: return -1;
+  case FAULT_NONE:
+  default: break;
+  }
+  return 0;
+}
+
+static baum_mechanism *make_thrown(fault *now)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id body;
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  baum_user_force_def gust = baum_user_force_def_default();
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  particle.velocity[0] = 1.0;
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &particle, &body), BAUM_OK);
+  gust.name = "gust";
+  gust.bodies = &body;
+  gust.body_count = 1;
+  gust.force = force;
+  gust.user = now;
+  assert_int_equal(baum_mechanism_add_user_force(m, &gust, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static const struct {
+  fault fault;
+  baum_status status;
+  const char *words; /* all of them in the sentence */
+} BROUGHT[] = {
+  {FAULT_JUMPS, BAUM_ERR_STEP, "error stays above the tolerance|(step |last good step, t = |take "},
+  {FAULT_NOISE, BAUM_ERR_CONVERGENCE, "does not converge|(step |last good step, t = |take "},
+  {FAULT_NAN, BAUM_ERR_NOT_FINITE, "\"gust\"|in a step of |from t = | long)|look at functions"},
+  {FAULT_RETRIES, BAUM_ERR_CALLBACK, "\"gust\"|returned 1 (retry)|in a step of |from t = | long)"},
+  {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
+};
+
+/* From one call to the next everything goes wrong at once, so that steps cannot end before it; then it is well again. */
+static void bring_about(const baum_integrator *integrator, int k)
+{
+  fault now = FAULT_NONE;
+  baum_mechanism *m = make_thrown(&now);
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = integrator;
+  o.rtol = 1e-6;
+  o.max_step = 0.01;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
+  now = BROUGHT[k].fault;
+  ASSERT_SAYS(baum_simulation_advance_to(run, 1.0), BROUGHT[k].status, BROUGHT[k].words);
+  assert_non_null(strstr(baum_simulation_message(run), baum_integrator_name(integrator)));
+  double t = baum_simulation_time(run);
+  assert_true(t >= 0.1 && t < 1.0);
+  now = FAULT_NONE;
+  assert_int_equal(baum_simulation_advance_to(run, 1.5), BAUM_OK);
+  if (BROUGHT[k].fault >= FAULT_NAN) { /* of the others a step may have been taken */
+    assert_true(fabs(baum_simulation_q(run)[0] - 1.5) <= 1e-5); /* 10 rtol */
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+static void failures_that_can_be_brought_about_are_told(void **state)
+{
+  (void)state;
+  const baum_integrator *const all[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
+  for (int i = 0; i < 3; i++) {
+    for (size_t k = 0; k < sizeof BROUGHT / sizeof *BROUGHT; k++) {
+      bring_about(all[i], (int)k);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(every_flag_has_a_sentence_with_time_and_step),
+    cmocka_unit_test(failures_that_can_be_brought_about_are_told),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#else
+
+static void there_is_nothing_to_test_without_sundials(void **state)
+{
+  (void)state;
+  skip();
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {cmocka_unit_test(there_is_nothing_to_test_without_sundials)};
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
+
+#endif
