@@ -6,7 +6,8 @@
  *
  *   error x growth x MARGIN <= E
  *
- * with the growth that rehearsals have shown, of the method or the median of all if that is more, or where there is none that from the first half of the span
+ * with the growth that rehearsals have shown, of the method or the median of those with steps of its kind if that is
+ * more, or where there is none that from the first half of the span
  * to the whole, which goes on if errors grow as a power of time. The row that fulfils it and the next finer one must do so
  * both: a lucky row does not count.
  */
@@ -21,7 +22,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MARGIN = 2.0;
+static const double MARGIN = 3.0;
 static const double MOST_GROWTH = 100.0;
 static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
 
@@ -221,14 +222,19 @@ static int by_value(const void *a, const void *b)
   return (x > y) - (x < y);
 }
 
-/* Of all methods that have been rehearsed to the end; NaN where there is none. A method that was lucky there has at least
- * this. */
-static double median_growth(const baum_study *study)
+static bool has_fixed_step(const baum_study *study, int method)
+{
+  return !isnan(study->rows[study->methods[method].first]->options.step);
+}
+
+/* Of all methods with steps of this kind that have been rehearsed to the end; NaN where there is none. A method that was
+ * lucky there has at least this. */
+static double median_growth(const baum_study *study, bool fixed)
 {
   double growths[MOST_METHODS];
   int count = 0;
   for (int k = 0; k < study->method_count && count < MOST_METHODS; k++) {
-    if (isfinite(study->methods[k].growth)) {
+    if (isfinite(study->methods[k].growth) && has_fixed_step(study, k) == fixed) {
       growths[count++] = study->methods[k].growth;
     }
   }
@@ -239,7 +245,7 @@ static double median_growth(const baum_study *study)
 static double growth_of(const baum_study *study, const baum_i_row *row)
 {
   double own = study->methods[row->out.method].growth;
-  double growth = fmax(own, median_growth(study));
+  double growth = fmax(own, median_growth(study, has_fixed_step(study, row->out.method)));
   if (isnan(growth)) {
     growth = fmin(row->out.error / row->out.error_half, MOST_GROWTH);
   }

@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A study that was interrupted goes on from its file: no row is lost, none is run twice. */
+#define _GNU_SOURCE /* fork, mkstemp */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+#include "models.h"
+#include "sentence.h"
+#include "study_rows.h"
+
+enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
+
+typedef struct scene {
+  model m;
+  char path[PATH];
+  baum_study_options options;
+} scene;
+
+static scene make_scene(void)
+{
+  scene s = {.path = "/tmp/baum-study-XXXXXX", .options = small_study_options()};
+  int file = mkstemp(s.path);
+  assert_true(file >= 0);
+  (void)close(file);
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &s.m), BAUM_OK);
+  return s;
+}
+
+static void end_scene(scene *s)
+{
+  (void)remove(s->path);
+  model_destroy(&s->m);
+}
+
+static baum_study *study_of(scene *s)
+{
+  s->options.file = s->path;
+  return small_study(s->m.mechanism, &s->options);
+}
+
+static char *read_file(const char *path)
+{
+  FILE *stream = fopen(path, "r");
+  assert_non_null(stream);
+  char *text = test_calloc(FILE_SIZE, 1);
+  assert_true(fread(text, 1, FILE_SIZE - 1, stream) < FILE_SIZE - 1);
+  (void)fclose(stream);
+  return text;
+}
+
+static void write_file(const char *path, const char *text, size_t size)
+{
+  FILE *stream = fopen(path, "w");
+  assert_non_null(stream);
+  assert_int_equal(fwrite(text, 1, size, stream), size);
+  (void)fclose(stream);
+}
+
+/* Lines that begin with a word. */
+static int lines_of(const char *text, const char *word)
+{
+  int count = 0;
+  for (const char *at = text; (at = strstr(at, word)) != NULL; at++) {
+    count += at == text || at[-1] == '\n';
+  }
+  return count;
+}
+
+static int die(const baum_study *study, int32_t done, int32_t total, void *user)
+{
+  (void)study;
+  (void)total;
+  return done == *(const int *)user ? raise(SIGKILL) : 0;
+}
+
+/* Run until so many stages are done, and be killed there. */
+static void run_and_be_killed(scene *s, int at)
+{
+  pid_t child = fork();
+  assert_true(child >= 0);
+  if (child == 0) {
+    s->options.progress = die;
+    s->options.user = &at;
+    (void)baum_study_run(study_of(s));
+    _exit(0);
+  }
+  int status = 0;
+  assert_int_equal(waitpid(child, &status, 0), child);
+  assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+}
+
+static int count_rows(const baum_study *study, int32_t done, int32_t total, void *user)
+{
+  (void)study;
+  (void)total;
+  *(int *)user = *(int *)user == 0 ? done : *(int *)user;
+  return 0;
+}
+
+/* The study of a scene, ended; *first receives what was done when its first new row was. */
+static baum_study *run_to_the_end(scene *s, int *first)
+{
+  *first = 0;
+  s->options.progress = count_rows;
+  s->options.user = first;
+  baum_study *study = study_of(s);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  return study;
+}
+
+static int rows_done(const baum_study *study)
+{
+  int count = 0;
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    count += study_row(study, k).state == BAUM_STUDY_DONE;
+  }
+  return count;
+}
+
+static void a_killed_study_goes_on_without_losing_or_doubling_rows(void **state)
+{
+  (void)state;
+  scene whole = make_scene();
+  scene broken = make_scene();
+  int first = 0;
+  baum_study *want = run_to_the_end(&whole, &first);
+  int rows = baum_study_row_count(want);
+  const int kills[] = {KILLED_AT, rows - 1, rows + 3}; /* among errors, and among times */
+  for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
+    run_and_be_killed(&broken, kills[k]);
+  }
+  baum_study *got = run_to_the_end(&broken, &first);
+  assert_int_equal(first, rows + 1); /* no error is taken anew */
+  assert_same_rows(got, want);
+  char *text = read_file(broken.path);
+  assert_int_equal(lines_of(text, "row "), rows);
+  assert_int_equal(lines_of(text, "time "), rows_done(want));
+  test_free(text);
+  baum_study_destroy(got);
+  baum_study_destroy(want);
+  end_scene(&whole);
+  end_scene(&broken);
+}
+
+static void a_complete_file_needs_no_run(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  int first = 0;
+  baum_study *want = run_to_the_end(&s, &first);
+  char *before = read_file(s.path);
+  baum_study *got = run_to_the_end(&s, &first);
+  char *after = read_file(s.path);
+  assert_string_equal(before, after);
+  assert_same_rows(got, want);
+  assert_true(study_row(got, 0).cpu == study_row(want, 0).cpu);
+  baum_study_reference r;
+  assert_int_equal(baum_study_reference_read(got, &r, sizeof r), BAUM_OK);
+  assert_true(r.trusted && r.digits > 10.0);
+  double t = 0.0;
+  assert_int_equal(baum_study_reference_sample(got, 0, &t, NULL, NULL, NULL), BAUM_ERR_STATE);
+  test_free(before);
+  test_free(after);
+  baum_study_destroy(got);
+  baum_study_destroy(want);
+  end_scene(&s);
+}
+
+static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  int first = 0;
+  baum_study *want = run_to_the_end(&s, &first);
+  char *text = read_file(s.path);
+  char *row = strstr(text, "\nrow ");
+  assert_non_null(row);
+  const size_t lengths[] = {strlen(text) - 9, (size_t)(row - text) + 40, 30};
+  for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
+    write_file(s.path, text, lengths[k]);
+    baum_study *got = run_to_the_end(&s, &first);
+    assert_same_rows(got, want);
+    baum_study_destroy(got);
+  }
+  row[25] = row[25] == '1' ? '2' : '1';
+  write_file(s.path, text, strlen(text));
+  baum_study *got = run_to_the_end(&s, &first);
+  assert_same_rows(got, want);
+  test_free(text);
+  baum_study_destroy(got);
+  baum_study_destroy(want);
+  end_scene(&s);
+}
+
+static void a_file_of_something_else_is_refused_and_left_alone(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  const char letter[] = "Dear reader,\nthis is no study.\n";
+  write_file(s.path, letter, strlen(letter));
+  baum_study *study = study_of(&s);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "is no study file");
+  char *text = read_file(s.path);
+  assert_string_equal(text, letter);
+  test_free(text);
+  baum_study_destroy(study);
+  end_scene(&s);
+}
+
+static void a_file_of_another_study_is_refused_with_what_differs(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  int first = 0;
+  baum_study_destroy(run_to_the_end(&s, &first));
+  s.options.samples++;
+  baum_study *other = study_of(&s);
+  ASSERT_SAYS(baum_study_run(other), BAUM_ERR_BUFFER, "another study|the samples");
+  baum_study_destroy(other);
+  s.options.samples--;
+
+  model_pendulum heavier = MODEL_PENDULUM_A01;
+  heavier.gravity *= 2.0;
+  model_destroy(&s.m);
+  assert_int_equal(model_pendulum_rod(&heavier, &s.m), BAUM_OK);
+  other = study_of(&s);
+  ASSERT_SAYS(baum_study_run(other), BAUM_ERR_BUFFER, "another study|mechanism");
+  baum_study_destroy(other);
+  end_scene(&s);
+}
+
+static void a_full_disk_and_a_missing_folder_are_statuses(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  baum_study_options o = s.options;
+  o.file = "/nowhere/at/all";
+  baum_study *study = small_study(s.m.mechanism, &o);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "/nowhere/at/all|cannot be opened");
+  baum_study_destroy(study);
+  /* A limit on the size of files stands for a disk of that size. */
+  struct rlimit before;
+  assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+  struct rlimit small = {.rlim_cur = 3000, .rlim_max = before.rlim_max};
+  (void)signal(SIGXFSZ, SIG_IGN);
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &small), 0);
+  study = study_of(&s);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "cannot be written");
+  assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
+  assert_int_equal(baum_study_run(study), BAUM_OK); /* there is room again */
+  baum_study_destroy(study);
+  end_scene(&s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_killed_study_goes_on_without_losing_or_doubling_rows),
+    cmocka_unit_test(a_complete_file_needs_no_run),
+    cmocka_unit_test(a_line_that_is_cut_off_or_damaged_is_run_again),
+    cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
+    cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
+    cmocka_unit_test(a_full_disk_and_a_missing_folder_are_statuses),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,372 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a study says is true: its reference, its errors, its recommendations. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "a01_pendulum_reference.h"
+#include "andrews_reference.h"
+#include "four_bar_reference.h"
+#include "models.h"
+#include "slider_crank_undriven_reference.h"
+#include "study_rows.h"
+
+enum { WIDEST = 21, MOST = 512 };
+
+/* ---- references ---- */
+
+/* A stored trajectory, whose first sample is the start. */
+typedef struct stored {
+  int samples;
+  int width;
+  const double *t;
+  const double *q;
+  const char *lengths; /* 'm' is taken by the scale */
+  void (*columns)(const double *q, double *out);
+} stored;
+
+static baum_study *study_like(const model *m, const stored *with)
+{
+  baum_study *study = NULL;
+  baum_study_options o = small_study_options();
+  o.samples = with->samples - 1; /* these are at equal distances */
+  assert_int_equal(baum_study_create(m->mechanism, 0.0, with->t[with->samples - 1], &study),
+                   BAUM_OK);
+  o.rehearse = false;
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  baum_simulation_options rough = baum_simulation_options_default();
+  rough.integrator = baum_rk8();
+  rough.rtol = 1e-3;
+  assert_int_equal(baum_study_add(study, &rough), BAUM_OK);
+  return study;
+}
+
+/* Digits to which the study's own reference agrees. */
+static double agreement(const model *m, const stored *with)
+{
+  baum_study *study = study_like(m, with);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  double scale = 0.0;
+  assert_int_equal(baum_mechanism_get_scale(m->mechanism, &scale), BAUM_OK);
+  double worst = 0.0;
+  for (int k = 1; k < with->samples; k++) {
+    double q[WIDEST];
+    double got[WIDEST];
+    double t = 0.0;
+    assert_int_equal(baum_study_reference_sample(study, k - 1, &t, q, NULL, NULL), BAUM_OK);
+    assert_true(fabs(t - with->t[k]) < 1e-12 * with->t[with->samples - 1]);
+    memcpy(got, q, sizeof got);
+    if (with->columns) {
+      with->columns(q, got);
+    }
+    for (int i = 0; i < with->width; i++) {
+      double unit = with->lengths[i] == 'm' ? scale : 1.0;
+      worst = fmax(worst, fabs(got[i] - with->q[k * with->width + i]) / unit);
+    }
+  }
+  baum_study_reference r;
+  assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
+  assert_true(r.trusted);
+  /* What it says of itself is not more than twice too good: the largest of three differences. */
+  assert_true(worst <= 2.0 * r.uncertainty + 1e-12);
+  baum_study_destroy(study);
+  return -log10(worst);
+}
+
+static void own_references_agree_with_stored_ones_to_ten_digits(void **state)
+{
+  (void)state;
+  const stored pendulum = {
+    A01_PENDULUM_SAMPLES, A01_PENDULUM_WIDTH, A01_PENDULUM_T, A01_PENDULUM_Q[0], "mm", NULL};
+  const stored crank = {SLIDER_CRANK_UNDRIVEN_SAMPLES,
+                        SLIDER_CRANK_UNDRIVEN_WIDTH,
+                        SLIDER_CRANK_UNDRIVEN_T,
+                        SLIDER_CRANK_UNDRIVEN_Q[0],
+                        "mmrmmrmmr",
+                        NULL};
+  const stored four_bar = {FOUR_BAR_SAMPLES, FOUR_BAR_WIDTH, FOUR_BAR_T,
+                           FOUR_BAR_Q[0],    "mmrmmrmmr",    NULL};
+  const stored andrews = {ANDREWS_SAMPLES, ANDREWS_WIDTH, ANDREWS_T,
+                          ANDREWS_Q[0],    "rrrrrrr",     model_andrews_from_bodies};
+  const stored *const all[] = {&pendulum, &crank, &four_bar, &andrews};
+  for (int k = 0; k < 4; k++) {
+    model m;
+    baum_status status = k == 0 ? model_pendulum_rod(&MODEL_PENDULUM_A01, &m)
+                         : k == 1
+                           ? model_slider_crank_build((model_slider_crank){.driven = false}, &m)
+                         : k == 2 ? model_four_bar(&m)
+                                  : model_andrews_bodies(&m);
+    assert_int_equal(status, BAUM_OK);
+    double digits = agreement(&m, all[k]);
+    print_message("problem %d: %.1f digits\n", k, digits);
+    assert_true(digits >= 10.0);
+    model_destroy(&m);
+  }
+}
+
+/* Ground over a passage of a flat pose: branches cross there. */
+static void a_motion_past_a_singular_pose_has_no_trusted_reference(void **state)
+{
+  (void)state;
+  model m;
+  model_n_four_bar data = model_n_four_bar_a02(1);
+  assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
+  const baum_study_options o = small_study_options();
+  baum_study *study = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(study), BAUM_WARNED);
+  baum_study_reference r;
+  assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
+  assert_false(r.trusted);
+  assert_non_null(strstr(r.text, "singular"));
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    baum_study_row row = study_row(study, k);
+    assert_true(row.untrusted);
+  }
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+static void a_driven_mechanism_is_compared_with_its_kinematics(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
+  baum_study *study = NULL;
+  assert_int_equal(baum_study_create(m.mechanism, 0.0, 0.05, &study), BAUM_OK);
+  baum_study_options o = small_study_options();
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  baum_simulation_options run = baum_simulation_options_default();
+  run.integrator = baum_kinematics();
+  assert_int_equal(baum_study_add(study, &run), BAUM_OK);
+  run.integrator = baum_rk4();
+  run.step = 1e-4;
+  assert_int_equal(baum_study_add(study, &run), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  baum_study_reference r;
+  assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
+  assert_non_null(strstr(r.text, "kinematics"));
+  assert_true(r.digits > 10.0);
+  assert_true(study_row(study, 0).at_floor); /* it solves to rounding */
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+/* ---- rows ---- */
+
+static int circle_solution(double t, double *q, double *v, double *lambda, void *user)
+{
+  (void)lambda;
+  (void)user;
+  q[0] = cos(t);
+  q[1] = sin(t);
+  v[0] = -sin(t);
+  v[1] = cos(t);
+  return 0;
+}
+
+/* A particle on a circle without gravity: 1 rad/s for ever. */
+static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **state)
+{
+  (void)state;
+  const model_pendulum free_turn = {.gravity = 0.0, .x = 1.0, .v = 1.0};
+  model m;
+  assert_int_equal(model_pendulum_rod(&free_turn, &m), BAUM_OK);
+  baum_study *study = NULL;
+  assert_int_equal(baum_study_create(m.mechanism, 0.0, 5.0, &study), BAUM_OK);
+  assert_int_equal(baum_study_set_solution(study, circle_solution, NULL, 12.0), BAUM_OK);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.formulation = BAUM_FORMULATION_PROJECTION;
+  for (int k = 0; k < 5; k++) {
+    o.step = 0.5 / (1 << k);
+    assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  }
+  o.step = (double)NAN;
+  o.integrator = baum_rk8();
+  o.rtol = 1e-13;
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  baum_study_method method;
+  assert_int_equal(baum_study_method_at(study, 0, &method, sizeof method), BAUM_OK);
+  assert_true(fabs(method.slope - 4.0) <
+              0.3); /* its order; the coarsest steps are not quite there */
+  assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
+  baum_study_row row = study_row(study, 5);
+  assert_true(row.at_floor && row.error == 1e-12); /* nothing is graded below the twelve digits */
+  assert_true(isnan(row.error_lambda));            /* the solution does not know */
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+static void two_threads_give_the_rows_of_one(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  baum_study_options o = small_study_options();
+  baum_study *one = small_study(m.mechanism, &o);
+  o.threads = 2;
+  baum_study *two = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(one), BAUM_OK);
+  assert_int_equal(baum_study_run(two), BAUM_OK);
+  assert_same_rows(one, two);
+  for (int32_t k = 0; k < baum_study_method_count(one); k++) {
+    baum_study_method a;
+    baum_study_method b;
+    assert_int_equal(baum_study_method_at(one, k, &a, sizeof a), BAUM_OK);
+    assert_int_equal(baum_study_method_at(two, k, &b, sizeof b), BAUM_OK);
+    assert_memory_equal(&a.growth, &b.growth, sizeof a.growth);
+  }
+  baum_study_destroy(one);
+  baum_study_destroy(two);
+  model_destroy(&m);
+}
+
+/* ---- answers ---- */
+
+static void the_front_has_all_rows_that_none_beats_and_no_other(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  const baum_study_options o = small_study_options();
+  baum_study *study = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  int32_t rows[MOST];
+  int32_t count = 0;
+  assert_int_equal(baum_study_front(study, BAUM_STUDY_WORK, MOST, rows, &count), BAUM_OK);
+  assert_true(count >= 3 && count <= MOST);
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    baum_study_row row = study_row(study, k);
+    bool is_on = false;
+    bool beaten = row.state != BAUM_STUDY_DONE || row.off || row.unstable;
+    for (int32_t i = 0; i < count; i++) {
+      baum_study_row on = study_row(study, rows[i]);
+      is_on = is_on || rows[i] == k;
+      beaten = beaten || (rows[i] != k && on.work <= row.work && on.error <= row.error);
+    }
+    assert_true(is_on != beaten);
+  }
+  for (int32_t i = 1; i < count; i++) {
+    assert_true(study_row(study, rows[i]).work > study_row(study, rows[i - 1]).work);
+    assert_true(study_row(study, rows[i]).error < study_row(study, rows[i - 1]).error);
+  }
+  int32_t few[2] = {-1, -1};
+  int32_t same = 0;
+  assert_int_equal(baum_study_front(study, BAUM_STUDY_WORK, 2, few, &same), BAUM_OK);
+  assert_true(same == count && few[0] == rows[0] && few[1] == rows[1]);
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+/* Of a run with these options, over a span, against RK8 at 1e-13. */
+static double error_over(const model *m, const baum_simulation_options *best, double span)
+{
+  baum_study *study = NULL;
+  const baum_study_options o = small_study_options();
+  assert_int_equal(baum_study_create(m->mechanism, 0.0, span, &study), BAUM_OK);
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  assert_int_equal(baum_study_add(study, best), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  double error = study_row(study, 0).error;
+  baum_study_destroy(study);
+  return error;
+}
+
+static void recommendations_hold_over_twice_the_span(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  const baum_study_options o = small_study_options();
+  baum_study *study = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  const double targets[] = {1e-2, 1e-4, 1e-6, 1e-8};
+  for (int k = 0; k < 4; k++) {
+    baum_simulation_options best;
+    char why[1024] = "";
+    assert_int_equal(
+      baum_study_recommend(study, targets[k], BAUM_STUDY_WORK, &best, sizeof best, why, sizeof why),
+      BAUM_OK);
+    assert_non_null(strstr(why, baum_integrator_name(best.integrator)));
+    assert_true(error_over(&m, &best, 2.0) <= targets[k]);
+  }
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+static void cost_at_an_error_lies_between_that_of_rows_and_compares_methods(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  const baum_study_options o = small_study_options();
+  baum_study *study = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  baum_study_row rows[2] = {study_row(study, 2), study_row(study, 3)};
+  int32_t method = rows[0].method;
+  assert_int_equal(rows[1].method, method);
+  assert_true(rows[1].error < rows[0].error);
+  double cost = 0.0;
+  assert_int_equal(
+    baum_study_cost_at(study, method, sqrt(rows[0].error * rows[1].error), BAUM_STUDY_WORK, &cost),
+    BAUM_OK);
+  assert_true(fabs(cost - sqrt(rows[0].work * rows[1].work)) < 1e-9 * cost);
+  double ratio = 0.0;
+  int32_t exact = baum_study_method_count(study) - 1; /* of RK8 */
+  assert_int_equal(baum_study_compare(study, exact, method, rows[1].error, BAUM_STUDY_WORK, &ratio),
+                   BAUM_OK);
+  assert_true(ratio > 0.0 && ratio < 1.0); /* order 8 is cheaper than order 4 at 1e-5 and less */
+  assert_int_equal(baum_study_cost_at(study, method, 1e-30, BAUM_STUDY_WORK, &cost),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "has been measured with errors from"));
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+static void a_budget_buys_the_most_exact_row_that_it_pays_for(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_four_bar(&m), BAUM_OK);
+  const baum_study_options o = small_study_options();
+  baum_study *study = small_study(m.mechanism, &o);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  baum_simulation_options best;
+  char why[1024] = "";
+  baum_study_row quickest = study_row(study, 0);
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    baum_study_row row = study_row(study, k);
+    quickest = row.state == BAUM_STUDY_DONE && !row.off && row.cpu < quickest.cpu ? row : quickest;
+  }
+  assert_int_equal(baum_study_recommend_budget(study, 1e3, &best, sizeof best, why, sizeof why),
+                   BAUM_OK);
+  assert_true(error_over(&m, &best, 1.0) < 1e-10);
+  assert_int_equal(
+    baum_study_recommend_budget(study, 0.5 * quickest.cpu, &best, sizeof best, why, sizeof why),
+    BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "the quickest takes"));
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(own_references_agree_with_stored_ones_to_ten_digits),
+    cmocka_unit_test(a_motion_past_a_singular_pose_has_no_trusted_reference),
+    cmocka_unit_test(a_driven_mechanism_is_compared_with_its_kinematics),
+    cmocka_unit_test(errors_from_a_solution_by_formulas_are_those_of_the_method),
+    cmocka_unit_test(two_threads_give_the_rows_of_one),
+    cmocka_unit_test(the_front_has_all_rows_that_none_beats_and_no_other),
+    cmocka_unit_test(recommendations_hold_over_twice_the_span),
+    cmocka_unit_test(cost_at_an_error_lies_between_that_of_rows_and_compares_methods),
+    cmocka_unit_test(a_budget_buys_the_most_exact_row_that_it_pays_for),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
