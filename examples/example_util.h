@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What the examples share. Not a part of the library.
  *
- *   example_begin()   reads the command line: [--json FILE] [--data FILE]
+ *   example_begin()   reads the command line: [--json FILE] [--data FILE] [--page FILE]
  *   CHECK()           ends the program with the library's sentence when a call fails
  *   example_table()   begins a table; its cells follow row by row
  *   example_expect()  a check, which decides the exit code; checks come after all tables
@@ -34,6 +34,7 @@ static struct {
   const char *name;
   FILE *json;
   FILE *data;
+  const char *page; /* path for a page, of those that make one; NULL: not wanted */
   const example_column *columns;
   int column_count;
   int column; /* of the next cell */
@@ -78,8 +79,10 @@ static inline void example_begin(int argc, char **argv, const char *name)
       example.json = example_open(argv[k + 1]);
     } else if (k + 1 < argc && strcmp(argv[k], "--data") == 0) {
       example.data = example_open(argv[k + 1]);
+    } else if (k + 1 < argc && strcmp(argv[k], "--page") == 0) {
+      example.page = argv[k + 1];
     } else {
-      (void)fprintf(stderr, "usage: %s [--json FILE] [--data FILE]\n", name);
+      (void)fprintf(stderr, "usage: %s [--json FILE] [--data FILE] [--page FILE]\n", name);
       exit(EXIT_FAILURE);
     }
   }

@@ -2,7 +2,6 @@
 /* What a formulation and an integrator cost and give: the undriven slider-crank, let go at 150 rad/s, for 0.2 s.
  * Error: the largest difference from the reference at its samples, angles in radians, lengths by the length scale.
  * Violations: of all rows; that of the guide's angle is in radians. */
-#include "slider_crank_model.h"
 #include "slider_crank_reference.h"
 
 enum { SETTINGS = 3, SHOWN = 1 }; /* coarse, as in the table, fine */
@@ -42,19 +41,6 @@ typedef struct outcome {
   baum_counters counters;
 } outcome;
 
-static double error_at(const slider_crank *s, baum_simulation *run, int k)
-{
-  const baum_channel channels[] = {{.quantity = BAUM_BODY_POSE, .body = s->crank},
-                                   {.quantity = BAUM_BODY_POSE, .body = s->rod},
-                                   {.quantity = BAUM_BODY_POSE, .body = s->slider}};
-  double pose[9];
-  double scale;
-  CHECK(baum_mechanism_get_scale(s->mechanism, &scale));
-  CHECK(baum_simulation_get(run, channels, 3, pose));
-  double angle = fmax(fabs(pose[2] - REFERENCE[k].crank), fabs(pose[5] - REFERENCE[k].rod));
-  return fmax(angle, fabs(pose[6] - REFERENCE[k].x) / scale);
-}
-
 static outcome simulate(const slider_crank *s, const method *how, int setting)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -70,7 +56,7 @@ static outcome simulate(const slider_crank *s, const method *how, int setting)
       CHECK(status);
     }
     CHECK(baum_simulation_counters(run, &out.counters, sizeof out.counters));
-    out.error = fmax(out.error, error_at(s, run, k));
+    out.error = fmax(out.error, slider_crank_error(s, run, k));
     out.energy = fmax(out.energy, fabs(out.counters.energy_change));
   }
   baum_simulation_destroy(run);

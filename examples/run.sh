@@ -3,13 +3,14 @@
 # usage: sh examples/run.sh [NAME...]
 #
 # Sets up what is missing, builds the release library, runs the examples named or all of them,
-# and leaves in out/ what each printed (.txt), its tables (.json, and .dat for gnuplot) and the
-# figures drawn from them (.png).
+# and leaves in out/ what each printed (.txt), its tables (.json, and .dat for gnuplot), the
+# figures drawn from them (.png), and the pages of studies (.html).
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations control_loop predictive_control events kinematics}
+names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control
+  events kinematics}
 out=$PWD/out
 
 # shellcheck disable=SC2086
@@ -37,9 +38,10 @@ run() {
 }
 
 for name in $names; do
-  if [ -e "examples/$name.c" ]; then
-    run "$name" "build/release/examples/$name" --json "$out/$name.json" --data "$out/$name.dat"
-  fi
+  [ -e "examples/$name.c" ] || continue
+  set -- --json "$out/$name.json" --data "$out/$name.dat"
+  ! grep -q 'example\.page' "examples/$name.c" || set -- "$@" --page "$out/$name.html"
+  run "$name" "build/release/examples/$name" "$@"
 done
 
 for program in examples/*.py; do

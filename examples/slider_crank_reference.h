@@ -7,6 +7,8 @@
 #ifndef SLIDER_CRANK_REFERENCE_H
 #define SLIDER_CRANK_REFERENCE_H
 
+#include "slider_crank_model.h"
+
 enum { REFERENCE_SAMPLES = 21 };
 
 static const struct {
@@ -37,5 +39,19 @@ static const struct {
   {0.19, 18.148227853497986, 0.5075243388792688, 0.38431867043005075},
   {0.20, 19.26142594130165, -0.03677142534394082, 0.44599833952861234},
 };
+
+/* Largest difference from sample k, angles in radians, x by the length scale. The run stands there. */
+static inline double slider_crank_error(const slider_crank *s, baum_simulation *run, int k)
+{
+  const baum_channel channels[] = {{.quantity = BAUM_BODY_POSE, .body = s->crank},
+                                   {.quantity = BAUM_BODY_POSE, .body = s->rod},
+                                   {.quantity = BAUM_BODY_POSE, .body = s->slider}};
+  double pose[9];
+  double scale;
+  CHECK(baum_mechanism_get_scale(s->mechanism, &scale));
+  CHECK(baum_simulation_get(run, channels, 3, pose));
+  double angle = fmax(fabs(pose[2] - REFERENCE[k].crank), fabs(pose[5] - REFERENCE[k].rod));
+  return fmax(angle, fabs(pose[6] - REFERENCE[k].x) / scale);
+}
 
 #endif

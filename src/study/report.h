@@ -66,6 +66,9 @@ void baum_i_survey_clear(baum_i_survey *survey);
 /* Rows in that state. */
 int baum_i_survey_count(const baum_i_survey *survey, baum_study_state state);
 
+/* To be added to the name of a method, where it may go by steps and by tolerances. */
+const char *baum_i_way(const baum_study_method *method);
+
 void baum_i_environment_read(baum_i_environment *out);
 
 /* ---- columns ---- */

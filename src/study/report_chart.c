@@ -260,8 +260,9 @@ static void put_legend(const baum_i_survey *survey, const baum_i_highlights *hig
                 "<li><svg viewBox=\"-16 -8 32 16\" aria-hidden=\"true\" class=\"line c%d\">"
                 "<path d=\"M-16 0H16\"/><use href=\"#k%d\"/></svg>",
                 k, k);
-    baum_i_put_html(out, survey->methods[highlights->methods[k]].name);
-    baum_i_put(out, "</li>\n");
+    const baum_study_method *method = &survey->methods[highlights->methods[k]];
+    baum_i_put_html(out, method->name);
+    baum_i_putf(out, "%s</li>\n", baum_i_way(method));
   }
   if (survey->method_count > highlights->count) {
     baum_i_putf(out,

@@ -181,3 +181,11 @@ int baum_i_survey_count(const baum_i_survey *survey, baum_study_state state)
   }
   return count;
 }
+
+const char *baum_i_way(const baum_study_method *method)
+{
+  const baum_integrator *integrator = method->integrator;
+  bool either =
+    baum_integrator_has_fixed_step(integrator) && baum_integrator_has_variable_step(integrator);
+  return !either ? "" : method->fixed_step ? ", by step" : ", by rtol";
+}

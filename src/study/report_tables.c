@@ -87,7 +87,7 @@ void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlight
                   colour, colour);
     }
     baum_i_put_html(out, m->name);
-    baum_i_put(out, "</th>");
+    baum_i_putf(out, "%s</th>", baum_i_way(m));
     put_number_cell(out, m->rows, DIGITS);
     put_number_cell(out, m->usable, DIGITS);
     put_number_cell(out, m->least_error, 2);

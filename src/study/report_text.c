@@ -125,7 +125,8 @@ static void put_methods(const baum_i_survey *survey, int width, baum_i_buffer *o
   baum_i_put(out, "  settings  usable  least error   slope     work      CPU\n");
   for (int k = 0; k < survey->method_count; k++) {
     const baum_study_method *m = &survey->methods[k];
-    baum_i_put_left(out, m->name, width);
+    baum_i_put(out, m->name);
+    baum_i_put_left(out, baum_i_way(m), width - baum_i_length(m->name));
     put_figure(out, m->rows, 8, 8);
     put_figure(out, m->usable, 6, 6);
     put_figure(out, m->least_error, 2, 11);
