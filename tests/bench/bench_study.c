@@ -71,7 +71,7 @@ static baum_status andrews(double nudge, model *out)
 static baum_status chain(double nudge, model *out)
 {
   const double rate[3] = {nudge, -nudge, 2.0 * nudge};
-  model_chain data = MODEL_CHAIN_3;
+  model_chain data = model_chain_3_data();
   data.rate = rate;
   return model_chain_build(&data, out);
 }

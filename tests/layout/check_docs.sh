@@ -17,10 +17,10 @@ awk '
     next
   }
   /^[ \t]*#/ { comment = ""; next }
-  /BAUM_API/ {
+  /BAUM_(CATALOG_)?API/ {
     functions++
     if (comment == "") fail("no /** comment before: " $0)
-    else if (/BAUM_API[ \t]+baum_status/ && !returns && comment !~ /@return/)
+    else if (/BAUM_(CATALOG_)?API[ \t]+baum_status/ && !returns && comment !~ /@return/)
       fail("no @return in the comment before: " $0)
   }
   !/^[ \t]*$/ { comment = "" }

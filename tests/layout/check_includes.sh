@@ -32,7 +32,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     below["integrate"] = "dynamics stabilization linear mechanism base"
     below["simulate"] = "integrate " below["integrate"]
     below["study"] = "simulate " below["simulate"]
-    below["catalog"] = ""
+    below["catalog"] = "" # public headers alone, as a user has them
     n = split("assert complex ctype errno fenv float inttypes limits locale math setjmp signal " \
               "stdalign stdarg stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string " \
               "tgmath threads time", names, " ")

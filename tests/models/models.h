@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms that tests have in common, each with one builder. Public interface only.
+/* Mechanisms that tests have in common: those of the catalogue, and variants of them.
  *
- * A builder gives a frozen mechanism in its exact start pose and returns BAUM_OK, or gives no
- * mechanism and returns what failed. SI units; gravity along -y where there is any. Sources of the
- * data: tests/data/README.md.
+ * Each call gives a frozen mechanism in its exact start pose and returns BAUM_OK, or gives no
+ * mechanism and returns what failed. SI units; gravity along -y where there is any.
  */
 #ifndef BAUM_TEST_MODELS_H
 #define BAUM_TEST_MODELS_H
@@ -11,6 +10,8 @@
 #include <stdbool.h>
 
 #include <baum/baum.h>
+
+#include "catalog/parts.h"
 
 /* A frozen mechanism and its parts in the order of adding. */
 typedef struct model {
@@ -21,6 +22,8 @@ typedef struct model {
   int joint_count;
 } model;
 
+/* Take over a frozen mechanism; on failure it is given up. */
+baum_status model_adopt(baum_mechanism *mechanism, model *out);
 void model_destroy(model *out);
 
 /* How many of its units a metre, a kilogram and a second are. Data of models are in SI units; a
@@ -32,6 +35,11 @@ typedef struct model_units {
 } model_units;
 
 extern const model_units MODEL_MILLI; /* millimetres, grams, milliseconds */
+
+/* Replace a frozen mechanism in SI units by the same one in others; on failure it is given up. */
+baum_status model_change_units(baum_mechanism **mechanism, const model_units *units);
+/* Freeze what has been put together in SI units. NULL: SI */
+baum_status model_finish(baum_i_parts *parts, const model_units *units, model *out);
 
 /* ---- pendulum: a point of 1 kg on a circle of 1 m -------------------------------------------- */
 
@@ -126,8 +134,9 @@ typedef struct model_chain {
   const model_units *units; /* NULL: SI */
 } model_chain;
 
-extern const model_chain MODEL_CHAIN_3; /* three links of tests/data */
-
+/* Three different links, as they are in the catalogue, and their data for variants. */
+baum_status model_chain_3(model *out);
+model_chain model_chain_3_data(void);
 /* q = (x, y, angle) of each link: 3 N coordinates, 2 N rows. */
 baum_status model_chain_build(const model_chain *data, model *out);
 

@@ -1,152 +1,116 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slider-crank with the data of P. Flores, R. Leine, C. Glocker, Multibody System Dynamics 23
- * (2010), table 1, without clearance; the eccentricity of 0.05 m is not theirs. Crank 1 from the
- * origin, rod 2, slider 3 on y = e:
- *
- *   l1 sin th1 + l2 sin th2 = e,  x3 = l1 cos th1 + l2 cos th2,  th1(0) = 0, th1'(0) = 150 rad/s
- *
- * With l2 = l1 and e = 0 rod and crank fall on each other at th1 = pi/2, and J loses rank.
- */
-#include "builder.h"
+/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and e = 0
+ * they fall on each other at pi / 2, and J loses rank. */
+#include "models.h"
 
 #include <math.h>
+#include <string.h>
 
-static const double CRANK = 0.153;
-static const double ROD = 0.306;
-static const double ECCENTRICITY = 0.05;
-static const double SPEED = 150.0;
+#include "catalog/slider_crank.h"
 
-typedef struct bodies {
-  baum_body_id crank;
-  baum_body_id rod;
-  baum_body_id slider;
-} bodies;
+typedef baum_i_slider_crank_bodies crank_bodies;
 
-/* Lengths, and angles in radians. */
-typedef struct pose {
-  double rod;
-  double eccentricity;
-  double crank_angle;
-  double rod_angle;
-  double rod_rate;
-} pose;
-
-static pose find_pose(const model_slider_crank *options)
+static void find_parameters(const model_slider_crank *options, double *p)
 {
-  pose out = {.rod = options->rod > 0.0 ? options->rod : ROD,
-              .eccentricity = options->centric ? 0.0 : ECCENTRICITY,
-              .crank_angle = options->angle};
-  double rise = out.eccentricity - CRANK * sin(out.crank_angle);
-  out.rod_angle = options->rough ? 0.0 : asin(rise / out.rod);
-  out.rod_rate = -CRANK * cos(out.crank_angle) * SPEED / (out.rod * cos(out.rod_angle));
-  return out;
+  double mass = p[BAUM_I_SLIDER_CRANK_ROD_MASS];
+  double length = p[BAUM_I_SLIDER_CRANK_ROD];
+  if (options->rod_mass > 0.0) {
+    p[BAUM_I_SLIDER_CRANK_ROD_MASS] = options->rod_mass;
+    p[BAUM_I_SLIDER_CRANK_ROD_INERTIA] *= options->rod_mass / mass;
+  }
+  if (options->rod > 0.0) {
+    double longer = options->rod / length;
+    p[BAUM_I_SLIDER_CRANK_ROD] = options->rod;
+    p[BAUM_I_SLIDER_CRANK_ROD_INERTIA] *= longer * longer;
+  }
+  if (options->centric) {
+    p[BAUM_I_SLIDER_CRANK_ECCENTRICITY] = 0.0;
+  }
+  p[BAUM_I_SLIDER_CRANK_ANGLE] = options->angle;
 }
 
-static void add_crank(builder *build, const pose *at, bool moving, bodies *out)
+static void change_body(baum_i_parts *parts, baum_body_id id, const double *q, const double *v)
 {
   baum_planar_body_def def = baum_planar_body_def_default();
-  def.name = "crank";
-  def.mass = 0.038;
-  def.inertia = 7.4e-5;
-  def.position[0] = CRANK / 2 * cos(at->crank_angle);
-  def.position[1] = CRANK / 2 * sin(at->crank_angle);
-  def.angle = at->crank_angle;
-  def.angular_velocity = SPEED;
-  def.held = true;
-  if (moving) {
-    def.velocity[0] = -CRANK / 2 * sin(at->crank_angle) * SPEED;
-    def.velocity[1] = CRANK / 2 * cos(at->crank_angle) * SPEED;
+  if (parts->status == BAUM_OK) {
+    parts->status = baum_mechanism_get_planar_body(parts->mechanism, id, &def, sizeof def);
   }
-  out->crank = build_body(build, &def);
+  if (q) {
+    memcpy(def.position, q, sizeof def.position);
+    def.angle = q[2];
+  }
+  if (v) {
+    memcpy(def.velocity, v, sizeof def.velocity);
+    def.angular_velocity = v[2];
+  }
+  if (parts->status == BAUM_OK) {
+    parts->status = baum_mechanism_set_planar_body(parts->mechanism, id, &def);
+  }
 }
 
-static bodies add_bodies(builder *build, const model_slider_crank *options, const pose *at)
+static void give_velocities(baum_i_parts *parts, const double *p, const crank_bodies *bodies)
 {
-  bodies out;
-  bool rough = options->rough;
-  double tip[2] = {CRANK * cos(at->crank_angle), CRANK * sin(at->crank_angle)};
-  add_crank(build, at, options->moving, &out);
-
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.name = "rod";
-  def.mass = options->rod_mass > 0.0 ? options->rod_mass : 0.038;
-  def.inertia = 5.9e-4 * (def.mass / 0.038) * (at->rod / ROD) * (at->rod / ROD);
-  def.position[0] = tip[0] + at->rod / 2 * cos(at->rod_angle);
-  def.position[1] = tip[1] + at->rod / 2 * sin(at->rod_angle);
-  def.angle = at->rod_angle;
-  if (options->moving) {
-    def.velocity[0] = -tip[1] * SPEED - at->rod / 2 * sin(at->rod_angle) * at->rod_rate;
-    def.velocity[1] = tip[0] * SPEED + at->rod / 2 * cos(at->rod_angle) * at->rod_rate;
-    def.angular_velocity = at->rod_rate;
+  double q[3];
+  double v[3];
+  for (int k = 0; k < 3; k++) {
+    baum_i_slider_crank_state(p, &p[BAUM_I_SLIDER_CRANK_ANGLE], &p[BAUM_I_SLIDER_CRANK_SPEED], k, q,
+                              v);
+    change_body(parts, bodies->id[k], NULL, v);
   }
-  out.rod = build_body(build, &def);
+}
 
-  def = baum_planar_body_def_default();
-  def.name = "slider";
-  def.mass = 0.076;
-  def.inertia = 2.7e-6;
-  def.position[0] = tip[0] + at->rod * cos(at->rod_angle) + (rough ? 0.01 : 0.0);
-  def.position[1] = at->eccentricity - (rough ? 0.02 : 0.0);
-  if (options->moving) {
-    def.velocity[0] = -tip[1] * SPEED - at->rod * sin(at->rod_angle) * at->rod_rate;
-    def.velocity[1] = def.angular_velocity = 0.0;
-  }
-  out.slider = build_body(build, &def);
-  return out;
+/* Rod and slider on one level line from the crank's tip, the slider out of place. */
+static void draw_roughly(baum_i_parts *parts, const double *p, const crank_bodies *bodies)
+{
+  double angle = p[BAUM_I_SLIDER_CRANK_ANGLE];
+  double tip[2] = {p[BAUM_I_SLIDER_CRANK_CRANK] * cos(angle),
+                   p[BAUM_I_SLIDER_CRANK_CRANK] * sin(angle)};
+  double length = p[BAUM_I_SLIDER_CRANK_ROD];
+  const double rod[3] = {tip[0] + length / 2, tip[1], 0.0};
+  const double slider[3] = {tip[0] + length + 0.01, p[BAUM_I_SLIDER_CRANK_ECCENTRICITY] - 0.02,
+                            0.0};
+  change_body(parts, bodies->id[1], rod, NULL);
+  change_body(parts, bodies->id[2], slider, NULL);
 }
 
 /* Returns the last of them, with its centre of mass at the crank's pin; none: ground. */
-static baum_body_id add_frames(builder *build, int count)
+static baum_body_id add_frames(baum_i_parts *parts, int count)
 {
   baum_body_id last = BAUM_GROUND;
   baum_planar_body_def def = baum_planar_body_def_default();
   baum_planar_fixed_def weld = baum_planar_fixed_def_default();
   def.mass = 2.0;
   weld.point_a[0] = weld.point_a[1] = weld.point_b[0] = weld.point_b[1] = 0.0;
-  for (int k = 0; k < count && build_fine(build); k++) {
-    baum_joint_id id = {0};
+  for (int k = 0; k < count && parts->status == BAUM_OK; k++) {
     weld.body_a = last;
-    last = build_body(build, &def);
+    last = baum_i_parts_body(parts, &def, NULL, NULL);
     weld.body_b = last;
-    baum_status status = baum_mechanism_add_planar_fixed(build->out->mechanism, &weld, &id);
-    build_joint(build, status, id);
+    if (parts->status == BAUM_OK) {
+      parts->status = baum_mechanism_add_planar_fixed(parts->mechanism, &weld, NULL);
+    }
   }
   return last;
 }
 
-static void add_motor(builder *build, baum_joint_id pin, double angle)
-{
-  if (!build_fine(build)) {
-    return;
-  }
-  baum_driver_def def = baum_driver_def_default();
-  def.name = "motor";
-  def.joint = pin;
-  def.value = angle;
-  def.rate = SPEED * build_unit(build, 0, 0, -1);
-  baum_joint_id id = {0};
-  baum_status status = baum_mechanism_add_driver(build->out->mechanism, &def, &id);
-  build_joint(build, status, id);
-}
-
 baum_status model_slider_crank_build(model_slider_crank options, model *out)
 {
-  builder build = build_begin_in(options.units, out);
-  build_gravity(&build, 9.81);
-  pose at = find_pose(&options);
-  bodies body = add_bodies(&build, &options, &at);
-  baum_body_id frame = add_frames(&build, options.frames);
-  baum_joint_id pin =
-    build_pin(&build, "A", (place){frame, {0.0, 0.0}}, (place){body.crank, {-CRANK / 2, 0.0}});
-  build_pin(&build, "B", (place){body.crank, {CRANK / 2, 0.0}},
-            (place){body.rod, {-at.rod / 2, 0.0}});
-  build_pin(&build, "C", (place){body.rod, {at.rod / 2, 0.0}}, (place){body.slider, {0.0, 0.0}});
-  build_guide(&build, "guide", body.slider, at.eccentricity, 0.0);
+  double p[BAUM_I_SLIDER_CRANK_COUNT];
+  memcpy(p, baum_i_slider_crank_data, sizeof p);
+  find_parameters(&options, p);
+  baum_i_parts parts = baum_i_parts_begin();
+  baum_i_parts_gravity(&parts, p[BAUM_I_SLIDER_CRANK_GRAVITY]);
+  crank_bodies bodies = baum_i_slider_crank_add_bodies(&parts, p);
+  if (options.moving) {
+    give_velocities(&parts, p, &bodies);
+  }
+  if (options.rough) {
+    draw_roughly(&parts, p, &bodies);
+  }
+  baum_body_id frame = add_frames(&parts, options.frames);
+  baum_i_slider_crank_add_joints(&parts, p, &bodies, frame, options.driven);
   if (options.doubled_guide) {
-    build_guide(&build, "second guide", body.slider, at.eccentricity, CRANK / 2);
+    baum_i_parts_guide(&parts, "second guide", bodies.id[2], p[BAUM_I_SLIDER_CRANK_ECCENTRICITY],
+                       p[BAUM_I_SLIDER_CRANK_CRANK] / 2);
   }
-  if (options.driven) {
-    add_motor(&build, pin, options.angle);
-  }
-  return build_finish(&build);
+  return model_finish(&parts, options.units, out);
 }

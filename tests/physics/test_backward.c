@@ -12,7 +12,7 @@
 
 #include "physics_run.h"
 #include "slider_crank_driven_reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "catalog/data/slider_crank_eccentric.h"
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 
@@ -74,7 +74,7 @@ static journey out_and_back(const model *m, const method *with, bool driven)
   double start[NQ];
   memcpy(start, baum_simulation_q(watched.run), sizeof start);
   double far = SLIDER_CRANK_DRIVEN_T[FAR];
-  const double *want = driven ? SLIDER_CRANK_DRIVEN_Q[FAR] : SLIDER_CRANK_UNDRIVEN_Q[FAR];
+  const double *want = driven ? SLIDER_CRANK_DRIVEN_Q[FAR] : SLIDER_CRANK_ECCENTRIC_Q[FAR];
   journey out;
   out.phi[0] = travel(&watched, 0.0, far);
   out.error[0] = scaled_error(m->mechanism, baum_simulation_q(watched.run), want);

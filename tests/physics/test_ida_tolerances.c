@@ -194,7 +194,7 @@ static void a_chain_moves_at_all_tolerances(void **state)
   (void)state;
   need_sundials();
   model m;
-  move("chain", model_chain_build(&MODEL_CHAIN_3, &m), &m, 1.0);
+  move("chain", model_chain_3(&m), &m, 1.0);
 }
 
 int main(void)

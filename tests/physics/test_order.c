@@ -13,10 +13,10 @@
 
 #include "a01_pendulum_reference.h"
 #include "assert_near.h"
-#include "four_bar_reference.h"
+#include "catalog/data/four_bar.h"
 #include "physics_run.h"
 #include "reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "catalog/data/slider_crank_eccentric.h"
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 
@@ -32,9 +32,9 @@ static const reference REFERENCES[] = {
                 .q = A01_PENDULUM_Q[0],
                 .lengths = "mm"},
   [FREE_CRANK] = {.samples = 3,
-                  .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
-                  .t = SLIDER_CRANK_UNDRIVEN_T,
-                  .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+                  .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+                  .t = SLIDER_CRANK_ECCENTRIC_T,
+                  .q = SLIDER_CRANK_ECCENTRIC_Q[0],
                   .lengths = "mmrmmrmmr"},
   [FOUR_BAR] = {.samples = 5,
                 .width = FOUR_BAR_WIDTH,

@@ -217,7 +217,7 @@ static void chain(void **state)
 {
   (void)state;
   model m;
-  check(model_chain_build(&MODEL_CHAIN_3, &m));
+  check(model_chain_3(&m));
   assert_kept_by_all(&m, &(scene){"chain of 3", "mmr", 2.0});
 }
 

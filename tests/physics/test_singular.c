@@ -163,7 +163,7 @@ static void mechanisms_away_from_singular_poses_are_silent(void **state)
     assert_silent(built, &m, method, 1e-4 * fixed, 0.5);
     built = model_slider_crank_build((model_slider_crank){.driven = true}, &m);
     assert_silent(built, &m, method, 1e-4 * fixed, 0.5);
-    built = model_chain_build(&MODEL_CHAIN_3, &m);
+    built = model_chain_3(&m);
     assert_silent(built, &m, method, 2e-3 * fixed, 20.0);
     built = model_car_axis(true, &m);
     assert_silent(built, &m, method, 1e-3 * fixed, 3.0);

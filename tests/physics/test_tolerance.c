@@ -10,11 +10,11 @@
 #include <cmocka.h>
 
 #include "a01_pendulum_reference.h"
-#include "four_bar_reference.h"
+#include "catalog/data/four_bar.h"
 #include "physics_run.h"
 #include "reference.h"
 #include "slider_crank_driven_reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "catalog/data/slider_crank_eccentric.h"
 
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };
@@ -39,9 +39,9 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
                 .q = A01_PENDULUM_Q[0],
                 .lengths = "mm"},
   [FREE_CRANK] = {.samples = 9,
-                  .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
-                  .t = SLIDER_CRANK_UNDRIVEN_T,
-                  .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+                  .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+                  .t = SLIDER_CRANK_ECCENTRIC_T,
+                  .q = SLIDER_CRANK_ECCENTRIC_Q[0],
                   .lengths = "mmrmmrmmr"},
   [DRIVEN_CRANK] = {.samples = 9,
                     .width = SLIDER_CRANK_DRIVEN_WIDTH,

@@ -66,7 +66,7 @@ class Abi(unittest.TestCase):
             lines += [("%d", value.name, value.value) for value in kind]
         prints = "".join(f'  printf("{form}\\n", {text});\n' for form, text, _ in lines)
         source = (
-            "#include <baum/baum.h>\n#include <stddef.h>\n#include <stdio.h>\n"
+            "#include <baum/baum.h>\n#include <baum/catalog.h>\n#include <stddef.h>\n#include <stdio.h>\n"
             f"int main(void)\n{{\n{prints}  return 0;\n}}\n"
         )
         folder = Folder()
@@ -82,9 +82,11 @@ class Abi(unittest.TestCase):
         text = "".join(
             path.read_text(encoding="utf-8") for path in (ROOT / "include" / "baum").glob("*.h")
         )
-        self.assertEqual(
-            text.count("BAUM_API ") - text.count("#define BAUM_API "), len(_abi.PROTOTYPES)
-        )
+        for macro, prototypes in (
+            ("BAUM_API ", _abi.PROTOTYPES),
+            ("BAUM_CATALOG_API ", _abi.CATALOG_PROTOTYPES),
+        ):
+            self.assertEqual(text.count(macro) - text.count("#define " + macro), len(prototypes))
 
 
 if __name__ == "__main__":

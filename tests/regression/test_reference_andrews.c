@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-#include "andrews_reference.h"
+#include "catalog/data/andrews.h"
 #include "assert_near.h"
 #include "reference_test.h"
 

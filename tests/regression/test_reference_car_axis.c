@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
-#include "car_axis_reference.h"
+#include "catalog/data/car_axis.h"
 #include "reference_test.h"
 
 static const reference AXIS = {.name = "car axis",

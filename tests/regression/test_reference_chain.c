@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "chain_reference.h"
+#include "catalog/data/chain.h"
 #include "reference_test.h"
 
 static const reference NINE = {.name = "chain N = 3",
@@ -22,7 +22,7 @@ static void adams_reaches_the_reference_within_1e_9(void **state)
   (void)state;
   need_sundials();
   model m;
-  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &m), BAUM_OK);
+  assert_int_equal(model_chain_3(&m), BAUM_OK);
   baum_simulation_options options = adams_options();
   assert_reached(&NINE, m.mechanism, &options, 1e-9);
   model_destroy(&m);
@@ -32,7 +32,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
 {
   (void)state;
   model m;
-  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &m), BAUM_OK);
+  assert_int_equal(model_chain_3(&m), BAUM_OK);
   /* Rates up to 40 rad/s for a moment: (40 h)^4 = 6e-10 there. */
   assert_reached_by_rk4(&NINE, m.mechanism, 1.0 / 8192, 1e-9);
   model_destroy(&m);

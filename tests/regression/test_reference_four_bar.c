@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "four_bar_reference.h"
+#include "catalog/data/four_bar.h"
 #include "reference_test.h"
 
 static const reference NINE = {.name = "four-bar",

@@ -15,17 +15,17 @@
 #include "assert_near.h"
 #include "reference_test.h"
 #include "slider_crank_driven_reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "catalog/data/slider_crank_eccentric.h"
 
 static const char COLUMNS[] = "mmrmmrmmr";
 static const double SPEED = 150.0;
 
 static const reference REFERENCES[2] = {
   {.name = "slider-crank, free",
-   .samples = SLIDER_CRANK_UNDRIVEN_SAMPLES,
-   .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
-   .t = SLIDER_CRANK_UNDRIVEN_T,
-   .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+   .samples = SLIDER_CRANK_ECCENTRIC_SAMPLES,
+   .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+   .t = SLIDER_CRANK_ECCENTRIC_T,
+   .q = SLIDER_CRANK_ECCENTRIC_Q[0],
    .lengths = COLUMNS},
   {.name = "slider-crank, driven",
    .samples = SLIDER_CRANK_DRIVEN_SAMPLES,
@@ -118,7 +118,7 @@ static void rk4_with_projection_reaches_them_too(void **state)
 static void velocities_follow(void **state)
 {
   (void)state;
-  static const double *const want[2] = {SLIDER_CRANK_UNDRIVEN_V[0], SLIDER_CRANK_DRIVEN_V[0]};
+  static const double *const want[2] = {SLIDER_CRANK_ECCENTRIC_V[0], SLIDER_CRANK_DRIVEN_V[0]};
   static const baum_channel velocities = {.quantity = BAUM_V};
   enum { SIZE = SLIDER_CRANK_DRIVEN_SAMPLES * SLIDER_CRANK_DRIVEN_WIDTH };
   for (int driven = 0; driven < 2; driven++) {
@@ -145,8 +145,8 @@ static void velocities_follow(void **state)
 static void a_start_with_only_the_crank_speed_has_exactly_that_speed(void **state)
 {
   (void)state;
-  static const double *const want_q[2] = {SLIDER_CRANK_UNDRIVEN_Q[0], SLIDER_CRANK_DRIVEN_Q[0]};
-  static const double *const want_v[2] = {SLIDER_CRANK_UNDRIVEN_V[0], SLIDER_CRANK_DRIVEN_V[0]};
+  static const double *const want_q[2] = {SLIDER_CRANK_ECCENTRIC_Q[0], SLIDER_CRANK_DRIVEN_Q[0]};
+  static const double *const want_v[2] = {SLIDER_CRANK_ECCENTRIC_V[0], SLIDER_CRANK_DRIVEN_V[0]};
   for (int driven = 0; driven < 2; driven++) {
     model m = build(driven, true);
     baum_simulation_options options = baum_simulation_options_default();

@@ -8,7 +8,7 @@
 #include <cmocka.h>
 
 #include "reference_test.h"
-#include "sundials_slider_crank_reference.h"
+#include "catalog/data/slider_crank_sundials.h"
 
 /* Crank angle, the rod's x and angle. */
 static void three_coordinates(const double *q, double *out)

@@ -5,7 +5,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-#include "builder.h"
 #include "methods.h"
 
 static const double GRAVITY = 9.81;
@@ -125,8 +124,8 @@ static void slider_crank(singular_scene *scene, double off)
 static void near_parallelogram(singular_scene *scene, double off)
 {
   static const double COUPLER = 2.0001;
-  builder build = build_begin(&scene->m);
-  build_gravity(&build, GRAVITY);
+  baum_i_parts parts = baum_i_parts_begin();
+  baum_i_parts_gravity(&parts, GRAVITY);
   double first = 1.0 + off;
   double second = first;
   for (int k = 0; k < 50; k++) { /* |tip - tip| = COUPLER, by Newton */
@@ -148,8 +147,9 @@ static void near_parallelogram(singular_scene *scene, double off)
       def.velocity[0] = -sin(first);
       def.velocity[1] = cos(first);
     }
-    crank[k] = build_body(&build, &def);
-    build_pin(&build, NULL, (place){BAUM_GROUND, {2.0 * k, 0.0}}, (place){crank[k], {-0.5, 0.0}});
+    crank[k] = baum_i_parts_body(&parts, &def, NULL, NULL);
+    baum_i_parts_pin(&parts, NULL, (baum_i_spot){BAUM_GROUND, {2.0 * k, 0.0}},
+                     (baum_i_spot){crank[k], {-0.5, 0.0}});
   }
   double x = 2.0 + cos(second) - cos(first);
   double y = sin(second) - sin(first);
@@ -159,10 +159,12 @@ static void near_parallelogram(singular_scene *scene, double off)
   def.position[0] = 1.0 + (cos(first) + cos(second)) / 2.0;
   def.position[1] = (sin(first) + sin(second)) / 2.0;
   def.angle = atan2(y, x);
-  baum_body_id coupler = build_body(&build, &def);
-  build_pin(&build, NULL, (place){crank[0], {0.5, 0.0}}, (place){coupler, {-COUPLER / 2.0, 0.0}});
-  build_pin(&build, NULL, (place){crank[1], {0.5, 0.0}}, (place){coupler, {COUPLER / 2.0, 0.0}});
-  must(build_finish(&build));
+  baum_body_id coupler = baum_i_parts_body(&parts, &def, NULL, NULL);
+  baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[0], {0.5, 0.0}},
+                   (baum_i_spot){coupler, {-COUPLER / 2.0, 0.0}});
+  baum_i_parts_pin(&parts, NULL, (baum_i_spot){crank[1], {0.5, 0.0}},
+                   (baum_i_spot){coupler, {COUPLER / 2.0, 0.0}});
+  must(model_finish(&parts, NULL, &scene->m));
 }
 
 /* By rk4 with projection and steps of 2e-5 s, by which the sharpest turn, of a hundredth of a radian, is cut into

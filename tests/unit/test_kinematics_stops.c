@@ -265,7 +265,7 @@ static void freedom_is_refused_with_its_number_and_advice(void **state)
   check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
                 "kinematics: 1 freedom is left|add a driver for each|baum_rk4");
   model_destroy(&scene);
-  assert_int_equal(model_chain_build(&MODEL_CHAIN_3, &scene), BAUM_OK);
+  assert_int_equal(model_chain_3(&scene), BAUM_OK);
   check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED, "kinematics: 3 freedoms are left");
   model_destroy(&scene);
 }

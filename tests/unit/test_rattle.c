@@ -148,7 +148,7 @@ static void the_way_back_leads_to_the_start(void **state)
 {
   (void)state;
   model m = {0};
-  check(model_chain_build(&MODEL_CHAIN_3, &m));
+  check(model_chain_3(&m));
   baum_simulation_options options = options_with(baum_rattle(), 5e-3);
   baum_simulation *run = start(&m, &options);
   double q[9];

@@ -13,6 +13,8 @@
 The library that does the work is found beside this package, in the build tree, or by the system's
 loader; the environment variable BAUM_LIBRARY names another.
 """
+import importlib
+
 from . import _abi, _lib
 from .channels import Channel, a, energy, energy_account, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
@@ -31,6 +33,13 @@ from .workspace import Workspace
 __version__ = _abi.VERSION
 library = _lib.path
 library_version = _lib.version
+
+
+def __getattr__(name):
+    # A library of its own, which may be missing.
+    if name == "catalog":
+        return importlib.import_module(".catalog", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 
 def has(feature):

@@ -762,6 +762,66 @@ class baum_spline_driver_def(Structure):
     ]
 
 
+class baum_catalog_entry(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("title", c_char_p),
+        ("source", c_char_p),
+        ("provenance", c_char_p),
+        ("note", c_char_p),
+        ("parameter_count", c_int32),
+        ("sample_count", c_int32),
+        ("start_time", c_double),
+        ("end_time", c_double),
+        ("digits_q", c_double),
+        ("digits_v", c_double),
+        ("exact", c_bool),
+        ("smooth", c_bool),
+    ]
+
+
+class baum_catalog_parameter(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("unit", c_char_p),
+        ("meaning", c_char_p),
+        ("value", c_double),
+        ("positive", c_bool),
+        ("whole", c_bool),
+    ]
+
+
+class baum_catalog_setting(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("value", c_double),
+    ]
+
+
+class baum_catalog_choice(Structure):
+    _fields_ = [
+        ("name", c_char_p),
+        ("settings", POINTER(baum_catalog_setting)),
+        ("setting_count", c_int32),
+    ]
+
+
+class baum_catalog_error(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("q", c_double),
+        ("v", c_double),
+        ("q_final", c_double),
+        ("v_final", c_double),
+        ("q_time", c_double),
+        ("v_time", c_double),
+        ("q_floor", c_double),
+        ("v_floor", c_double),
+    ]
+
+
 # Result and arguments of every function.
 PROTOTYPES = {
     "baum_status_name": (c_char_p, [c_int]),
@@ -1155,6 +1215,23 @@ PROTOTYPES = {
     "baum_has": (c_bool, [c_char_p]),
 }
 
+# Those of the library of the catalogue.
+CATALOG_PROTOTYPES = {
+    "baum_catalog_count": (c_int32, []),
+    "baum_catalog_entry_at": (c_int, [c_int32, POINTER(baum_catalog_entry), c_size_t]),
+    "baum_catalog_find": (c_int, [c_char_p, POINTER(baum_catalog_entry), c_size_t]),
+    "baum_catalog_parameter_at": (c_int, [
+        c_char_p, c_int32, POINTER(baum_catalog_parameter), c_size_t,
+    ]),
+    "baum_catalog_build": (c_int, [POINTER(baum_catalog_choice), POINTER(c_void_p)]),
+    "baum_catalog_times": (c_int, [c_char_p, c_void_p]),
+    "baum_catalog_reference": (c_int, [POINTER(baum_catalog_choice), c_double, c_void_p, c_void_p]),
+    "baum_catalog_compare": (c_int, [
+        POINTER(baum_catalog_choice), c_void_p, c_void_p, c_int64, c_void_p, c_void_p,
+        POINTER(baum_catalog_error), c_size_t,
+    ]),
+}
+
 # Structs that the caller fills, and the function that sets their defaults.
 DEFAULTS = {
     baum_coordinates_def: "baum_coordinates_def_init",
@@ -1224,4 +1301,9 @@ STRUCTS = [
     baum_study_reference,
     baum_study_method,
     baum_spline_driver_def,
+    baum_catalog_entry,
+    baum_catalog_parameter,
+    baum_catalog_setting,
+    baum_catalog_choice,
+    baum_catalog_error,
 ]

@@ -75,9 +75,9 @@ def _check_version(library, path):
     return version
 
 
-def _declare(library, path):
+def _declare(library, path, prototypes):
     """Give every function its result and arguments."""
-    for name, (result, arguments) in _abi.PROTOTYPES.items():
+    for name, (result, arguments) in prototypes.items():
         try:
             function = getattr(library, name)
         except AttributeError:
@@ -102,7 +102,7 @@ def _check_structs(library, path):
 
 lib, path = _open()
 version = _check_version(lib, path)
-_declare(lib, path)
+_declare(lib, path, _abi.PROTOTYPES)
 _check_structs(lib, path)
 
 
@@ -111,3 +111,15 @@ def default(struct):
     filled = struct()
     getattr(lib, _abi.DEFAULTS[struct])(ctypes.byref(filled), ctypes.sizeof(struct))
     return filled
+
+
+def open_catalog():
+    """The library of the catalogue, which lies beside this one."""
+    folder, name = os.path.split(path)
+    beside = os.path.join(folder, name.replace("baum", "baum_catalog", 1))
+    try:
+        library = ctypes.CDLL(beside)
+    except OSError as error:
+        raise ImportError(f"baum.catalog: the library {beside} could not be loaded: {error}") from None
+    _declare(library, beside, _abi.CATALOG_PROTOTYPES)
+    return library

@@ -9,8 +9,8 @@ import numpy as np
 from . import _abi, _calls
 from .adding import Adding
 from .channels import WHOLE, Channel
-from .definitions import Definition
-from .elements import CLASSES, GROUND, Element, one
+from .definitions import KINDS, Definition
+from .elements import CLASSES, GROUND, Element, Entry, one
 from ._lib import lib
 from ._values import number, numbers, vector
 
@@ -35,6 +35,21 @@ class Report(namedtuple("Report", [name for name, _ in _abi.baum_report._fields_
 
     def __str__(self):
         return self.text
+
+
+def _entry_of(address, family, id):
+    """What there is to know about an element: the library gives the definition to those alone that
+    ask for its kind."""
+    if family == "input":
+        return Entry(family, None, id, 0, 0)
+    for kind in KINDS.values():
+        if kind.family == family:
+            struct = kind.struct()
+            asked = kind.function("get")
+            if asked(address, id, ctypes.byref(struct), ctypes.sizeof(struct)) == 0:
+                size = kind.nq or getattr(struct, "size", 0)
+                return Entry(family, kind, id, size, kind.nv or size)
+    raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 
 class Mechanism(Adding):
@@ -67,6 +82,19 @@ class Mechanism(Adding):
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
+
+    @classmethod
+    def of_library(cls, address):
+        """The owner of a mechanism that a function of the library has put together."""
+        made = cls.__new__(cls)
+        made._adopt(address)
+        for family in CLASSES:
+            count = getattr(lib, f"baum_mechanism_{family}_count")(address)
+            for k in range(count):
+                id = getattr(lib, f"baum_mechanism_{family}_at")(address, k)
+                name = getattr(lib, f"baum_mechanism_{family}_name")(address, id).decode()
+                made._entries[name] = _entry_of(address, family, id)
+        return made
 
     def __repr__(self):
         counts = [self._count(family) for family in CLASSES]

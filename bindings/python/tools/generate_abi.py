@@ -3,7 +3,7 @@
 
 usage: generate_abi.py [--check] [INCLUDE_DIR [OUTPUT]]
 
-Reads baum/baum.h and what it includes. It knows the C that those headers use and refuses anything
+Reads baum/baum.h and baum/catalog.h and what they include. It knows the C that those headers use and refuses anything
 else, so a declaration is never dropped in silence. --check writes nothing and fails when the output
 would change.
 """
@@ -161,7 +161,8 @@ class Writer:
 
     def __init__(self):
         self.types = Types()
-        self.parts, self.prototypes, self.structs, self.initialised = [], [], [], []
+        self.parts, self.structs, self.initialised = [], [], []
+        self.prototypes = {"BAUM_API": [], "BAUM_CATALOG_API": []}
 
     def opaque(self, name):
         self.types.handles.add(name)
@@ -188,12 +189,12 @@ class Writer:
         spelled = [self.types.spell(result, 0), *arguments(self.types, text)]
         self._line(wrap(f"{name} = CFUNCTYPE(", spelled, ")"))
 
-    def function(self, result, name, text):
+    def function(self, library, result, name, text):
         match = re.fullmatch(r"(?:const )?(\w+) ?(\**)", result.strip())
         if not match:
             raise SystemExit(f"not understood: result of {name}")
         spelled = self.types.spell(match[1], len(match[2]))
-        self.prototypes.append(
+        self.prototypes[library].append(
             wrap(f'    "{name}": ({spelled}, [', arguments(self.types, text), "]),", " " * 8))
         if name.endswith("_init"):
             self.initialised.append(name[:-len("_init")])
@@ -213,7 +214,9 @@ class Writer:
         return "".join([
             HEAD.format(version=version), f'\nVERSION = "{version}"\n', *self.parts,
             "\n\n# Result and arguments of every function.\nPROTOTYPES = {\n",
-            "\n".join(self.prototypes), "\n}\n",
+            "\n".join(self.prototypes["BAUM_API"]), "\n}\n",
+            "\n# Those of the library of the catalogue.\nCATALOG_PROTOTYPES = {\n",
+            "\n".join(self.prototypes["BAUM_CATALOG_API"]), "\n}\n",
             "\n# Structs that the caller fills, and the function that sets their defaults.\n",
             "DEFAULTS = {\n",
             "\n".join(defaults), "\n}\n",
@@ -225,7 +228,7 @@ RULES = [
     (r"typedef struct (\w+) \{(.*)\} \1", "struct"),
     (r"typedef enum (\w+) \{(.*)\} \1", "enumeration"),
     (r"typedef (\w+) (\w+)\((.*)\)", "callback"),
-    (r"BAUM_API (.*?)(\w+)\((.*)\)", "function"),
+    (r"(BAUM_API|BAUM_CATALOG_API) (.*?)(\w+)\((.*)\)", "function"),
     (r"static const (\w+) (\w+) = \{(.*)\}", "constant"),
 ]
 
@@ -242,7 +245,9 @@ def translate(declaration, writer):
 
 def generate(include):
     """The text of _abi.py for the headers in `include`."""
-    text = read_headers(Path(include))
+    seen = set()
+    text = "\n".join(read_headers(Path(include), f"baum/{name}.h", seen)
+                     for name in ("baum", "catalog"))
     version = re.search(r'#define BAUM_VERSION +"([^"]+)"', text)[1]
     writer = Writer()
     for declaration in split(strip(text)):

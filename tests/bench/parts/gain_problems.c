@@ -5,13 +5,13 @@
 #include <stdlib.h>
 
 #include "a01_pendulum_reference.h"
-#include "andrews_reference.h"
-#include "car_axis_reference.h"
-#include "four_bar_reference.h"
+#include "catalog/data/andrews.h"
+#include "catalog/data/car_axis.h"
+#include "catalog/data/four_bar.h"
 #include "simulate/run.h"
 #include "slider_crank_driven_reference.h"
-#include "slider_crank_undriven_reference.h"
-#include "sundials_slider_crank_reference.h"
+#include "catalog/data/slider_crank_eccentric.h"
+#include "catalog/data/slider_crank_sundials.h"
 
 /* ---- the list ---- */
 
@@ -46,7 +46,7 @@ static const struct {
   {"A01 pendulum", pendulum, A01_PENDULUM_SAMPLES - 1, A01_PENDULUM_T + 1, 4000},
   {"slider-crank, driven", driven, SLIDER_CRANK_DRIVEN_SAMPLES - 1, SLIDER_CRANK_DRIVEN_T + 1,
    4000},
-  {"slider-crank, free", undriven, SLIDER_CRANK_UNDRIVEN_SAMPLES - 1, SLIDER_CRANK_UNDRIVEN_T + 1,
+  {"slider-crank, free", undriven, SLIDER_CRANK_ECCENTRIC_SAMPLES - 1, SLIDER_CRANK_ECCENTRIC_T + 1,
    4000},
   {"Andrews", model_andrews_bodies, ANDREWS_SAMPLES - 1, ANDREWS_T + 1, 4000},
   {"four-bar", model_four_bar, FOUR_BAR_SAMPLES - 1, FOUR_BAR_T + 1, 4000},

@@ -4,9 +4,9 @@
 #include <stdio.h>
 
 #include "a01_pendulum_reference.h"
-#include "andrews_reference.h"
-#include "four_bar_reference.h"
-#include "slider_crank_undriven_reference.h"
+#include "catalog/data/andrews.h"
+#include "catalog/data/four_bar.h"
+#include "catalog/data/slider_crank_eccentric.h"
 
 static baum_status pendulum(model *out)
 {
@@ -51,10 +51,10 @@ static const problem PROBLEMS[] = {
    pendulum},
   {"slider_crank",
    "free slider-crank, 0.2 s: 5 turns",
-   {.samples = SLIDER_CRANK_UNDRIVEN_SAMPLES,
-    .width = SLIDER_CRANK_UNDRIVEN_WIDTH,
-    .t = SLIDER_CRANK_UNDRIVEN_T,
-    .q = SLIDER_CRANK_UNDRIVEN_Q[0],
+   {.samples = SLIDER_CRANK_ECCENTRIC_SAMPLES,
+    .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+    .t = SLIDER_CRANK_ECCENTRIC_T,
+    .q = SLIDER_CRANK_ECCENTRIC_Q[0],
     .lengths = "mmrmmrmmr"},
    2e-3,
    slider_crank},

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The catalogue of known mechanisms: what the binding adds to the C interface, which C tests hold."""
+
+import math
+import unittest
+
+import numpy as np
+
+import baum
+from baum import catalog
+
+
+class Catalog(unittest.TestCase):
+    def test_entries_tell_what_there_is(self):
+        names = [entry.name for entry in catalog.entries()]
+        self.assertEqual(len(names), len(set(names)))
+        entry = catalog.entry("n_four_bar")
+        self.assertIn(entry.name, names)
+        self.assertTrue(entry.exact)
+        self.assertEqual(entry.parameter_count, len(entry.parameters))
+        windows = entry.parameters["windows"]
+        self.assertEqual((windows.unit, windows.value, windows.whole), ("-", 2.0, True))
+
+    def test_a_mechanism_of_the_catalogue_is_a_mechanism_like_others(self):
+        m = catalog.build("slider_crank_driven", eccentricity=0.02)
+        self.assertIsInstance(m, baum.Mechanism)
+        self.assertTrue(m.frozen)
+        self.assertEqual(m["rod"].definition["mass"], 0.038)
+        self.assertEqual(m["motor"].definition["joint"], m["A"])
+        run = m.simulate([0, 0.01], "kinematics", record=["motor.effort"])
+        self.assertEqual(run["slider.pose"][-1][1], 0.02)
+        self.assertEqual(run["motor.effort"].shape, (2, 1))
+        heavier = m.copy(slider=dict(mass=1.0))
+        self.assertEqual(heavier["slider"].definition["mass"], 1.0)
+
+    def test_every_kind_of_element_is_found(self):
+        m = catalog.build("andrews_bodies")
+        self.assertEqual(m["K3"].kind.name, "planar_body")
+        self.assertEqual(m["K3"].columns, (slice(6, 9), slice(6, 9)))
+        self.assertEqual(m["spring"].kind.name, "planar_spring")
+        self.assertEqual(m["motor"].kind.name, "planar_load")
+        self.assertEqual(catalog.build("andrews_angles")["angles"].nq, 7)
+        self.assertEqual(catalog.build("pendulum")["rod"].kind.name, "planar_distance")
+
+    def test_names_that_the_library_gave_can_be_used(self):
+        m = catalog.build("chain", links=4)
+        self.assertEqual(m.sizes, (12, 12, 8))
+        self.assertIn("body4", m)
+
+    def test_runs_are_compared_with_the_reference(self):
+        m = catalog.build("four_bar")
+        known = catalog.reference("four_bar")
+        self.assertEqual(known.q.shape, (len(known.t), 9))
+        error = catalog.compare(m.simulate(known.t, "rk8", rtol=1e-8), "four_bar")
+        # Errors of some 1e-8 per step over about a hundred steps.
+        self.assertLess(error.q, 1e-5)
+        self.assertGreater(error.q, error.q_floor)
+        self.assertEqual(catalog.compare(known, "four_bar").q, 0.0)
+        self.assertTrue(math.isnan(catalog.compare((known.t, known.q, None), "four_bar").v))
+
+    def test_a_formula_holds_for_all_parameters_and_times(self):
+        known = catalog.reference("pendulum", [0.3, 0.1], length=2.0, angle=0.01)
+        rate = math.sqrt(9.81 / 2)
+        # The period of small swings is longer by angle^2 / 16 = 6e-6 of itself, here of 0.66 rad.
+        np.testing.assert_allclose(
+            np.arcsin(known.q[:, 0] / 2), 0.01 * np.cos(rate * known.t), rtol=0, atol=5e-8
+        )
+
+    def test_nothing_is_compared_with_a_reference_that_does_not_hold(self):
+        with self.assertRaisesRegex(baum.Error, "crank = 1 m, it is not known for 1.5"):
+            catalog.reference("four_bar", crank=1.5)
+        with self.assertRaisesRegex(baum.Error, "no sample at t = 0.125 s"):
+            catalog.reference("four_bar", 0.125)
+        with self.assertRaisesRegex(baum.Error, '"chain" has no reference'):
+            catalog.times("chain")
+
+    def test_refusals_name_what_there_is(self):
+        with self.assertRaisesRegex(baum.Error, "there are pendulum, "):
+            catalog.build("windmill")
+        with self.assertRaisesRegex(baum.Error, "there are: links, mass"):
+            catalog.build("chain", length_of_all=1)
+        with self.assertRaisesRegex(baum.Error, "links is 2.5 -, must be a whole number"):
+            catalog.build("chain", links=2.5)
+        with self.assertRaisesRegex(TypeError, "catalogue: links: a number is wanted"):
+            catalog.build("chain", links="many")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The catalogue against itself and against tables that were made otherwise (tests/data): references fulfil the constraints
+ * of their mechanisms and begin where these begin, runs come to them, and formulas are as exact as they say.
+ */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+
+#include <baum/baum.h>
+#include <baum/catalog.h>
+
+#include "a01_pendulum_reference.h"
+#include "assert_near.h"
+#include "n_four_bar_reference.h"
+#include "slider_crank_driven_reference.h"
+#include "sundials_pendulum_reference.h"
+
+/* An entry with its default parameters, and its reference. */
+typedef struct known {
+  baum_catalog_entry entry;
+  baum_catalog_choice choice;
+  baum_mechanism *mechanism;
+  int32_t nq;
+  int32_t nc;
+  double *t; /* (n) */
+  double *q; /* (n x nq) */
+  double *v; /* (n x nq) */
+} known;
+
+static void check(baum_status status)
+{
+  if (status < 0) {
+    fail_msg("%s", baum_message());
+  }
+}
+
+static known know(const baum_catalog_choice *choice)
+{
+  known k = {.choice = *choice};
+  check(baum_catalog_find(choice->name, &k.entry, sizeof k.entry));
+  check(baum_catalog_build(choice, &k.mechanism));
+  check(baum_mechanism_sizes(k.mechanism, &k.nq, NULL, &k.nc));
+  size_t n = (size_t)k.entry.sample_count;
+  k.t = calloc(n + 1, sizeof *k.t);
+  k.q = calloc(n * (size_t)k.nq + 1, sizeof *k.q);
+  k.v = calloc(n * (size_t)k.nq + 1, sizeof *k.v);
+  assert_true(k.t && k.q && k.v);
+  if (n > 0) {
+    check(baum_catalog_times(choice->name, k.t));
+  }
+  for (size_t i = 0; i < n; i++) {
+    size_t first = i * (size_t)k.nq;
+    check(baum_catalog_reference(choice, k.t[i], k.q + first, k.v + first));
+  }
+  return k;
+}
+
+static void forget(known *k)
+{
+  baum_mechanism_destroy(k->mechanism);
+  free(k->t);
+  free(k->q);
+  free(k->v);
+}
+
+static void for_each_reference(void (*look)(const known *k))
+{
+  for (int32_t i = 0; i < baum_catalog_count(); i++) {
+    baum_catalog_entry entry;
+    check(baum_catalog_entry_at(i, &entry, sizeof entry));
+    if (entry.sample_count > 0) {
+      known k = know(&(baum_catalog_choice){.name = entry.name});
+      look(&k);
+      forget(&k);
+    }
+  }
+}
+
+/* ---- all references ---- */
+
+static double worst_of(const double *x, int count)
+{
+  double worst = 0.0;
+  for (int i = 0; i < count; i++) {
+    worst = fmax(worst, fabs(x[i]));
+  }
+  return worst;
+}
+
+/* J v - nu */
+static void find_rate(const known *k, baum_workspace *workspace, int i, double *rate)
+{
+  const double *q = k->q + (size_t)i * (size_t)k->nq;
+  const double *v = k->v + (size_t)i * (size_t)k->nq;
+  double *jacobian = calloc((size_t)k->nc * (size_t)k->nq, sizeof *jacobian);
+  assert_non_null(jacobian);
+  check(baum_workspace_jacobian(workspace, k->t[i], q, jacobian));
+  check(baum_workspace_nu(workspace, k->t[i], q, rate));
+  for (int row = 0; row < k->nc; row++) {
+    rate[row] = -rate[row];
+    for (int column = 0; column < k->nq; column++) {
+      rate[row] += jacobian[row * k->nq + column] * v[column];
+    }
+  }
+  free(jacobian);
+}
+
+static void look_at_constraints(const known *k)
+{
+  baum_workspace *workspace = NULL;
+  double *phi = calloc((size_t)k->nc, sizeof *phi);
+  double *rate = calloc((size_t)k->nc, sizeof *rate);
+  double off = 0.0;
+  double off_rate = 0.0;
+  int samples = k->entry.sample_count;
+  double fast = worst_of(k->v, samples * k->nq);
+  check(baum_workspace_create(k->mechanism, &workspace));
+  assert_true(phi && rate);
+  for (int i = 0; i < samples; i++) {
+    check(baum_workspace_phi(workspace, k->t[i], k->q + (size_t)i * (size_t)k->nq, phi));
+    find_rate(k, workspace, i, rate);
+    off = fmax(off, worst_of(phi, k->nc));
+    off_rate = fmax(off_rate, worst_of(rate, k->nc));
+  }
+  printf("%-24s |Phi| <= %.1e  |Phi'| <= %.1e of %.3g\n", k->entry.name, off, off_rate, fast);
+  /* Rounding of coordinates up to 30 and of sums of a few of their sines and cosines. */
+  assert_true(off <= 1e-14);
+  assert_true(off_rate <= 1e-14 * fmax(1.0, fast));
+  free(phi);
+  free(rate);
+  baum_workspace_destroy(workspace);
+}
+
+static void references_fulfil_the_constraints(void **state)
+{
+  (void)state;
+  for_each_reference(look_at_constraints);
+}
+
+static baum_catalog_error run(const known *k, double rtol)
+{
+  static const baum_channel channels[] = {{.quantity = BAUM_Q}, {.quantity = BAUM_V}};
+  size_t n = (size_t)k->entry.sample_count;
+  size_t nq = (size_t)k->nq;
+  double *rows = calloc(2 * n * nq, sizeof *rows);
+  double *q = calloc(n * nq, sizeof *q);
+  double *v = calloc(n * nq, sizeof *v);
+  assert_true(rows && q && v);
+  baum_simulation *simulation = NULL;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk8();
+  options.rtol = rtol;
+  check(baum_simulation_create(k->mechanism, &options, &simulation));
+  check(baum_simulation_sample(simulation, k->t, (int64_t)n, channels, 2, rows, NULL));
+  for (size_t i = 0; i < n; i++) {
+    memcpy(q + i * nq, rows + 2 * i * nq, nq * sizeof *q);
+    memcpy(v + i * nq, rows + (2 * i + 1) * nq, nq * sizeof *v);
+  }
+  baum_catalog_error start;
+  baum_catalog_error error;
+  check(baum_catalog_compare(&k->choice, k->mechanism, k->t, 1, q, v, &start, sizeof start));
+  check(
+    baum_catalog_compare(&k->choice, k->mechanism, k->t, (int64_t)n, q, v, &error, sizeof error));
+  printf("%-24s rtol %.0e: start %.0e %.0e, q %.1e at %g s, v %.1e at %g s, floors %.0e %.0e\n",
+         k->entry.name, rtol, start.q, start.v, error.q, error.q_time, error.v, error.v_time,
+         error.q_floor, error.v_floor);
+  /* Rounding of the drawing and of its assembly. */
+  assert_true(start.q <= 1e-15 && start.v <= 1e-15);
+  baum_simulation_destroy(simulation);
+  free(rows);
+  free(q);
+  free(v);
+  return error;
+}
+
+static void look_at_run(const known *k)
+{
+  baum_catalog_error error = run(k, 1e-11);
+  /* Measured up to 5e-10, where errors of a step add up over hundreds of steps, and 6e-9 past flat poses. */
+  double wanted = k->entry.smooth ? 1e-9 : 1e-7;
+  assert_true(error.q <= wanted && error.v <= wanted);
+  assert_true(error.q_final <= error.q && error.v_final <= error.v);
+}
+
+static void runs_begin_at_the_references_and_stay_there(void **state)
+{
+  (void)state;
+  for_each_reference(look_at_run);
+}
+
+/* ---- formulas against tables ---- */
+
+static void compare_with_table(const char *name, int count, const double *t, const double *q,
+                               int width)
+{
+  const baum_catalog_choice choice = {.name = name};
+  baum_catalog_entry entry;
+  double got[9];
+  double worst = 0.0;
+  check(baum_catalog_find(name, &entry, sizeof entry));
+  for (int i = 0; i < count; i++) {
+    check(baum_catalog_reference(&choice, t[i], got, NULL));
+    for (int k = 0; k < width; k++) {
+      double want = q[i * width + k];
+      worst = fmax(worst, fabs(got[k] - want) / fmax(1.0, fabs(want)));
+    }
+  }
+  printf("%-24s %.1e from the table, to %.1f digits trusted\n", name, worst, entry.digits_q);
+  assert_true(worst <= pow(10.0, -entry.digits_q));
+}
+
+static void formulas_are_as_exact_as_they_say(void **state)
+{
+  (void)state;
+  compare_with_table("pendulum", A01_PENDULUM_SAMPLES, A01_PENDULUM_T, A01_PENDULUM_Q[0],
+                     A01_PENDULUM_WIDTH);
+  compare_with_table("pendulum_sundials", SUNDIALS_PENDULUM_SAMPLES, SUNDIALS_PENDULUM_T,
+                     SUNDIALS_PENDULUM_Q[0], SUNDIALS_PENDULUM_WIDTH);
+  compare_with_table("slider_crank_driven", SLIDER_CRANK_DRIVEN_SAMPLES, SLIDER_CRANK_DRIVEN_T,
+                     SLIDER_CRANK_DRIVEN_Q[0], SLIDER_CRANK_DRIVEN_WIDTH);
+}
+
+static void forty_windows_follow_their_equation(void **state)
+{
+  (void)state;
+  static double q[243];
+  const baum_catalog_setting windows = {"windows", 40};
+  const baum_catalog_choice choice = {"n_four_bar", &windows, 1};
+  for (int i = 0; i < N_FOUR_BAR_SAMPLES; i++) {
+    check(baum_catalog_reference(&choice, N_FOUR_BAR_T[i], q, NULL));
+    ASSERT_NEAR(q[2], N_FOUR_BAR_Q[i][0], 0.0, 1e-13); /* its digits */
+    ASSERT_NEAR(q[242], q[2], 0.0, 0.0);
+    ASSERT_NEAR(q[5], 0.0, 0.0, 0.0);
+  }
+}
+
+/* ---- formulas with other parameters against runs ---- */
+
+static void formulas_hold_for_other_parameters(void **state)
+{
+  (void)state;
+  static const baum_catalog_setting over[] = {
+    {"gravity", 3.0}, {"angle", 0.3}, {"speed", 9.0}, {"mass", 7.0}, {"length", 1.7}};
+  static const baum_catalog_setting up[] = {{"gravity", -3.0}, {"angle", 2.0}, {"length", 0.4}};
+  static const baum_catalog_setting short_rods[] = {
+    {"windows", 3},      {"angle", 2.0},        {"rate", 0.1},   {"length", 0.3},
+    {"crank_mass", 0.2}, {"coupler_mass", 3.0}, {"gravity", 1.0}};
+  static const baum_catalog_setting driven[] = {
+    {"crank", 0.2}, {"rod", 0.5}, {"eccentricity", -0.1}, {"angle", 2.0}, {"speed", -40.0}};
+  static const baum_catalog_choice choices[] = {{"pendulum", over, 5},
+                                                {"pendulum", up, 3},
+                                                {"pendulum_mebdf", over, 4},
+                                                {"n_four_bar", short_rods, 7},
+                                                {"slider_crank_driven", driven, 5}};
+  for (size_t i = 0; i < sizeof choices / sizeof choices[0]; i++) {
+    known k = know(&choices[i]);
+    baum_catalog_error error = run(&k, 1e-11);
+    double wanted = k.entry.smooth ? 1e-9 : 1e-7; /* as with the default parameters */
+    assert_true(error.q <= wanted && error.v <= wanted);
+    forget(&k);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(references_fulfil_the_constraints),
+    cmocka_unit_test(runs_begin_at_the_references_and_stay_there),
+    cmocka_unit_test(formulas_are_as_exact_as_they_say),
+    cmocka_unit_test(forty_windows_follow_their_equation),
+    cmocka_unit_test(formulas_hold_for_other_parameters),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
