@@ -17,7 +17,7 @@
 static const struct {
   int version;
   uint64_t list;
-} VERSIONS[] = {{2, 0x3956a242f9ee4941}};
+} VERSIONS[] = {{2, 0x3956a242f9ee4941}, {3, 0x3a778c64b5d2095}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 
