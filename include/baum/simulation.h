@@ -384,6 +384,15 @@ typedef struct baum_channel {
 BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
                                      int32_t count);
 
+/** Tell which multipliers are unique at the present state. Where rows are redundant, forces can be
+ *  shared between joints in more than one way: BAUM_LAMBDA, BAUM_JOINT_REACTION and
+ *  BAUM_DRIVE_EFFORT are then those of least norm in rows scaled by M.
+ *  @param[out] unique  (nc) per row, true where its multiplier has no choice
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
+ */
+BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique);
+
 /** Read channels at the present state.
  *  @param[in]  channels  (count)
  *  @param[out] row       (baum_channels_width())
@@ -443,8 +452,8 @@ typedef struct baum_counters {
                                 may be. */
   int64_t forced_steps;    /**< [-] of rk8 and dp5, taken over a singular pose whatever their error
                                 estimate. */
-  double energy_residual;  /**< [J] of the energy account at present, what the method itself has gained
-                                or lost; NaN without the option energy_account. */
+  double energy_residual;  /**< [J] of the energy account at present: gained or lost by the method
+                                itself; NaN without the option energy_account. */
 } baum_counters;
 
 /** Read the counters.

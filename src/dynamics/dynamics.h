@@ -228,6 +228,9 @@ baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 /* Names of the joints whose multipliers are not unique, into text. Likewise; then it is empty. */
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
+/* Which multipliers are unique (nc); all of them where no row has been dropped. Likewise. */
+baum_status baum_i_find_unique_multipliers(baum_workspace *workspace, bool *unique);
+
 /* ---- sizes of rows and states ---- */
 
 /* Factor on alpha and beta of a row. */

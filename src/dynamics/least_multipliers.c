@@ -93,7 +93,20 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
   return status;
 }
 
-/* ---- names ---- */
+/* ---- whose they are ---- */
+
+/* Part of a unit pattern in the null space above which multipliers are not unique; rounding is far below. */
+static const double SHARED = 1e-6;
+
+/* Where multipliers without a pattern have a null part, the null space reaches. */
+static baum_status find_reach(baum_workspace *w)
+{
+  baum_status status = factor(w);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    w->redundancy.part[i] = baum_i_golden(i + 1);
+  }
+  return status == BAUM_OK ? find_null_part(w) : status;
+}
 
 /* Largest part of a joint's rows. */
 static double part_of(const baum_workspace *w, const baum_i_joint *joint)
@@ -108,7 +121,7 @@ static void list_joints(const baum_workspace *w, char *text, size_t size)
   const baum_mechanism *m = w->mechanism;
   size_t used = 0;
   for (int j = 0; j < m->joint_count && used + 1 < size; j++) {
-    if (part_of(w, m->joints[j]) > 1e-6) {
+    if (part_of(w, m->joints[j]) > SHARED) {
       int wrote = snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "",
                            m->joints[j]->element.name);
       used += wrote > 0 ? (size_t)wrote : 0;
@@ -116,19 +129,22 @@ static void list_joints(const baum_workspace *w, char *text, size_t size)
   }
 }
 
-/* Where multipliers without a pattern have a null part, the null space reaches. */
 baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 {
   text[0] = '\0';
-  baum_status status = factor(w);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->redundancy.part[i] = baum_i_golden(i + 1);
-  }
-  if (status == BAUM_OK) {
-    status = find_null_part(w);
-  }
+  baum_status status = find_reach(w);
   if (status == BAUM_OK) {
     list_joints(w, text, size);
+  }
+  return status;
+}
+
+baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)
+{
+  bool any_shared = w->redundancy.count > 0;
+  baum_status status = any_shared ? find_reach(w) : BAUM_OK;
+  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
+    unique[i] = !any_shared || fabs(w->redundancy.part[i]) <= SHARED;
   }
   return status;
 }

@@ -323,3 +323,18 @@ baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel 
   }
   return baum_i_output(simulation, &simulation->state, channels, count, row);
 }
+
+baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique)
+{
+  if (!simulation || !unique) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_unique_multipliers: %s is NULL",
+                       simulation ? "unique" : "the simulation");
+  }
+  const baum_i_state *state = &simulation->state;
+  baum_workspace *w = simulation->workspace;
+  baum_status status = baum_i_reported_acceleration(w, state->t, state->q, state->v);
+  if (status == BAUM_OK) {
+    status = baum_i_find_unique_multipliers(w, unique);
+  }
+  return status;
+}

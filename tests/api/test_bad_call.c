@@ -379,12 +379,15 @@ static void calls_on_no_run_are_refused(void **state)
   const baum_channel channel = {.quantity = BAUM_Q};
   double numbers[4] = {0.0};
   char text[8];
+  bool unique = false;
   baum_counters counters;
   ASSERT_SAYS(baum_simulation_advance_to(NULL, 1.0), BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_step(NULL, 1), BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_set_state(NULL, 0.0, numbers, numbers), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_get(NULL, &channel, 1, numbers), BAUM_ERR_ARGUMENT,
+              "the simulation is NULL");
+  ASSERT_SAYS(baum_simulation_unique_multipliers(NULL, &unique), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_sample(NULL, numbers, 1, &channel, 1, numbers, NULL),
               BAUM_ERR_ARGUMENT, "the simulation is NULL");

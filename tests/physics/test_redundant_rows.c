@@ -153,6 +153,53 @@ static void motions_are_those_without_redundant_rows(void **state)
   }
 }
 
+/* ---- multipliers ---- */
+
+enum { PLAIN_ROWS = 8, ROWS = 10, FIRST_SHARED = 6 };
+
+static void read_multipliers(bool doubled, baum_solver solver, double *lambda, bool *unique)
+{
+  const model_parallelogram_data data = {
+    .which = MODEL_TWO_CRANKS, .angle = 1.0, .doubled = doubled};
+  const baum_channel channel = {.quantity = BAUM_LAMBDA};
+  baum_simulation_options options = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  model m;
+  options.integrator = baum_rk4();
+  options.step = 1e-3;
+  options.solver = solver;
+  must(model_parallelogram_build_of(&data, &m));
+  must(baum_simulation_create(m.mechanism, &options, &run));
+  must(baum_simulation_step(run, 10));
+  must(baum_simulation_get(run, &channel, 1, lambda));
+  must(baum_simulation_unique_multipliers(run, unique));
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
+/* A pin that is there twice shares its force, half and half; all others have theirs as before. */
+static void multipliers_that_are_not_unique_are_marked(void **state)
+{
+  (void)state;
+  for (int k = BAUM_SOLVER_AUTO; k <= BAUM_SOLVER_BLOCK; k++) {
+    double alone[PLAIN_ROWS];
+    double twice[ROWS];
+    bool unique[ROWS];
+    read_multipliers(false, (baum_solver)k, alone, unique);
+    for (int i = 0; i < PLAIN_ROWS; i++) {
+      assert_true(unique[i]);
+    }
+    read_multipliers(true, (baum_solver)k, twice, unique);
+    for (int i = 0; i < ROWS; i++) {
+      assert_true(unique[i] == (i < FIRST_SHARED));
+    }
+    for (int i = 0; i < PLAIN_ROWS; i++) {
+      double want = i < FIRST_SHARED ? alone[i] : 0.5 * alone[i];
+      assert_true(fabs(twice[i] - want) <= LIMIT * 100.0); /* forces are some 10 N */
+    }
+  }
+}
+
 /* ---- redundant for ever, or singular for a moment ---- */
 
 /* Rows of a pin that is there twice, 1e-10 off, are redundant; those that depend on others at a flat pose only are
@@ -255,6 +302,7 @@ int main(void)
     cmocka_unit_test(accelerations_are_those_without_redundant_rows),
     cmocka_unit_test(accelerations_are_those_of_quadruple_precision),
     cmocka_unit_test(motions_are_those_without_redundant_rows),
+    cmocka_unit_test(multipliers_that_are_not_unique_are_marked),
     cmocka_unit_test(permanent_and_momentary_are_told_apart_in_any_unit),
     cmocka_unit_test(a_run_may_start_next_to_a_singular_pose),
   };

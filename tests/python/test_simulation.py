@@ -358,6 +358,16 @@ class StepByStep(unittest.TestCase):
         np.testing.assert_array_equal(first.q[1], second.q[0])
         self.assertEqual(second["rod.reaction"].shape, (2, 3))
 
+    def test_multipliers_that_are_not_unique_are_marked(self):
+        m = baum.Mechanism()
+        m.planar_particle("bob", mass=1.0, position=(1, 0))
+        m.planar_particle("tail", mass=1.0, position=(2, 0))
+        for name, a, b in [("rod", "ground", "bob"), ("again", "ground", "bob"), ("end", "bob", "tail")]:
+            m.distance(name, a, b, point_a=(0, 0), point_b=(0, 0))
+        with warnings.catch_warnings(record=True):
+            s = m.freeze().simulation("rk4", step=1e-3)
+        self.assertEqual(s.unique_multipliers.tolist(), [False, False, True])
+
     def test_bad_counts_are_refused(self):
         s = rod_pendulum().simulation("rk4", step=1e-3)
         self.assertRaises(TypeError, s.step, 1.5)

@@ -963,6 +963,7 @@ PROTOTYPES = {
     "baum_simulation_q": (c_void_p, [c_void_p]),
     "baum_simulation_v": (c_void_p, [c_void_p]),
     "baum_channels_width": (c_int32, [c_void_p, POINTER(baum_channel), c_int32]),
+    "baum_simulation_unique_multipliers": (c_int, [c_void_p, POINTER(c_bool)]),
     "baum_simulation_get": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_void_p]),
     "baum_simulation_sample": (c_int, [
         c_void_p, c_void_p, c_int64, POINTER(baum_channel), c_int32, c_void_p, POINTER(c_int64),

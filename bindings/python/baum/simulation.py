@@ -399,6 +399,13 @@ class Simulation:
         return self._layouts[key]
 
     @property
+    def unique_multipliers(self):
+        """Which multipliers have no choice at the present state, one bool per constraint row."""
+        unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
+        self._call(lib.baum_simulation_unique_multipliers, unique)
+        return np.array(unique, dtype=bool)
+
+    @property
     def energy_account(self):
         """Where the energy has come from; with the option energy_account=True."""
         struct = _abi.baum_energy_account()
