@@ -1,0 +1,341 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a run promises, and whether it has kept it.
+ *
+ * Errors are the largest of positions at the end, of the length scale or in radians. Where steps are
+ * chosen, the error of each, a mean over all coordinates, is estimated and held at rtol; later it grows
+ * as neighbouring motions part. So the promise is
+ *
+ *   CONSTANT x rtol x steps x growth
+ *
+ * with the growth of the oracle's own neighbours, and a constant for what is between the mean and the
+ * largest, and between an error and its estimate. With a fixed step it is what a method of order p leaves,
+ *
+ *   CONSTANT x rate T x (rate h)^p x growth
+ *
+ * for the fastest rate of the motion: error constants of all methods here are below 1, and derivatives of
+ * a motion are a few times powers of that rate. Both have the rounding of a double for each step added.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#include "cell.h"
+
+enum { LOOKS = 8 };
+
+static const double CONSTANT = 10.0;
+/* An error above this share of the mechanism is no answer, whatever a step of that order may leave. */
+static const double WORTHLESS = 0.05;
+static const double ROUNDING = 1e-15;
+static const double PI = 3.141592653589793;
+
+const char *outcome_name(outcome o)
+{
+  static const char *const NAMES[OUTCOMES] = {"met", "refused", "stopped", "warned",
+                                              "silent_wrong"};
+  return NAMES[o];
+}
+
+/* ---- the true motion ---- */
+
+typedef struct truth {
+  double rate;   /* [rad/s] fastest */
+  double span;   /* [s] */
+  double growth; /* [-] of what is between neighbours */
+  oracle_state end;
+  bool known;
+} truth;
+
+static double rate_at(const oracle *o, oracle_state y)
+{
+  return (double)fmaxl(fabsl(y.v), sqrtl(fabsl(o->acceleration(o->scene, y.x, y.v))));
+}
+
+/* Largest distance between poses, lengths divided by `scale`. */
+static double distance(const scene *s, long double x, long double y, double scale)
+{
+  double most = 0.0;
+  int bodies = scene_bodies(s);
+  for (int k = 0; k<bodies; k += bodies> 6 ? bodies / 3 : 1) {
+    long double a[3];
+    long double b[3];
+    scene_pose(s, k, x, a);
+    scene_pose(s, k, y, b);
+    for (int i = 0; i < scene_width(s); i++) {
+      most = fmax(most, fabs((double)(a[i] - b[i])) / (i < 2 ? scale : 1.0));
+    }
+  }
+  return most;
+}
+
+/* A stiff spring or damper has a rate of its own, which is not seen in the acceleration at rest. */
+static double stiff_rate(const scene *s)
+{
+  oracle o = {scene_acceleration, s};
+  long double slope =
+    o.acceleration(s, s->angle, s->rate) - o.acceleration(s, s->angle + 1e-3L, s->rate);
+  return slope > 0 ? sqrt((double)slope / 1e-3) : 0.0;
+}
+
+/* Fastest rate over some radians, which makes the unit of time of a cell. */
+static double find_rate(const scene *s)
+{
+  oracle o = {scene_acceleration, s};
+  oracle_state y = {s->angle, s->rate};
+  double rate = fmax(rate_at(&o, y), stiff_rate(s));
+  for (int k = 0; k < LOOKS; k++) {
+    if (!oracle_advance(&o, 1.0L / rate, &y)) {
+      break;
+    }
+    rate = fmax(rate, rate_at(&o, y));
+  }
+  return rate;
+}
+
+static truth find_truth(const scene *s, double span, double rate, double scale)
+{
+  const long double nudge = 1e-6L;
+  oracle o = {scene_acceleration, s};
+  truth out = {.rate = rate, .span = span, .growth = 1.0, .known = true};
+  oracle_state y = {s->angle, s->rate};
+  oracle_state beside = {y.x + nudge, y.v};
+  oracle_state faster = {y.x, y.v + nudge * rate};
+  for (int k = 0; k < LOOKS && out.known; k++) {
+    long double part = (long double)span / LOOKS;
+    out.known = oracle_advance(&o, part, &y) && oracle_advance(&o, part, &beside) &&
+                oracle_advance(&o, part, &faster);
+    double apart = fmax(distance(s, y.x, beside.x, scale), distance(s, y.x, faster.x, scale));
+    out.growth = fmax(out.growth, apart / (double)nudge);
+    out.rate = fmax(out.rate, rate_at(&o, y));
+  }
+  out.end = y;
+  return out;
+}
+
+/* ---- a run ---- */
+
+typedef struct trial {
+  scene scene; /* as it has begun */
+  model m;
+  baum_simulation *run;
+  baum_status status;
+  bool began;
+  int64_t warnings;
+  int64_t steps;
+} trial;
+
+static baum_simulation_options options_of(const cell *c, double period)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  double second = c->scene.units.time;
+  o.integrator = c->way->integrator();
+  o.formulation = c->way->formulation;
+  o.step = c->way->fixed ? c->step * period * second : (double)NAN;
+  o.rtol = c->way->fixed || o.integrator == baum_kinematics() ? (double)NAN : c->rtol;
+  o.start_time = c->scene.start * second;
+  o.start = c->begin;
+  o.max_steps = c->most;
+  if (!isnan(c->gain)) {
+    double gain = c->gain / second;
+    o.gains = baum_gains_fixed(gain, gain);
+  }
+  return o;
+}
+
+static void note(grade *out, const char *sentence)
+{
+  (void)snprintf(out->sentence, sizeof out->sentence, "%s", sentence);
+}
+
+static void count(trial *t)
+{
+  baum_counters c;
+  if (baum_simulation_counters(t->run, &c, sizeof c) == BAUM_OK) {
+    t->warnings = c.warnings;
+    t->steps = c.steps;
+  }
+}
+
+/* Where a body was drawn out of place, the motion begins with the pose that was assembled. */
+static void take_start(trial *t)
+{
+  scene *s = &t->scene;
+  const double *q = baum_simulation_q(t->run);
+  const double *v = baum_simulation_v(t->run);
+  bool bob = s->kind == SCENE_BOB;
+  s->angle = bob ? atan2(q[1], q[0]) : q[2];
+  s->rate =
+    (bob ? (v[1] * q[0] - v[0] * q[1]) / (q[0] * q[0] + q[1] * q[1]) : v[2]) * s->units.time;
+}
+
+static trial try_cell(const cell *c, const baum_simulation_options *o, double span, grade *out)
+{
+  trial t = {.scene = c->scene, .status = scene_build(&c->scene, &t.m)};
+  if (t.status == BAUM_OK) {
+    t.status = baum_simulation_create(t.m.mechanism, o, &t.run);
+  }
+  t.began = t.status == BAUM_OK;
+  if (t.began) {
+    t.scene.angle = scene_begin(&c->scene);
+    if (c->scene.violation != 0.0) {
+      take_start(&t);
+    }
+    t.status = baum_simulation_advance_to(t.run, o->start_time + span * c->scene.units.time);
+    count(&t);
+  }
+  note(out, t.status == BAUM_OK ? "" : baum_message());
+  return t;
+}
+
+static void end_trial(trial *t)
+{
+  baum_simulation_destroy(t->run);
+  model_destroy(&t->m);
+}
+
+/* ---- grading ---- */
+
+static double error_of(const cell *c, const trial *t, oracle_state end, double scale)
+{
+  const scene *s = &c->scene;
+  const double *q = baum_simulation_q(t->run);
+  int width = scene_width(s);
+  double most = 0.0;
+  for (int k = 0; k < scene_bodies(s); k++) {
+    long double pose[3];
+    scene_pose(s, k, end.x, pose);
+    for (int i = 0; i < width; i++) {
+      double unit = i < 2 ? s->units.length : 1.0;
+      double error = fabs((double)(q[width * k + i] / unit - pose[i])) / (i < 2 ? scale : 1.0);
+      most = error > most || isnan(error) ? error : most;
+    }
+  }
+  return most;
+}
+
+static double promise_of(const cell *c, const truth *true_, int64_t steps, double scale)
+{
+  double parts = fmax(scale, scene_bodies(&c->scene)); /* each adds its own, and bodies have 1 m */
+  double rounding = ROUNDING * (double)(steps + 100) * parts;
+  double method = CONSTANT * c->rtol * (double)steps;
+  if (c->way->fixed) {
+    double h = c->step * 2.0 * PI; /* times the rate */
+    method = fmin(CONSTANT * true_->rate * true_->span * pow(h, c->way->order), WORTHLESS);
+  }
+  return fmin((method + rounding + c->share) * true_->growth, WORTHLESS);
+}
+
+static double seconds(void)
+{
+  return (double)clock() / CLOCKS_PER_SEC;
+}
+
+/* The scale in metres. */
+static double scale_of(const cell *c, const trial *t)
+{
+  double scale = 1.0;
+  (void)baum_mechanism_get_scale(t->m.mechanism, &scale);
+  return scale / c->scene.units.length;
+}
+
+/* How far the run is off, and how far it may be. */
+static void measure(const cell *c, const trial *t, double span, double rate, grade *out)
+{
+  double scale = scale_of(c, t);
+  double start = c->scene.start;
+  truth true_ = find_truth(&t->scene, start + span - start, rate, scale); /* as doubles have it */
+  out->error = error_of(c, t, true_.end, scale);
+  out->promise = true_.known ? promise_of(c, &true_, t->steps, scale) : (double)NAN;
+}
+
+/* Warnings that leave the motion in doubt; others say what is true however right it is. */
+static bool doubts_motion(const trial *t)
+{
+  static const char *const OTHERS[] = {"multipliers and reactions of these joints are not unique",
+                                       "the motion goes on smoothly behind it",
+                                       "marginal: some violations stay"};
+  for (int64_t k = 0; k < t->warnings; k++) {
+    char text[400];
+    (void)baum_simulation_warning(t->run, k, text, sizeof text);
+    bool other = false;
+    for (size_t i = 0; i < sizeof OTHERS / sizeof OTHERS[0]; i++) {
+      other |= strstr(text, OTHERS[i]) != NULL;
+    }
+    if (!other) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static outcome judge(const trial *t, const grade *g)
+{
+  if (!t->began) {
+    return REFUSED;
+  }
+  if (t->status < BAUM_OK) {
+    return STOPPED;
+  }
+  if (doubts_motion(t)) {
+    return WARNED;
+  }
+  return g->error <= g->promise ? MET : WRONG;
+}
+
+/* Below this distance a pose is singular for doubles. */
+static const double SINGULAR = 1e-10;
+
+/* A start that is neither singular nor inconsistent should not be refused; gains that are called
+ * unstable should not do well. */
+static bool refused_in_vain(const cell *c, baum_simulation_options *o, double span, double rate,
+                            baum_status status)
+{
+  const scene *s = &c->scene;
+  if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_INCONSISTENT) {
+    return s->gap > SINGULAR && s->violation == 0.0 && s->off == 0.0;
+  }
+  if (status != BAUM_ERR_UNSTABLE) {
+    return false;
+  }
+  grade again = {.error = (double)NAN};
+  o->allow_unstable = true;
+  trial t = try_cell(c, o, span, &again);
+  if (t.began && t.status >= BAUM_OK) {
+    measure(c, &t, span, rate, &again);
+  }
+  end_trial(&t);
+  return again.error <= again.promise;
+}
+
+static double span_of(const cell *c, double period)
+{
+  if (!c->way->fixed) {
+    return c->periods * period;
+  }
+  return fmax(1.0, fmin(round(c->periods / c->step), (double)c->most)) * c->step * period;
+}
+
+grade cell_grade(const cell *c)
+{
+  grade out = {.error = (double)NAN, .promise = (double)NAN};
+  double begin = seconds();
+  double rate = find_rate(&c->scene);
+  double period = 2.0 * PI / rate;
+  double span = span_of(c, period);
+  baum_simulation_options o = options_of(c, period);
+  double ran = seconds();
+  trial t = try_cell(c, &o, span, &out);
+  out.seconds = seconds() - ran;
+  out.steps = t.steps;
+  out.status = t.status;
+  if (t.began && t.status >= BAUM_OK) {
+    measure(c, &t, span, rate, &out);
+  }
+  out.all_seconds = seconds() - begin;
+  out.outcome = judge(&t, &out);
+  out.false_alarm = (out.outcome == WARNED && out.error <= out.promise) ||
+                    (out.outcome == REFUSED && refused_in_vain(c, &o, span, rate, t.status));
+  end_trial(&t);
+  return out;
+}

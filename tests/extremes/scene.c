@@ -1,0 +1,402 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* With the pose p(x) of all coordinates as a function of one angle, and masses m,
+ *
+ *   (sum m p'^2) x'' = sum (G p' - m p' p'' x'^2) - k (x - x_r) - d x'
+ *
+ * where G is gravity's force. Bodies that move alike are taken once, with their number.
+ */
+#include "scene.h"
+
+#include <math.h>
+
+#include "builder.h"
+
+static const long double CRANK = 1.0L;
+static const long double COUPLER = 2.0L;
+static const long double ROCKER = 2.2L;
+static const long double GROUND = 2.5L;
+static const double RELAXED = 0.1; /* [rad] behind the start */
+
+scene scene_of(scene_kind kind)
+{
+  return (scene){.kind = kind,
+                 .count = kind == SCENE_CHAIN ? 3 : 2,
+                 .angle = kind == SCENE_FOUR_BAR  ? 1.0
+                          : kind == SCENE_WINDOWS ? -1.0 /* hangs, and does not reach flat poses */
+                                                  : 0.3,
+                 .rate = kind == SCENE_CHAIN ? 3.0 : 1.0,
+                 .gravity = kind == SCENE_CHAIN ? 0.0 : 9.81,
+                 .ratio = 1.0,
+                 .rod = 2.0,
+                 .gap = 1.0,
+                 .units = {1.0, 1.0, 1.0}};
+}
+
+const char *scene_name(scene_kind kind)
+{
+  static const char *const NAMES[SCENE_KINDS] = {"bob",      "pendulum", "crank",
+                                                 "four_bar", "windows",  "chain"};
+  return NAMES[kind];
+}
+
+int scene_width(const scene *s)
+{
+  return s->kind == SCENE_BOB ? 2 : 3;
+}
+
+int scene_bodies(const scene *s)
+{
+  switch (s->kind) {
+  case SCENE_CRANK:
+  case SCENE_FOUR_BAR: return 3;
+  case SCENE_WINDOWS: return 2 * s->count + 1;
+  case SCENE_CHAIN: return s->count;
+  case SCENE_BOB:
+  case SCENE_PENDULUM:
+  case SCENE_KINDS:
+  default: return 1;
+  }
+}
+
+/* ---- geometry: a point or an angle with its first and second derivative ---- */
+
+typedef struct curve {
+  long double at[3]; /* x, y, angle */
+  long double d[3];
+  long double dd[3];
+} curve;
+
+/* An angle as a function of x. */
+typedef struct turn {
+  long double at;
+  long double d;
+  long double dd;
+} turn;
+
+/* A body whose centre is `length` from `from` in the direction of the angle. */
+static curve along(curve from, turn a, long double length)
+{
+  long double c = length * cosl(a.at);
+  long double s = length * sinl(a.at);
+  return (curve){
+    {from.at[0] + c, from.at[1] + s, a.at},
+    {from.d[0] - s * a.d, from.d[1] + c * a.d, a.d},
+    {from.dd[0] - s * a.dd - c * a.d * a.d, from.dd[1] + c * a.dd - s * a.d * a.d, a.dd}};
+}
+
+/* The same point on a body that does not turn. */
+static curve level(curve p)
+{
+  p.at[2] = p.d[2] = p.dd[2] = 0;
+  return p;
+}
+
+static turn rod_of_crank(const scene *s, long double x)
+{
+  long double rod = s->rod;
+  turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
+  long double c = cosl(a.at);
+  a.d = -CRANK * cosl(x) / (rod * c);
+  a.dd = (CRANK * sinl(x) / rod + sinl(a.at) * a.d * a.d) / c;
+  return a;
+}
+
+/* Coupler and rocker from crank e(x) + coupler e(a) = ground + rocker e(b), e a unit vector. */
+static void close_four_bar(long double x, turn *a, turn *b)
+{
+  long double r[2] = {GROUND - CRANK * cosl(x), -CRANK * sinl(x)};
+  long double square = r[0] * r[0] + r[1] * r[1];
+  long double side = (COUPLER * COUPLER + square - ROCKER * ROCKER) / (2 * COUPLER * sqrtl(square));
+  a->at = atan2l(r[1], r[0]) + acosl(side);
+  b->at = atan2l(COUPLER * sinl(a->at) - r[1], COUPLER * cosl(a->at) - r[0]);
+  long double ca = COUPLER * cosl(a->at);
+  long double sa = COUPLER * sinl(a->at);
+  long double cb = ROCKER * cosl(b->at);
+  long double sb = ROCKER * sinl(b->at);
+  long double det = sa * cb - ca * sb; /* of -sa d_a + sb d_b = f, ca d_a - cb d_b = g */
+  long double f = CRANK * sinl(x);
+  long double g = -CRANK * cosl(x);
+  a->d = (-cb * f - sb * g) / det;
+  b->d = (-sa * g - ca * f) / det;
+  f = CRANK * cosl(x) + ca * a->d * a->d - cb * b->d * b->d;
+  g = CRANK * sinl(x) + sa * a->d * a->d - sb * b->d * b->d;
+  a->dd = (-cb * f - sb * g) / det;
+  b->dd = (-sa * g - ca * f) / det;
+}
+
+static curve pose_of(const scene *s, int body, long double x)
+{
+  const curve origin = {0};
+  curve left = origin;
+  turn first = {x, 1, 0};
+  curve tip = along(origin, first, CRANK);
+  turn a = {0};
+  turn b = {0};
+  switch (s->kind) {
+  case SCENE_BOB: return tip;
+  case SCENE_CRANK: a = rod_of_crank(s, x); break;
+  case SCENE_FOUR_BAR:
+    close_four_bar(x, &a, &b);
+    if (body == 2) {
+      return along((curve){{GROUND}, {0}, {0}}, b, ROCKER / 2);
+    }
+    break;
+  case SCENE_WINDOWS:
+    left.at[0] = (long double)(body / 2);
+    tip.at[0] += left.at[0] + 0.5L;
+    return body % 2 ? level(tip) : along(left, first, CRANK / 2);
+  case SCENE_CHAIN: return along(origin, first, (body + 0.5L) / s->count);
+  case SCENE_PENDULUM:
+  case SCENE_KINDS:
+  default: break;
+  }
+  long double length = s->kind == SCENE_CRANK ? (long double)s->rod : COUPLER;
+  return body == 0   ? along(origin, first, CRANK / 2)
+         : body == 1 ? along(tip, a, length / 2)
+                     : level(along(tip, a, length));
+}
+
+void scene_pose(const scene *s, int body, long double x, long double pose[3])
+{
+  curve p = pose_of(s, body, x);
+  pose[0] = p.at[0];
+  pose[1] = p.at[1];
+  pose[2] = p.at[2];
+}
+
+/* ---- masses ---- */
+
+static double length_of(const scene *s, int body)
+{
+  if (s->kind == SCENE_CRANK) {
+    return body == 0 ? (double)CRANK : body == 1 ? s->rod : 0.1;
+  }
+  if (s->kind == SCENE_FOUR_BAR) {
+    return (double)(body == 0 ? CRANK : body == 1 ? COUPLER : ROCKER);
+  }
+  return s->kind == SCENE_CHAIN ? 1.0 / s->count : 1.0;
+}
+
+static double mass_of(const scene *s, int body)
+{
+  double mass = s->kind == SCENE_CHAIN ? 1.0 / s->count : 1.0;
+  bool last = s->kind == SCENE_WINDOWS ? body % 2 == 1 : body == scene_bodies(s) - 1;
+  return last && s->kind != SCENE_PENDULUM ? mass * s->ratio : mass;
+}
+
+/* The one body of a pendulum is all its mass; its ratio is that of its inertia to a uniform rod's. */
+static double inertia_of(const scene *s, int body)
+{
+  double length = length_of(s, body);
+  double mass = mass_of(s, body);
+  double ratio = s->kind == SCENE_PENDULUM ? s->ratio : 1.0;
+  return s->kind == SCENE_BOB ? 0.0 : ratio * mass * length * length / 12.0;
+}
+
+/* ---- the equation ---- */
+
+typedef struct sums {
+  long double mass;
+  long double force;
+} sums;
+
+static sums sum_body(const scene *s, int body, long double x, long double v)
+{
+  curve p = pose_of(s, body, x);
+  long double m[3] = {mass_of(s, body), mass_of(s, body), inertia_of(s, body)};
+  sums out = {0};
+  for (int k = 0; k < 3; k++) {
+    out.mass += m[k] * p.d[k] * p.d[k];
+    out.force -= m[k] * p.d[k] * p.dd[k] * v * v;
+  }
+  out.force -= m[1] * s->gravity * p.d[1];
+  return out;
+}
+
+static sums sum_bodies(const scene *s, long double x, long double v)
+{
+  sums all = {0};
+  int kinds = s->kind == SCENE_WINDOWS ? 2 : scene_bodies(s);
+  for (int k = 0; k < kinds; k++) {
+    long double alike = s->kind == SCENE_WINDOWS ? s->count + (k == 0) : 1;
+    sums one = sum_body(s, k, x, v);
+    all.mass += alike * one.mass;
+    all.force += alike * one.force;
+  }
+  return all;
+}
+
+long double scene_acceleration(const void *scene_, long double x, long double v)
+{
+  const scene *s = scene_;
+  if (s->kind == SCENE_CHAIN || s->driven) {
+    return 0;
+  }
+  sums all = sum_bodies(s, x, v);
+  all.force -= s->stiffness * (x - (s->angle - RELAXED)) + s->damping * v;
+  return all.force / all.mass;
+}
+
+/* ---- building ---- */
+
+static void draw(const scene *s, int body, double position[2], double velocity[2], double turn_[2])
+{
+  curve p = pose_of(s, body, s->angle);
+  bool aside = s->violation != 0.0 && body == scene_bodies(s) - 1;
+  for (int k = 0; k < 2; k++) {
+    position[k] = (double)p.at[k] + (aside ? s->violation * (k == 0 ? 0.6 : 0.8) : 0.0);
+    velocity[k] = aside || s->driven ? (double)NAN : (double)(p.d[k] * s->rate);
+  }
+  turn_[0] = (double)p.at[2];
+  turn_[1] = aside || s->driven ? (double)NAN : (double)(p.d[2] * s->rate);
+}
+
+static baum_body_id add_body(builder *build, const scene *s, int body)
+{
+  double turn_[2];
+  if (s->kind == SCENE_BOB) {
+    baum_planar_particle_def bob = baum_planar_particle_def_default();
+    draw(s, body, bob.position, bob.velocity, turn_);
+    bob.mass = mass_of(s, body);
+    return build_particle(build, &bob);
+  }
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.mass = mass_of(s, body);
+  def.inertia = inertia_of(s, body);
+  draw(s, body, def.position, def.velocity, turn_);
+  def.angle = turn_[0];
+  def.angular_velocity = turn_[1];
+  def.held = body == 0 && scene_bodies(s) > 1 && !s->driven;
+  return build_body(build, &def);
+}
+
+static void add_rod(builder *build, baum_body_id bob, double length)
+{
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  rod.body_a = BAUM_GROUND;
+  rod.body_b = bob;
+  rod.point_a[0] = rod.point_a[1] = rod.point_b[0] = rod.point_b[1] = 0.0;
+  rod.length = length * build_unit(build, 1, 0, 0);
+  if (build_fine(build)) {
+    baum_joint_id id = {0};
+    baum_status status = baum_mechanism_add_planar_distance(build->out->mechanism, &rod, &id);
+    build_joint(build, status, id);
+  }
+}
+
+static void pin(builder *build, baum_body_id a, double xa, baum_body_id b, double xb)
+{
+  build_pin(build, NULL, (place){a, {xa, 0.0}}, (place){b, {xb, 0.0}});
+}
+
+static void pin_crank(builder *build, const scene *s, const baum_body_id *b)
+{
+  pin(build, b[0], 0.5, b[1], -s->rod / 2);
+  pin(build, b[1], s->rod / 2, b[2], 0.0);
+  build_guide(build, "guide", b[2], 0.0, 0.0);
+  for (int k = 0; k < s->spare; k++) {
+    build_guide(build, NULL, b[2], (k + 1) * s->off, 0.1);
+  }
+}
+
+static void pin_four_bar(builder *build, const baum_body_id *b)
+{
+  pin(build, b[0], 0.5, b[1], -(double)COUPLER / 2);
+  pin(build, BAUM_GROUND, (double)GROUND, b[2], -(double)ROCKER / 2);
+  pin(build, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
+}
+
+/* Body k hangs on the one before it. */
+static void hang(builder *build, const scene *s, baum_body_id before, baum_body_id body, int k)
+{
+  if (s->kind == SCENE_CHAIN) {
+    pin(build, before, k == 0 ? 0.0 : 0.5 / s->count, body, -0.5 / s->count);
+  } else if (s->kind == SCENE_WINDOWS && k % 2 == 0) {
+    pin(build, BAUM_GROUND, k / 2, body, -0.5);
+    if (k > 0) {
+      pin(build, body, 0.5, before, 0.5);
+    }
+  } else if (s->kind == SCENE_WINDOWS) {
+    pin(build, before, 0.5, body, -0.5);
+  } else if (s->kind == SCENE_BOB) {
+    add_rod(build, body, 1.0);
+  } else if (k == 0) {
+    pin(build, BAUM_GROUND, 0.0, body, -0.5);
+  }
+}
+
+static double motor_offset(const scene *s)
+{
+  return s->angle - s->rate * s->start;
+}
+
+double scene_begin(const scene *s)
+{
+  return s->driven ? (double)(motor_offset(s) + (long double)s->rate * s->start) : s->angle;
+}
+
+static void drive(builder *build, const scene *s)
+{
+  if (!s->driven || !build_fine(build)) {
+    return;
+  }
+  baum_driver_def def = baum_driver_def_default();
+  def.joint = build->out->joints[0];
+  def.rate = s->rate * build_unit(build, 0, 0, -1);
+  def.value = motor_offset(s);
+  baum_joint_id id = {0};
+  baum_status status = baum_mechanism_add_driver(build->out->mechanism, &def, &id);
+  build_joint(build, status, id);
+}
+
+static void add_spares(builder *build, const scene *s, baum_body_id body)
+{
+  for (int k = 0; k < s->spare; k++) {
+    if (s->kind == SCENE_BOB) {
+      add_rod(build, body, 1.0 + (k + 1) * s->off);
+    } else {
+      pin(build, BAUM_GROUND, (k + 1) * s->off, body, -0.5);
+    }
+  }
+}
+
+static void add_spring(builder *build, const scene *s, baum_body_id body)
+{
+  if ((s->stiffness == 0.0 && s->damping == 0.0) || !build_fine(build)) {
+    return;
+  }
+  baum_planar_torsion_spring_def def = baum_planar_torsion_spring_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = body;
+  def.stiffness = s->stiffness * build_unit(build, 2, 1, -2);
+  def.damping = s->damping * build_unit(build, 2, 1, -1);
+  def.free_angle = s->angle - RELAXED;
+  build_force(build, baum_mechanism_add_planar_torsion_spring(build->out->mechanism, &def, NULL));
+}
+
+baum_status scene_build(const scene *s, model *out)
+{
+  builder build = build_begin_in(&s->units, out);
+  build_gravity(&build, s->gravity);
+  baum_body_id first[3] = {BAUM_GROUND, BAUM_GROUND, BAUM_GROUND};
+  baum_body_id before = BAUM_GROUND;
+  for (int k = 0; k < scene_bodies(s); k++) {
+    baum_body_id body = add_body(&build, s, k);
+    hang(&build, s, before, body, k);
+    before = body;
+    if (k < 3) {
+      first[k] = body;
+    }
+  }
+  if (s->kind == SCENE_CRANK) {
+    pin_crank(&build, s, first);
+  } else if (s->kind == SCENE_FOUR_BAR) {
+    pin_four_bar(&build, first);
+  }
+  if (s->kind != SCENE_CRANK) {
+    add_spares(&build, s, first[0]);
+  }
+  drive(&build, s);
+  add_spring(&build, s, first[0]);
+  return build_finish(&build);
+}
