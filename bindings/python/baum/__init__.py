@@ -28,6 +28,7 @@ from .integrators import (
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
+from .studies import Recommendation, Study, StudyMethod, StudyReference, StudyRow, study
 from .workspace import Workspace
 
 __version__ = _abi.VERSION
@@ -49,13 +50,14 @@ def has(feature):
 
 __all__ = [
     "Amplification", "Body", "Channel", "Counters", "EnergyAccount", "Error", "Event", "Force", "Gains",
-    "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Report", "Retry", "Run", "Simulation",
-    "Sizes", "Status", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat", "energy",
-    "energy_account",
+    "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Recommendation",
+    "Report", "Retry", "Run", "Simulation", "Sizes", "Status", "Study", "StudyMethod",
+    "StudyReference", "StudyRow", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat",
+    "energy", "energy_account",
     "fixed", "frequency", "has", "integrators", "lambda_", "library", "library_version",
     "phi", "phi_rate",
     "q", "scaled", "stability", "stability_best", "stability_best_on_ray",
     "stability_deadbeat", "stability_grid", "stability_intervals", "stability_limit",
     "stability_nearest", "stability_outline", "stability_statement",
-    "taylor", "v",
+    "study", "taylor", "v",
 ]

@@ -1,0 +1,383 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Speed against accuracy: many runs of one mechanism, what each costs, and which one to take."""
+
+import ctypes
+import os
+from collections import namedtuple
+
+import numpy as np
+
+from . import _abi, _calls
+from ._lib import default, lib
+from ._values import address, integer, number, numbers, vector
+from .channels import Channel
+from .errors import Status, as_status, warn
+from .gains import Gains
+from .integrators import FORMULATIONS, lookup, names
+from .simulation import SOLVERS, STARTS, _row_gains, make_options
+
+COSTS = names(_abi.baum_study_cost, "BAUM_STUDY_")
+WHY_SIZE = 2048
+
+
+def _swap(words):
+    return {value: word for word, value in words.items()}
+
+
+def _record(name, struct, doc):
+    made = namedtuple(name, [field for field, _ in struct._fields_[1:]])
+    made.__doc__ = doc
+    return made
+
+
+StudyRow = _record(
+    "StudyRow",
+    _abi.baum_study_row,
+    """What a setting costs and how exact it is; see baum_study_row in study.h. Integrator,
+formulation, gains and state are words or objects of this package, NaN is not known.""",
+)
+StudyMethod = _record(
+    "StudyMethod",
+    _abi.baum_study_method,
+    """Rows with the same integrator, formulation and gains; see baum_study_method in study.h.""",
+)
+StudyReference = _record(
+    "StudyReference",
+    _abi.baum_study_reference,
+    """How far the reference of a study can be trusted; see baum_study_reference in study.h.""",
+)
+
+
+class Recommendation(dict):
+    """Keyword options for Mechanism.simulate() and simulation(): m.simulate(t, **best). `why` is a
+    sentence with what was measured."""
+
+    def __init__(self, options, why):
+        super().__init__(options)
+        self.why = why
+
+
+# ---- from the library ----------------------------------------------------------------------------
+
+GAINS = {
+    "fixed": ("alpha", "beta"),
+    "scaled": ("alpha_h", "beta2_h2"),
+    "taylor": (),
+    "frequency": ("hertz", "damping_ratio"),
+    "deadbeat": (),
+    "auto": (),
+    "best_damping": (),
+}
+RULES = _swap(names(_abi.baum_gain_rule, "BAUM_GAINS_"))
+
+
+def _gains(struct):
+    """The Gains of a struct; None for the rule of the integrator."""
+    rule = RULES[struct.rule]
+    if rule == "default":
+        return None
+    return Gains(rule, **dict(zip(GAINS[rule], struct.value)))
+
+
+def _value(name, value):
+    """A field of a struct as this package has it."""
+    if isinstance(value, bytes):
+        return value.decode(errors="replace")
+    if name == "integrator":
+        return lib.baum_integrator_name(value).decode()
+    if name == "formulation":
+        return _swap(FORMULATIONS)[value]
+    if name == "gains":
+        return _gains(value)
+    if name == "state":
+        return lib.baum_study_state_name(value).decode()
+    if name == "origin":
+        return _swap(names(_abi.baum_study_origin, "BAUM_STUDY_"))[value]
+    return as_status(value) if name == "status" else value
+
+
+def _cost(word):
+    if word not in COSTS:
+        raise ValueError(f"no cost {word!r}; there are: {', '.join(COSTS)}")
+    return COSTS[word]
+
+
+# ---- studies -------------------------------------------------------------------------------------
+
+
+class Study:
+    """Many runs of one frozen mechanism from t0 to t1 [s].
+
+        best = baum.study(m, 0, 2).run().recommend(1e-6)
+        print(best.why)
+        run = m.simulate(t, **best)
+
+    error: channels or their names whose largest difference from the reference, over `unit`, is what
+        error means; left out all positions, lengths by the scale and angles in radians.
+    reference: (times, q), (times, q, v) or (times, q, v, lambda_) with a sample a line, or
+        solution(t), which returns (q, v) or (q, v, lambda_), in place of the study's own; `digits`
+        says how far it can be trusted.
+    samples, repeats, row_limit [s of CPU time], time_budget [s of wall time], energy_account,
+        rehearse, file: see baum_study_options in study.h. threads: left out as many as there are
+        processors, but one for a mechanism with functions of Python.
+    progress(done, total) is called after rows and cancels when it returns something true.
+    """
+
+    def __init__(self, mechanism, t0, t1, *, error=None, unit=1.0, reference=None, solution=None,
+                 digits=None, progress=None, threads=None, file=None, **options):
+        self.mechanism = mechanism
+        out = ctypes.c_void_p()
+        _calls.make(lib.baum_study_create, mechanism.handle, number(t0, "t0"), number(t1, "t1"),
+                    ctypes.byref(out))
+        self._owner = _calls.Handle(out.value, lib.baum_study_destroy, "study")
+        self._error = None
+        self._keep = []
+        if threads is None:
+            threads = 1 if mechanism.has_python else os.cpu_count() or 1
+        self._set_options(progress, file, dict(options, threads=threads))
+        if error is not None:
+            self._set_error(error, unit)
+        if reference is not None:
+            self._set_reference(reference, number(digits, "digits"))
+        if solution is not None:
+            self._set_solution(solution, number(digits, "digits"))
+
+    def __repr__(self):
+        return f"<study of {len(self)} rows>"
+
+    def __len__(self):
+        return lib.baum_study_row_count(self._owner._address)
+
+    # ---- what is studied -------------------------------------------------------------------------
+
+    def _set_options(self, progress, file, values):
+        struct = default(_abi.baum_study_options)
+        whole = {"samples", "threads", "repeats"}
+        for name, value in values.items():
+            if name not in whole | {"row_limit", "time_budget", "energy_account", "rehearse"}:
+                raise TypeError(f"a study has no option {name!r}")
+            if name in whole:
+                value = integer(value, name)
+            setattr(struct, name, value)
+        struct.file = None if file is None else os.fsencode(file)
+        if progress is not None:
+            struct.progress = self._hold(_abi.baum_study_progress_fn, self._call_progress(progress))
+        self._owner.call(lib.baum_study_set_options, ctypes.byref(struct))
+
+    def _hold(self, kind, function):
+        """A function of the library that lives as long as the study."""
+        self._keep.append(kind(function))
+        return self._keep[-1]
+
+    def _call_progress(self, progress):
+        def call(study, done, total, user):
+            try:
+                return int(bool(progress(done, total)))
+            except BaseException as error:
+                self._error = error
+                return 1
+
+        return call
+
+    def _set_error(self, error, unit):
+        error = [error] if isinstance(error, (str, Channel)) else error
+        structs = [self.mechanism.channel(channel).struct for channel in error]
+        channels = (_abi.baum_channel * len(structs))(*structs)
+        self._owner.call(lib.baum_study_set_error, channels, len(structs), number(unit, "unit"))
+
+    def _set_reference(self, reference, digits):
+        times, *parts = reference
+        times = vector(np.atleast_1d(times), None, "reference: times")
+        sizes = self.mechanism.sizes
+        arrays = []
+        for part, size, label in zip(parts, sizes, ("q", "v", "lambda_")):
+            if part is not None:
+                part = np.asarray(part, dtype=float).reshape(-1)
+                part = vector(part, len(times) * size, f"reference: {label}")
+            arrays.append(part)
+        arrays += [None] * (3 - len(arrays))
+        self._owner.call(lib.baum_study_set_reference, address(times), len(times),
+                         *map(address, arrays), digits)
+
+    def _set_solution(self, solution, digits):
+        sizes = self.mechanism.sizes
+
+        def call(t, q, v, lambda_, user):
+            try:
+                for place, size, part in zip((q, v, lambda_), sizes, solution(t)):
+                    if part is not None:
+                        room = (ctypes.c_double * size).from_address(place)
+                        room[:] = vector(part, size, "solution").tolist()
+                return 0
+            except BaseException as error:
+                self._error = error
+                return -1
+
+        function = self._hold(_abi.baum_study_solution_fn, call)
+        self._owner.call(lib.baum_study_set_solution, function, None, digits)
+
+    # ---- settings --------------------------------------------------------------------------------
+
+    def add(self, integrator, *, row_gains=None, **options):
+        """Add one setting, with the options of Simulation. Returns the study."""
+        struct = make_options(integrator, options)
+        if row_gains is not None:
+            factors = _row_gains(self.mechanism, row_gains)
+            struct.row_gains = factors.ctypes.data
+            struct.row_gain_count = len(factors)
+        self._owner.call(lib.baum_study_add, ctypes.byref(struct))
+        return self
+
+    def add_standard(self, integrator=None, formulation="default", **grid):
+        """Add the standard grid, or what of it is of one integrator or formulation; settings,
+        constants, coarsest [s], finest: see baum_study_grid in study.h. Returns the study."""
+        struct = default(_abi.baum_study_grid)
+        if integrator is not None:
+            struct.integrator = lookup(integrator).address
+        if formulation not in FORMULATIONS:
+            raise ValueError(f"no formulation {formulation!r}; there are: {', '.join(FORMULATIONS)}")
+        struct.formulation = FORMULATIONS[formulation]
+        for name, value in grid.items():
+            if name not in ("settings", "constants", "coarsest", "finest"):
+                raise TypeError(f"the standard grid has no option {name!r}")
+            setattr(struct, name, value)
+        self._long(lib.baum_study_add_standard, ctypes.byref(struct))
+        return self
+
+    # ---- running ---------------------------------------------------------------------------------
+
+    def run(self):
+        """Make the reference and run the rows that are not done; without any the standard grid is
+        added first. A reference that is not to be trusted, and a budget that is spent, are Python
+        warnings. Returns the study."""
+        if len(self) == 0:
+            self.add_standard()
+        status, sentence = self._long(lib.baum_study_run)
+        if status != Status.OK:
+            warn(sentence)
+        return self
+
+    def cancel(self):
+        """Ask run() to stop; from any thread."""
+        lib.baum_study_cancel(self._owner._address)
+
+    def _long(self, function, *arguments):
+        """A call that may take long, and its sentence. What a function of the user raised is raised
+        here, whichever thread it was called from."""
+
+        def call():
+            status = self._owner.call(function, *arguments)
+            return status, _calls.message()
+
+        self._error = None
+        try:
+            result = _calls.interruptible(call, cancel=self.cancel)
+        except Exception as failure:
+            if self._error is not None:
+                raise self._error from failure
+            raise
+        if self._error is not None:
+            raise self._error
+        return result
+
+    # ---- reading ---------------------------------------------------------------------------------
+
+    def _read(self, function, struct, made, *arguments):
+        self._owner.call(function, *arguments, ctypes.byref(struct), ctypes.sizeof(struct))
+        return made(*(_value(name, getattr(struct, name)) for name in made._fields))
+
+    @property
+    def rows(self):
+        """All rows, in the order of adding."""
+        return [
+            self._read(lib.baum_study_row_at, _abi.baum_study_row(), StudyRow, k)
+            for k in range(len(self))
+        ]
+
+    @property
+    def methods(self):
+        """Methods and the price of a digit with each."""
+        count = lib.baum_study_method_count(self._owner._address)
+        return [
+            self._read(lib.baum_study_method_at, _abi.baum_study_method(), StudyMethod, k)
+            for k in range(count)
+        ]
+
+    @property
+    def reference(self):
+        """How far the reference can be trusted; known after run()."""
+        struct = _abi.baum_study_reference()
+        return self._read(lib.baum_study_reference_read, struct, StudyReference)
+
+    @property
+    def error_text(self):
+        """In words what error means."""
+        return lib.baum_study_error_text(self._owner._address).decode(errors="replace")
+
+    # ---- answers ---------------------------------------------------------------------------------
+
+    def front(self, cost="work"):
+        """Numbers of the rows than which none is both cheaper and more exact, from cheap to exact;
+        cost is "work", the same on every machine, or "cpu"."""
+        rows = (ctypes.c_int32 * max(len(self), 1))()
+        count = ctypes.c_int32()
+        self._owner.call(lib.baum_study_front, _cost(cost), len(self), rows, ctypes.byref(count))
+        return list(rows[: count.value])
+
+    def cost_at(self, method, error, cost="work"):
+        """What the method of that number costs at an error."""
+        out = ctypes.c_double()
+        self._owner.call(lib.baum_study_cost_at, integer(method, "method"), number(error, "error"),
+                         _cost(cost), ctypes.byref(out))
+        return out.value
+
+    def compare(self, a, b, error, cost="work"):
+        """Cost of method a over that of method b at the same error."""
+        return self.cost_at(a, error, cost) / self.cost_at(b, error, cost)
+
+    def recommend(self, error, cost="work"):
+        """The cheapest setting for an error, which holds for starts nearby and twice the span too:
+        a Recommendation."""
+        return self._answer(lib.baum_study_recommend, number(error, "error"), _cost(cost))
+
+    def recommend_budget(self, seconds):
+        """The most exact setting for a CPU time [s] on this machine: a Recommendation."""
+        return self._answer(lib.baum_study_recommend_budget, number(seconds, "seconds"))
+
+    def _answer(self, function, *arguments):
+        best = default(_abi.baum_simulation_options)
+        why = ctypes.create_string_buffer(WHY_SIZE)
+        status = self._owner.call(function, *arguments, ctypes.byref(best), ctypes.sizeof(best),
+                                  why, WHY_SIZE)
+        if status != Status.OK:
+            warn(_calls.message())
+        return Recommendation(self._keywords(best), why.value.decode(errors="replace"))
+
+    def _keywords(self, best):
+        """What differs from the defaults, as keywords of Simulation."""
+        plain = default(_abi.baum_simulation_options)
+        found = {"integrator": _value("integrator", best.integrator)}
+        words = {"formulation": FORMULATIONS, "start": STARTS, "solver": SOLVERS}
+        left_out = {"struct_size", "integrator", "gains", "progress", "user", "row_gains",
+                    "row_gain_count"}
+        for name, _ in best._fields_:
+            value = getattr(best, name)
+            if name in left_out or value == getattr(plain, name) or value != value:
+                continue
+            found[name] = _swap(words[name])[value] if name in words else value
+        gains = _gains(best.gains)
+        if gains is not None:
+            found["gains"] = gains
+        if best.row_gains:
+            found["row_gains"] = self._row_gains(numbers(best.row_gains, best.row_gain_count))
+        return found
+
+    def _row_gains(self, factors):
+        joints = [element for element in self.mechanism if element.family == "joint"]
+        rows = {joint.name: self.mechanism.rows(joint) for joint in joints}
+        return {name: factors[place] for name, place in rows.items() if place.stop > place.start}
+
+
+def study(mechanism, t0, t1, **options):
+    """A Study of a frozen mechanism from t0 to t1 [s]; see Study for the options."""
+    return Study(mechanism, t0, t1, **options)

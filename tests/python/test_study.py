@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Studies: rows, reference, recommendations as keywords, mechanisms of Python functions."""
+
+import os
+import tempfile
+import threading
+import unittest
+import warnings
+
+import numpy as np
+
+import baum
+from mechanisms import circle, pendulum, rod_pendulum, slider_crank
+
+
+def small(mechanism, **options):
+    """A study of RK8 alone."""
+    made = baum.study(mechanism, 0, 1, samples=20, repeats=1, **options)
+    return made.add_standard("rk8", settings=5)
+
+
+class Studies(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.m = slider_crank()
+        cls.study = small(cls.m).run()
+
+    def test_rows_have_names_errors_and_costs(self):
+        rows = self.study.rows
+        self.assertEqual(len(rows), len(self.study))
+        done = [row for row in rows if row.state == "done"]
+        self.assertGreater(len(done), len(rows) // 2)
+        for row in done:
+            self.assertEqual(row.integrator, "rk8")
+            self.assertIn(row.formulation, row.name)
+            self.assertTrue(row.error >= self.study.reference.uncertainty)
+            self.assertTrue(row.work > 0 and row.cpu > 0)
+
+    def test_the_reference_tells_its_digits(self):
+        self.assertTrue(self.study.reference.trusted)
+        self.assertGreater(self.study.reference.digits, 10)
+        self.assertEqual(self.study.reference.origin, "own")
+        self.assertIn("agree to", self.study.reference.text)
+
+    def test_a_recommendation_is_ready_to_run_and_keeps_its_error(self):
+        t = np.linspace(0, 1, 21)
+        exact = self.m.simulate(t, "rk8", rtol=1e-13, formulation="projection").q
+        for error in (1e-3, 1e-6, 1e-9):
+            best = self.study.recommend(error)
+            self.assertIn("rk8", best.why)
+            run = self.m.simulate(t, **best)
+            self.assertLess(np.abs(run.q - exact).max(), error)  # scale 0.46 m: the smaller unit
+
+    def test_the_front_goes_from_cheap_to_exact(self):
+        rows = self.study.rows
+        front = [rows[k] for k in self.study.front()]
+        self.assertGreater(len(front), 2)
+        for a, b in zip(front, front[1:]):
+            self.assertTrue(a.work < b.work and a.error > b.error)
+
+    def test_a_budget_is_kept(self):
+        best = self.study.recommend_budget(10.0)
+        self.assertEqual(best["integrator"], "rk8")
+        with self.assertRaises(baum.Error) as caught:
+            self.study.recommend_budget(1e-9)
+        self.assertIn("the quickest takes", str(caught.exception))
+
+    def test_methods_have_a_price_and_can_be_compared(self):
+        methods = self.study.methods
+        known = [k for k, method in enumerate(methods) if method.work_per_digit > 1]
+        self.assertGreater(len(known), 2)
+        a, b = known[:2]
+        error = 10 * max(methods[a].least_error, methods[b].least_error)
+        ratio = self.study.compare(a, b, error)
+        self.assertAlmostEqual(ratio * self.study.compare(b, a, error), 1)
+
+    def test_what_cannot_be_reached_is_refused(self):
+        with self.assertRaises(baum.Error) as caught:
+            self.study.recommend(1e-30)
+        self.assertIn("the least is", str(caught.exception))
+        with self.assertRaises(ValueError):
+            self.study.recommend(1e-3, cost="euro")
+
+
+class Meaning(unittest.TestCase):
+    def test_error_is_what_the_user_says(self):
+        m = slider_crank()
+        study = baum.study(m, 0, 0.5, error=["slider.pose"], unit=1e-3, samples=20, repeats=1)
+        study.add("rk4", step=1e-2).run()
+        row = study.rows[0]
+        # In millimetres and milliradians of the slider alone, against all bodies by the scale.
+        self.assertLess(row.error, 1e3 * row.error_q * max(m.scale, 1) * 1.001)
+        self.assertNotAlmostEqual(row.error, row.error_q)
+
+    def test_a_solution_by_formulas_is_a_reference(self):
+        m = baum.Mechanism(gravity=(0, 0))
+        m.planar_particle("bob", position=(1, 0), velocity=(0, 1))
+        m.distance("rod", "ground", "bob", point_a=(0, 0), point_b=(0, 0))
+        m.freeze()
+
+        def turn(t):
+            return (np.cos(t), np.sin(t)), (-np.sin(t), np.cos(t))
+
+        study = baum.study(m, 0, 3, solution=turn, digits=12, repeats=1)
+        study.add("rk8", rtol=1e-13).run()
+        self.assertEqual(study.rows[0].error, 1e-12)
+        self.assertTrue(study.rows[0].at_floor)
+        t = np.array([1.0, 3.0])
+        q = np.column_stack([np.cos(t), np.sin(t)])
+        given = baum.study(m, 0, 3, reference=(t, q), digits=9, repeats=1)
+        given.add("rk8", rtol=1e-13).run()
+        self.assertEqual(given.rows[0].error, 1e-9)
+        self.assertTrue(np.isnan(given.rows[0].error_v))
+
+    def test_what_a_solution_raises_comes_out(self):
+        def broken(t):
+            raise KeyError("gone")
+
+        study = baum.study(rod_pendulum(), 0, 1, solution=broken, digits=9)
+        study.add("rk4", step=0.01)
+        with self.assertRaises(KeyError):
+            study.run()
+
+
+class Running(unittest.TestCase):
+    def test_a_mechanism_of_python_functions_is_studied(self):
+        m = pendulum(circle)
+        for threads in (1, 2):
+            study = baum.study(m, 0, 0.3, samples=5, repeats=1, threads=threads)
+            study.add("rk4", step=0.03).add("rk4", step=0.01)
+            study.add("rk8", rtol=1e-4).add("rk8", rtol=1e-8).run()
+            self.assertTrue(all(row.state == "done" for row in study.rows))
+            self.assertGreater(study.reference.digits, 7)  # second derivatives are differences
+            best = study.recommend(1e-3)
+            m.simulate([0.3], **best)
+
+    def test_progress_is_told_and_cancels(self):
+        seen = []
+
+        def stop(done, total):
+            seen.append((done, total))
+            return done == 3
+
+        study = small(rod_pendulum(), progress=stop, threads=1)
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            study.run()
+        self.assertEqual(seen, [(k, 2 * len(study)) for k in (1, 2, 3)])
+        self.assertIn("cancelled", str(caught[0].message))
+        self.assertEqual(sum(row.state == "waiting" for row in study.rows), len(study) - 3)
+        study.run()
+        self.assertFalse(any(row.state == "waiting" for row in study.rows))
+
+    def test_what_progress_raises_comes_out(self):
+        def broken(done, total):
+            raise ZeroDivisionError
+
+        with self.assertRaises(ZeroDivisionError):
+            small(rod_pendulum(), progress=broken).run()
+
+    def test_a_study_goes_on_from_its_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.study")
+            first = small(rod_pendulum(), file=path).run()
+            seen = []
+            again = small(rod_pendulum(), file=path, progress=lambda *now: seen.append(now)).run()
+            self.assertEqual(seen[0][0], len(first) + 1)
+            for a, b in zip(first.rows, again.rows):
+                self.assertEqual((a.name, a.state), (b.name, b.state))
+                np.testing.assert_array_equal([a.error, a.cpu], [b.error, b.cpu])
+
+    def test_row_gains_come_back_as_keywords(self):
+        m = slider_crank()
+        study = baum.study(m, 0, 0.2, samples=10, repeats=1, rehearse=False)
+        study.add("rk4", formulation="baumgarte", gains=baum.fixed(20, 20), step=1e-3,
+                  row_gains={"B": 2.0}).run()
+        best = study.recommend(1e-2)
+        self.assertEqual(best["gains"], baum.fixed(20, 20))
+        np.testing.assert_array_equal(best["row_gains"]["B"], [2, 2])
+        m.simulate([0.2], **best)
+
+    def test_a_study_is_run_by_one_thread_at_a_time(self):
+        begun, go_on = threading.Event(), threading.Event()
+        other = small(rod_pendulum(), threads=1,
+                      progress=lambda *now: (begun.set(), go_on.wait(10), False)[2])
+        worker = threading.Thread(target=other.run)
+        worker.start()
+        self.assertTrue(begun.wait(10))
+        with self.assertRaises(baum.Error) as caught:
+            other.run()
+        self.assertEqual(caught.exception.status, baum.Status.ERR_STATE)
+        go_on.set()
+        worker.join()
+
+
+if __name__ == "__main__":
+    unittest.main()
