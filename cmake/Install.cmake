@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Installs headers, both libraries, the CMake package and baum.pc, all free of absolute paths.
+# Installs headers, libraries shared and static, the CMake package and the .pc files, all free of absolute paths.
 include(CMakePackageConfigHelpers)
 
 set(config_dir ${CMAKE_INSTALL_LIBDIR}/cmake/baum)
 
 install(DIRECTORY include/baum DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
-# Two sets, because only the static library needs the backends where it is used.
+# Two sets, because only the static libraries need the backends where they are used.
 foreach(library baum baum_static)
-  install(TARGETS ${library} EXPORT ${library}-targets)
+  string(REPLACE baum baum_catalog catalog ${library})
+  install(TARGETS ${library} ${catalog} EXPORT ${library}-targets)
   install(
     EXPORT ${library}-targets
     NAMESPACE baum::
@@ -34,5 +35,7 @@ endif()
 string(APPEND BAUM_PC_PRIVATE " -lklu -lbtf -lamd -lcolamd -lspqr -lcholmod -lsuitesparseconfig -pthread -lm")
 file(RELATIVE_PATH BAUM_PC_PREFIX "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
 string(REGEX REPLACE "/$" "" BAUM_PC_PREFIX "${BAUM_PC_PREFIX}")
-configure_file(cmake/baum.pc.in baum.pc @ONLY)
-install(FILES ${PROJECT_BINARY_DIR}/baum.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+foreach(package baum baum_catalog)
+  configure_file(cmake/${package}.pc.in ${package}.pc @ONLY)
+  install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+endforeach()

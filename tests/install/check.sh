@@ -22,6 +22,8 @@ cmake -S "$source" -B "$build/cmake" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >"$b
 cmake --build "$build/cmake" >"$build/log" 2>&1 || { cat "$build/log"; exit 1; }
 "$build/cmake/consumer"
 "$build/cmake/consumer_static"
+"$build/cmake/catalog"
+"$build/cmake/catalog_static"
 readelf -d "$build/cmake/consumer" | grep -q 'NEEDED.*\[libbaum\.so\.0\]' || fail "no soname libbaum.so.0"
 if readelf -d "$build/cmake/consumer_static" | grep 'NEEDED.*libbaum'; then
   fail "the static program loads the shared library"
@@ -44,6 +46,9 @@ echo "pkg-config baum: $(pkg-config --libs baum)"
 # shellcheck disable=SC2046
 "$cc" -std=c11 "$source/consumer.c" -o "$build/shared" $(pkg-config --cflags --libs baum)
 LD_LIBRARY_PATH=$libraries "$build/shared"
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$source/catalog.c" -o "$build/catalog" $(pkg-config --cflags --libs baum_catalog)
+LD_LIBRARY_PATH=$libraries "$build/catalog"
 echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
 # shellcheck disable=SC2046
 "$cc" -std=c11 "$source/consumer.c" -o "$build/static" \
