@@ -16,8 +16,8 @@ extern "C" {
  *  roundings before the time, and the next begins at it, which is where methods that carry their past along
  *  begin anew (counters.restarts). With fixed steps the step before is shorter where the break is off the
  *  grid (counters.short_steps), and the grid begins there. Backward in time likewise. Positions and velocities go on
- *  as they are: what jumps in the law of a driver is a violation, as with
- *  baum_simulation_set_driver(). Outputs are where they would be; a target nearer to a break than the rounding of time
+ *  as they are: what jumps in the law of a driver is a violation, as with baum_simulation_set_driver(). Only kinematics have
+ *  the velocities of the law. Outputs are where they would be; a target nearer to a break than the rounding of time
  *  is the break.
  *  @param     mechanism  not yet frozen
  *  @param[in] times      (count) [s] finite, in any order; added to those there are. Copied. NULL when

@@ -290,7 +290,7 @@ static baum_status pass_breaks(baum_simulation *run)
   while (status == BAUM_OK && baum_i_run_is_at(run, next)) {
     catch_up(run);
     status = baum_i_run_pass(run, next);
-    run->ahead.t = run->state.t;
+    baum_i_run_copy(run, &run->state, &run->ahead);
     next = baum_i_run_next_break(run);
   }
   return status;

@@ -86,6 +86,13 @@ bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next)
   return isfinite(next.near) && left <= gap(run, next.near);
 }
 
+/* Kinematics have solved for the pose on the far side, whose velocities may be others. */
+static baum_status take_pose(baum_simulation *run)
+{
+  baum_i_state *state = &run->state;
+  return run->integrator->interpolate(run->self, &run->problem, state->t, state->q, state->v);
+}
+
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
 {
   double before = run->state.t;
@@ -101,5 +108,5 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  return BAUM_OK;
+  return run->integrator->without_freedom ? take_pose(run) : BAUM_OK;
 }

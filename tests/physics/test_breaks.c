@@ -204,6 +204,109 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* The energy that the torque brings is the kinetic energy: nothing else works, and no jump is smeared over a step. */
+static void the_account_closes_over_breaks(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make(true);
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
+    o.energy_account = true;
+    baum_simulation *run = NULL;
+    baum_energy_account account;
+    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
+    double angle = 0.0;
+    double rate = 0.0;
+    exact(2.0, &angle, &rate);
+    /* Angles and rates are off by what is allowed, torques are up to 50 N m and rates up to 6 rad/s. */
+    double most = (50.0 + 6.0) * allowed(mode);
+    ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
+    ASSERT_NEAR(account.residual, 0.0, 0.0, most);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* The rate of the driver jumps at the first time, and its acceleration at the second: s, s', s''. */
+static int kinked(double t, double s[3], void *user)
+{
+  (void)user;
+  double late = fmax(t - TIMES[1], 0.0);
+  bool fast = t >= TIMES[0];
+  s[0] = t + (fast ? 2.0 * (t - TIMES[0]) : 0.0) + 2.0 * late * late;
+  s[1] = (fast ? 3.0 : 1.0) + 4.0 * late;
+  s[2] = t >= TIMES[1] ? 4.0 : 0.0;
+  return 0;
+}
+
+static void kinematics_take_either_side(void **state)
+{
+  (void)state;
+  static const double targets[] = {0.3, 0.499999, 0.5, 0.7, 1.2345, 2.0, 1.2345, 1.234, 0.5, 0.4};
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.inertia = 2.0;
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  baum_driver_def motor = baum_driver_def_default();
+  motor.law = kinked;
+  baum_joint_id drive;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pin.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &motor.joint), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_driver(m, &motor, &drive), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_break_times(m, TIMES, 2), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  o.check_derivatives = false; /* the law has kinks */
+  baum_simulation *run = NULL;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  const baum_channel channels[2] = {{.quantity = BAUM_JOINT_COORDINATE, .joint = motor.joint},
+                                    {.quantity = BAUM_DRIVE_EFFORT, .joint = drive}};
+  for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
+    double row[3];
+    double s[3];
+    (void)kinked(targets[i], s, NULL);
+    assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
+    assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
+    ASSERT_NEAR(row[0], s[0], 0.0, 1e-13); /* rounding of angles and rates up to 10 */
+    ASSERT_NEAR(row[1], s[1], 0.0, 1e-12);
+    ASSERT_NEAR(row[2], 2.0 * s[2], 0.0, 1e-11);
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* Breaks that are nearer to each other than a step can be. */
+static void breaks_next_to_each_other_are_one(void **state)
+{
+  (void)state;
+  const double near[4] = {0.5, 0.5 * (1.0 + 1e-15), 0.5 * (1.0 + 4e-15), 0.5 * (1.0 + 1e-14)};
+  baum_mechanism *single = make(true);
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_copy(single, &m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_break_times(m, near, 4), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    baum_simulation *run = open_run(m, mode);
+    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_true(error_now(run) <= allowed(mode));
+    assert_int_equal(baum_simulation_advance_to(run, 0.2), BAUM_OK);
+    assert_true(error_now(run) <= 2.0 * allowed(mode));
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+  baum_mechanism_destroy(single);
+}
+
 static void lists_are_checked_sorted_and_copied(void **state)
 {
   (void)state;
@@ -234,6 +337,9 @@ int main(void)
     cmocka_unit_test(motions_are_those_between_the_breaks),
     cmocka_unit_test(breaks_are_met_both_ways),
     cmocka_unit_test(outputs_change_nothing),
+    cmocka_unit_test(the_account_closes_over_breaks),
+    cmocka_unit_test(kinematics_take_either_side),
+    cmocka_unit_test(breaks_next_to_each_other_are_one),
     cmocka_unit_test(lists_are_checked_sorted_and_copied),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
