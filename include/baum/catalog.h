@@ -137,6 +137,16 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
 
+/** The same as a function for baum_study_set_solution(), for references that are exact.
+ *  @param      t       [s]
+ *  @param[out] q,v     (nq), (nv)
+ *  @param[out] lambda  not written: multipliers are not known
+ *  @param[in]  user    const baum_catalog_choice *
+ *  @return             0, or -1 where baum_catalog_reference() fails
+ */
+BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
+                                           void *user);
+
 /** How far states are from the reference. Errors of positions are relative to the length scale of the mechanism, those of
  *  angles and user coordinates in their own unit; those of velocities likewise, and relative to the largest velocity of the
  *  reference so measured. An error below its floor says nothing but that it is below it: the reference is not known

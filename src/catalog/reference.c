@@ -155,6 +155,12 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
   return status;
 }
 
+int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *user)
+{
+  (void)lambda;
+  return baum_catalog_reference(user, t, q, v) == BAUM_OK ? 0 : -1;
+}
+
 /* ---- errors ---- */
 
 /* Largest over the coordinates of a state: differences and sizes by the scales, and what the last trusted digits mean. */

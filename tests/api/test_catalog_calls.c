@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The catalogue as it is called: what entries and parameters say, what is refused and with which sentence, what errors mean;
  * and the elements of a mechanism in order and by name. */
+#define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -16,6 +17,7 @@
 #include <baum/catalog.h>
 
 #include "assert_near.h"
+#include "heap.h"
 #include "sentence.h"
 
 enum { NQ = 9 }; /* of a slider-crank */
@@ -222,6 +224,22 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
               "with these parameters");
 }
 
+static void a_study_takes_a_formula_as_its_solution(void **state)
+{
+  (void)state;
+  baum_study_solution_fn *solution = baum_catalog_solution;
+  baum_catalog_choice driven = {.name = "slider_crank_driven"};
+  double q[NQ];
+  double v[NQ];
+  double want[NQ];
+  assert_int_equal(baum_catalog_reference(&driven, 0.0123, want, NULL), BAUM_OK);
+  assert_int_equal(solution(0.0123, q, v, NULL, &driven), 0);
+  assert_memory_equal(q, want, sizeof want);
+  ASSERT_NEAR(v[2], 150.0, 0.0, 0.0);
+  driven.name = "slider_crank";
+  assert_int_equal(solution(0.0123, q, v, NULL, &driven), -1);
+}
+
 /* ---- errors ---- */
 
 static void errors_are_differences_by_the_scales(void **state)
@@ -280,6 +298,51 @@ static void states_of_something_else_are_not_compared(void **state)
   ASSERT_SAYS(baum_catalog_compare(&CRANK, m, &t, 1, NULL, q, &e, sizeof e), BAUM_ERR_ARGUMENT,
               "q is NULL");
   baum_mechanism_destroy(open);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- memory ---- */
+
+static void every_allocation_of_a_mechanism_may_fail(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  for (int32_t k = 0; k < baum_catalog_count(); k++) {
+    baum_catalog_entry entry;
+    assert_int_equal(baum_catalog_entry_at(k, &entry, sizeof entry), BAUM_OK);
+    const baum_catalog_choice choice = {.name = entry.name};
+    baum_status status = BAUM_ERR_MEMORY;
+    long before = heap_blocks();
+    for (long n = 0; status != BAUM_OK; n++) {
+      baum_mechanism *out = NULL;
+      heap_fail(n, false);
+      status = baum_catalog_build(&choice, &out);
+      (void)heap_stop();
+      assert_true(status == BAUM_OK || (status == BAUM_ERR_MEMORY && !out));
+      baum_mechanism_destroy(out);
+      assert_int_equal(heap_blocks(), before);
+    }
+  }
+}
+
+static void references_and_errors_allocate_nothing(void **state)
+{
+  (void)state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  baum_mechanism *m = build(&CRANK);
+  const double t = 0.0;
+  double q[NQ];
+  double v[NQ];
+  baum_catalog_error error;
+  heap_watch();
+  assert_int_equal(baum_catalog_reference(&CRANK, t, q, v), BAUM_OK);
+  assert_int_equal(baum_catalog_compare(&CRANK, m, &t, 1, q, v, &error, sizeof error), BAUM_OK);
+  assert_int_equal(heap_stop(), 0);
+  assert_true(error.q == 0.0 && error.v == 0.0);
   baum_mechanism_destroy(m);
 }
 
@@ -365,8 +428,11 @@ int main(void)
     cmocka_unit_test(what_is_not_there_is_refused_by_name),
     cmocka_unit_test(parameters_out_of_range_are_refused),
     cmocka_unit_test(a_reference_that_does_not_hold_is_not_given),
+    cmocka_unit_test(a_study_takes_a_formula_as_its_solution),
     cmocka_unit_test(errors_are_differences_by_the_scales),
     cmocka_unit_test(states_of_something_else_are_not_compared),
+    cmocka_unit_test(every_allocation_of_a_mechanism_may_fail),
+    cmocka_unit_test(references_and_errors_allocate_nothing),
     cmocka_unit_test(libraries_on_top_set_the_sentence),
     cmocka_unit_test(elements_are_found_in_order_and_by_name),
     cmocka_unit_test(inputs_are_found_too),

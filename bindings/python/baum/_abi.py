@@ -1227,6 +1227,7 @@ CATALOG_PROTOTYPES = {
     "baum_catalog_build": (c_int, [POINTER(baum_catalog_choice), POINTER(c_void_p)]),
     "baum_catalog_times": (c_int, [c_char_p, c_void_p]),
     "baum_catalog_reference": (c_int, [POINTER(baum_catalog_choice), c_double, c_void_p, c_void_p]),
+    "baum_catalog_solution": (c_int, [c_double, c_void_p, c_void_p, c_void_p, c_void_p]),
     "baum_catalog_compare": (c_int, [
         POINTER(baum_catalog_choice), c_void_p, c_void_p, c_int64, c_void_p, c_void_p,
         POINTER(baum_catalog_error), c_size_t,
