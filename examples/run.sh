@@ -9,8 +9,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control
-  events kinematics}
+names=${*:-pendulum slider_crank stability_region formulations tradeoff control_loop predictive_control events kinematics wire}
 out=$PWD/out
 
 # shellcheck disable=SC2086
@@ -48,9 +47,11 @@ for program in examples/*.py; do
   [ -e "$program" ] && [ -d bindings/python ] || continue
   name=$(basename "$program" .py)
   case " $names " in *" $name "*) ;; *) continue ;; esac
+  set -- --json "$out/${name}_py.json"
+  ! grep -q 'options\.page' "$program" || set -- "$@" --page "$out/${name}_py.html"
   run "${name}_py" env BAUM_LIBRARY="$PWD/build/release/libbaum.so" \
     PYTHONPATH="$PWD/bindings/python" PYTHONDONTWRITEBYTECODE=1 MPLBACKEND=agg \
-    "$venv/bin/python" "$program" --json "$out/${name}_py.json"
+    "$venv/bin/python" "$program" "$@"
 done
 
 # Scripts draw in out/, from the tables there.

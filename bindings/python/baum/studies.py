@@ -17,6 +17,8 @@ from .integrators import FORMULATIONS, lookup, names
 from .simulation import SOLVERS, STARTS, _row_gains, make_options
 
 COSTS = names(_abi.baum_study_cost, "BAUM_STUDY_")
+FORMS = names(_abi.baum_report_form, "BAUM_REPORT_")
+SUFFIXES = {".txt": "text", ".csv": "csv", ".json": "json", ".html": "page"}
 WHY_SIZE = 2048
 
 
@@ -309,6 +311,16 @@ class Study:
         struct = _abi.baum_study_reference()
         return self._read(lib.baum_study_reference_read, struct, StudyReference)
 
+    def reference_samples(self):
+        """The reference: times (n), q (n x nq), v (n x nv), lambda (n x nc), NaN where not known."""
+        count = self.reference.samples
+        times = np.empty(count)
+        arrays = [np.empty((count, size)) for size in self.mechanism.sizes]
+        for k in range(count):
+            places = [address(part[k:]) for part in (times, *arrays)]
+            self._owner.call(lib.baum_study_reference_sample, k, *places)
+        return (times, *arrays)
+
     @property
     def error_text(self):
         """In words what error means."""
@@ -376,6 +388,32 @@ class Study:
         joints = [element for element in self.mechanism if element.family == "joint"]
         rows = {joint.name: self.mechanism.rows(joint) for joint in joints}
         return {name: factors[place] for name, place in rows.items() if place.stop > place.start}
+
+    # ---- reports ---------------------------------------------------------------------------------
+
+    def report(self, form="text", title=None):
+        """A report as a string: "text", "csv", "json", or "page" in HTML."""
+        how = (_form(form), None if title is None else title.encode())
+        size = ctypes.c_size_t()
+        self._owner.call(lib.baum_study_print, *how, None, 0, ctypes.byref(size))
+        text = ctypes.create_string_buffer(size.value + 1024)  # its date is another one
+        self._owner.call(lib.baum_study_print, *how, text, len(text), None)
+        return text.value.decode(errors="replace")
+
+    def write(self, path, title=None):
+        """Write a report into a file, in the form that its name ends with: .txt, .csv, .json, .html.
+        A file that is there already is replaced when the new one is complete."""
+        suffix = os.path.splitext(os.fspath(path))[1]
+        if suffix not in SUFFIXES:
+            raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")
+        title = None if title is None else title.encode()
+        self._owner.call(lib.baum_study_write, _form(SUFFIXES[suffix]), title, os.fsencode(path))
+
+
+def _form(word):
+    if word not in FORMS:
+        raise ValueError(f"no form {word!r} of a report; there are: {', '.join(FORMS)}")
+    return FORMS[word]
 
 
 def study(mechanism, t0, t1, **options):
