@@ -9,8 +9,6 @@
 
 #include <math.h>
 
-#include "builder.h"
-
 static const long double CRANK = 1.0L;
 static const long double COUPLER = 2.0L;
 static const long double ROCKER = 2.2L;
@@ -251,14 +249,14 @@ static void draw(const scene *s, int body, double position[2], double velocity[2
   turn_[1] = aside || s->driven ? (double)NAN : (double)(p.d[2] * s->rate);
 }
 
-static baum_body_id add_body(builder *build, const scene *s, int body)
+static baum_body_id add_body(baum_i_parts *parts, const scene *s, int body)
 {
   double turn_[2];
   if (s->kind == SCENE_BOB) {
     baum_planar_particle_def bob = baum_planar_particle_def_default();
     draw(s, body, bob.position, bob.velocity, turn_);
     bob.mass = mass_of(s, body);
-    return build_particle(build, &bob);
+    return baum_i_parts_particle(parts, &bob);
   }
   baum_planar_body_def def = baum_planar_body_def_default();
   def.mass = mass_of(s, body);
@@ -267,62 +265,58 @@ static baum_body_id add_body(builder *build, const scene *s, int body)
   def.angle = turn_[0];
   def.angular_velocity = turn_[1];
   def.held = body == 0 && scene_bodies(s) > 1 && !s->driven;
-  return build_body(build, &def);
+  return baum_i_parts_body(parts, &def, NULL, NULL);
 }
 
-static void add_rod(builder *build, baum_body_id bob, double length)
+static void add_rod(baum_i_parts *parts, baum_body_id bob, double length)
 {
-  baum_planar_distance_def rod = baum_planar_distance_def_default();
-  rod.body_a = BAUM_GROUND;
-  rod.body_b = bob;
-  rod.point_a[0] = rod.point_a[1] = rod.point_b[0] = rod.point_b[1] = 0.0;
-  rod.length = length * build_unit(build, 1, 0, 0);
-  if (build_fine(build)) {
-    baum_joint_id id = {0};
-    baum_status status = baum_mechanism_add_planar_distance(build->out->mechanism, &rod, &id);
-    build_joint(build, status, id);
-  }
+  baum_i_parts_rod(parts, NULL, (baum_i_spot){BAUM_GROUND, {0.0, 0.0}},
+                   (baum_i_spot){bob, {0.0, 0.0}}, length);
 }
 
-static void pin(builder *build, baum_body_id a, double xa, baum_body_id b, double xb)
+static baum_joint_id pin(baum_i_parts *parts, baum_body_id a, double xa, baum_body_id b, double xb)
 {
-  build_pin(build, NULL, (place){a, {xa, 0.0}}, (place){b, {xb, 0.0}});
+  return baum_i_parts_pin(parts, NULL, (baum_i_spot){a, {xa, 0.0}}, (baum_i_spot){b, {xb, 0.0}});
 }
 
-static void pin_crank(builder *build, const scene *s, const baum_body_id *b)
+static void pin_crank(baum_i_parts *parts, const scene *s, const baum_body_id *b)
 {
-  pin(build, b[0], 0.5, b[1], -s->rod / 2);
-  pin(build, b[1], s->rod / 2, b[2], 0.0);
-  build_guide(build, "guide", b[2], 0.0, 0.0);
+  pin(parts, b[0], 0.5, b[1], -s->rod / 2);
+  pin(parts, b[1], s->rod / 2, b[2], 0.0);
+  baum_i_parts_guide(parts, "guide", b[2], 0.0, 0.0);
   for (int k = 0; k < s->spare; k++) {
-    build_guide(build, NULL, b[2], (k + 1) * s->off, 0.1);
+    baum_i_parts_guide(parts, NULL, b[2], (k + 1) * s->off, 0.1);
   }
 }
 
-static void pin_four_bar(builder *build, const baum_body_id *b)
+static void pin_four_bar(baum_i_parts *parts, const baum_body_id *b)
 {
-  pin(build, b[0], 0.5, b[1], -(double)COUPLER / 2);
-  pin(build, BAUM_GROUND, (double)GROUND, b[2], -(double)ROCKER / 2);
-  pin(build, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
+  pin(parts, b[0], 0.5, b[1], -(double)COUPLER / 2);
+  pin(parts, BAUM_GROUND, (double)GROUND, b[2], -(double)ROCKER / 2);
+  pin(parts, b[1], (double)COUPLER / 2, b[2], (double)ROCKER / 2);
 }
 
-/* Body k hangs on the one before it. */
-static void hang(builder *build, const scene *s, baum_body_id before, baum_body_id body, int k)
+/* Body k hangs on the one before it; returns its first pin. */
+static baum_joint_id hang(baum_i_parts *parts, const scene *s, baum_body_id before,
+                          baum_body_id body, int k)
 {
+  baum_joint_id joint = {0};
   if (s->kind == SCENE_CHAIN) {
-    pin(build, before, k == 0 ? 0.0 : 0.5 / s->count, body, -0.5 / s->count);
-  } else if (s->kind == SCENE_WINDOWS && k % 2 == 0) {
-    pin(build, BAUM_GROUND, k / 2, body, -0.5);
+    return pin(parts, before, k == 0 ? 0.0 : 0.5 / s->count, body, -0.5 / s->count);
+  }
+  if (s->kind == SCENE_WINDOWS && k % 2 == 0) {
+    joint = pin(parts, BAUM_GROUND, (double)(k / 2), body, -0.5);
     if (k > 0) {
-      pin(build, body, 0.5, before, 0.5);
+      pin(parts, body, 0.5, before, 0.5);
     }
   } else if (s->kind == SCENE_WINDOWS) {
-    pin(build, before, 0.5, body, -0.5);
+    pin(parts, before, 0.5, body, -0.5);
   } else if (s->kind == SCENE_BOB) {
-    add_rod(build, body, 1.0);
+    add_rod(parts, body, 1.0);
   } else if (k == 0) {
-    pin(build, BAUM_GROUND, 0.0, body, -0.5);
+    joint = pin(parts, BAUM_GROUND, 0.0, body, -0.5);
   }
+  return joint;
 }
 
 static double motor_offset(const scene *s)
@@ -335,68 +329,68 @@ double scene_begin(const scene *s)
   return s->driven ? (double)(motor_offset(s) + (long double)s->rate * s->start) : s->angle;
 }
 
-static void drive(builder *build, const scene *s)
+static void drive(baum_i_parts *parts, const scene *s, baum_joint_id joint)
 {
-  if (!s->driven || !build_fine(build)) {
-    return;
-  }
   baum_driver_def def = baum_driver_def_default();
-  def.joint = build->out->joints[0];
-  def.rate = s->rate * build_unit(build, 0, 0, -1);
+  def.joint = joint;
+  def.rate = s->rate;
   def.value = motor_offset(s);
-  baum_joint_id id = {0};
-  baum_status status = baum_mechanism_add_driver(build->out->mechanism, &def, &id);
-  build_joint(build, status, id);
+  if (s->driven) {
+    baum_i_parts_driver(parts, &def);
+  }
 }
 
-static void add_spares(builder *build, const scene *s, baum_body_id body)
+static void add_spares(baum_i_parts *parts, const scene *s, baum_body_id body)
 {
   for (int k = 0; k < s->spare; k++) {
     if (s->kind == SCENE_BOB) {
-      add_rod(build, body, 1.0 + (k + 1) * s->off);
+      add_rod(parts, body, 1.0 + (k + 1) * s->off);
     } else {
-      pin(build, BAUM_GROUND, (k + 1) * s->off, body, -0.5);
+      pin(parts, BAUM_GROUND, (k + 1) * s->off, body, -0.5);
     }
   }
 }
 
-static void add_spring(builder *build, const scene *s, baum_body_id body)
+static void add_spring(baum_i_parts *parts, const scene *s, baum_body_id body)
 {
-  if ((s->stiffness == 0.0 && s->damping == 0.0) || !build_fine(build)) {
+  if ((s->stiffness == 0.0 && s->damping == 0.0) || parts->status != BAUM_OK) {
     return;
   }
   baum_planar_torsion_spring_def def = baum_planar_torsion_spring_def_default();
   def.body_a = BAUM_GROUND;
   def.body_b = body;
-  def.stiffness = s->stiffness * build_unit(build, 2, 1, -2);
-  def.damping = s->damping * build_unit(build, 2, 1, -1);
+  def.stiffness = s->stiffness;
+  def.damping = s->damping;
   def.free_angle = s->angle - RELAXED;
-  build_force(build, baum_mechanism_add_planar_torsion_spring(build->out->mechanism, &def, NULL));
+  parts->status = baum_mechanism_add_planar_torsion_spring(parts->mechanism, &def, NULL);
 }
 
 baum_status scene_build(const scene *s, model *out)
 {
-  builder build = build_begin_in(&s->units, out);
-  build_gravity(&build, s->gravity);
+  baum_i_parts parts = baum_i_parts_begin();
+  baum_i_parts_gravity(&parts, s->gravity);
   baum_body_id first[3] = {BAUM_GROUND, BAUM_GROUND, BAUM_GROUND};
+  baum_joint_id root = {0};
   baum_body_id before = BAUM_GROUND;
   for (int k = 0; k < scene_bodies(s); k++) {
-    baum_body_id body = add_body(&build, s, k);
-    hang(&build, s, before, body, k);
+    baum_body_id body = add_body(&parts, s, k);
+    baum_joint_id joint = hang(&parts, s, before, body, k);
+    root = k == 0 ? joint : root;
     before = body;
     if (k < 3) {
       first[k] = body;
     }
   }
   if (s->kind == SCENE_CRANK) {
-    pin_crank(&build, s, first);
+    pin_crank(&parts, s, first);
   } else if (s->kind == SCENE_FOUR_BAR) {
-    pin_four_bar(&build, first);
+    pin_four_bar(&parts, first);
   }
   if (s->kind != SCENE_CRANK) {
-    add_spares(&build, s, first[0]);
+    add_spares(&parts, s, first[0]);
   }
-  drive(&build, s);
-  add_spring(&build, s, first[0]);
-  return build_finish(&build);
+  drive(&parts, s, root);
+  add_spring(&parts, s, first[0]);
+  bool si = s->units.length == 1.0 && s->units.mass == 1.0 && s->units.time == 1.0;
+  return model_finish(&parts, si ? NULL : &s->units, out);
 }
