@@ -73,8 +73,9 @@ typedef struct baum_study_options {
                             none. */
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress, not owned. Default: NULL. */
-  bool rehearse; /**< Run one row of each method over twice the span and from other starts, for what
-                      baum_study_recommend() leaves as a margin. Default: true. */
+  bool
+    rehearse; /**< Run rows that may be recommended over twice the span and from other starts, too,
+                      so that recommendations hold there. Default: true. */
 } baum_study_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -276,6 +277,10 @@ typedef struct baum_study_row {
   double cpu;  /**< [s] least CPU time of a run from its making to its end, without samples. */
   double cpu_spread; /**< [s] second least less least; NaN when there was one repeat. */
   int32_t repeats;   /**< [-] of the time. */
+  double
+    error_rehearsed; /**< [-] largest error over twice the span and from starts nearby; infinite
+                               where it fails there. NaN: not rehearsed, as rows that cost far more than
+                               others that are as exact. */
 } baum_study_row;
 
 /** Number of rows; 0 for NULL. */
@@ -379,8 +384,8 @@ typedef struct baum_study_method {
   double work_per_digit; /**< [-] factor on work for one more digit; NaN likewise. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN likewise. */
   double
-    growth; /**< [-] largest error of one of its rows over twice the span and from starts nearby, over
-                      its error; infinite where it fails there, NaN: not known. */
+    growth; /**< [-] error_rehearsed over error of its rows, on geometric average; NaN: none was
+                      rehearsed to the end. */
 } baum_study_method;
 
 /** Number of methods; 0 for NULL. */
@@ -422,9 +427,9 @@ BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method,
 BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                         baum_study_cost cost, double *ratio);
 
-/** The cheapest setting for an error. It is chosen so that it holds for starts nearby and for twice the span: errors are
- *  expected to go on growing as they have from the first half of the span to the whole, and a margin is left. Its step or rtol
- *  may lie between those of rows of its method.
+/** The cheapest setting for an error. It is chosen so that it holds for starts nearby and for twice the span, by what rows
+ *  have shown there (error_rehearsed) and a margin. Its step or rtol may lie between those of rows of its method. Where no row
+ *  keeps the error with all that, one that keeps it as measured is taken, and `why` says that nothing is left.
  *  @param      error        [-] > 0, wanted; see baum_study_set_error()
  *  @param      cost         what is cheap
  *  @param[out] best         options for baum_simulation_create()

@@ -4,12 +4,9 @@
  * Between two rows of a method error and cost are taken to lie on straight lines over the logarithm of step or rtol.
  * A recommendation for the error E asks for
  *
- *   error x growth x MARGIN <= E
+ *   error_rehearsed x MARGIN <= E
  *
- * with the growth that rehearsals have shown, of the method or the median of those with steps of its kind if that is
- * more, or where there is none that from the first half of the span
- * to the whole, which goes on if errors grow as a power of time. The row that fulfils it and the next finer one must do so
- * both: a lucky row does not count.
+ * of a row and the next finer one: a lucky row does not count. Where there is none, error <= E of both.
  */
 #include <math.h>
 #include <stdio.h>
@@ -22,20 +19,12 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MARGIN = 3.0;
-static const double MOST_GROWTH = 100.0;
+static const double MARGIN = 1.5;
 static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
 
-enum { MOST_ROWS = 256, MOST_METHODS = 256 };
+enum { MOST_ROWS = 256 };
 
 /* ---- front ---- */
-
-static bool is_answer(const baum_i_row *row)
-{
-  const baum_study_row *r = &row->out;
-  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && !r->unstable &&
-         isfinite(r->error) && r->error > 0.0;
-}
 
 static double cost_of(const baum_i_row *row, baum_study_cost cost)
 {
@@ -52,7 +41,8 @@ static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
     const baum_i_row *other = study->rows[i];
     double oc = cost_of(other, cost);
     double oe = other->out.error;
-    if (i != k && is_answer(other) && oc <= c && oe <= e && (oc < c || oe < e || i < k)) {
+    if (i != k && baum_i_study_is_answer(other) && oc <= c && oe <= e &&
+        (oc < c || oe < e || i < k)) {
       return true;
     }
   }
@@ -107,7 +97,7 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
   }
   list found = {.rows = rows, .capacity = capacity};
   for (int k = 0; k < study->row_count; k++) {
-    if (is_answer(study->rows[k]) && !is_beaten(study, k, cost)) {
+    if (baum_i_study_is_answer(study->rows[k]) && !is_beaten(study, k, cost)) {
       insert(study, &found, k, cost);
     }
   }
@@ -215,62 +205,33 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-static int by_value(const void *a, const void *b)
+/* What an error is expected to be at most: for twice the span and starts nearby, or as measured. A row that has not been
+ * rehearsed does as one beside it of the same method has done. */
+static double expected(const baum_i_row *row, const baum_i_row *beside, bool with_margin)
 {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-static bool has_fixed_step(const baum_study *study, int method)
-{
-  return !isnan(study->rows[study->methods[method].first]->options.step);
-}
-
-/* Of all methods with steps of this kind that have been rehearsed to the end; NaN where there is none. A method that was
- * lucky there has at least this. */
-static double median_growth(const baum_study *study, bool fixed)
-{
-  double growths[MOST_METHODS];
-  int count = 0;
-  for (int k = 0; k < study->method_count && count < MOST_METHODS; k++) {
-    if (isfinite(study->methods[k].growth) && has_fixed_step(study, k) == fixed) {
-      growths[count++] = study->methods[k].growth;
-    }
+  if (!with_margin) {
+    return row->out.error;
   }
-  qsort(growths, (size_t)count, sizeof *growths, by_value);
-  return count > 0 ? growths[count / 2] : (double)NAN;
-}
-
-static double growth_of(const baum_study *study, const baum_i_row *row)
-{
-  double own = study->methods[row->out.method].growth;
-  double growth = fmax(own, median_growth(study, has_fixed_step(study, row->out.method)));
-  if (isnan(growth)) {
-    growth = fmin(row->out.error / row->out.error_half, MOST_GROWTH);
+  double rehearsed = row->out.error_rehearsed;
+  if (isnan(rehearsed)) {
+    rehearsed = row->out.error * beside->out.error_rehearsed / beside->out.error;
   }
-  return growth > 1.0 ? growth : 1.0;
-}
-
-/* What an error is expected to be at most, for twice the span and starts nearby. */
-static double expected(const baum_study *study, const baum_i_row *row, bool with_margin)
-{
-  return with_margin ? row->out.error * growth_of(study, row) * MARGIN : row->out.error;
+  return isnan(rehearsed) ? (double)INFINITY : MARGIN * rehearsed;
 }
 
 /* The coarsest place of a method where the error is kept; the next finer row keeps it too. */
-static bool find_place(const baum_study *study, const baum_i_row *const *rows, int count,
-                       double error, bool with_margin, place *out)
+static bool find_place(const baum_i_row *const *rows, int count, double error, bool with_margin,
+                       place *out)
 {
   for (int k = 0; k < count; k++) {
-    double here = expected(study, rows[k], with_margin);
-    bool next = k + 1 == count || expected(study, rows[k + 1], with_margin) <= error;
+    double here = expected(rows[k], rows[k], with_margin);
+    bool next = k + 1 == count || expected(rows[k + 1], rows[k], with_margin) <= error;
     if (here > error || !next) {
       continue;
     }
     *out = (place){rows[k], rows[k], 0.0};
-    double before = k > 0 ? expected(study, rows[k - 1], with_margin) : 0.0;
-    if (before > error) {
+    double before = k > 0 ? expected(rows[k - 1], rows[k], with_margin) : 0.0;
+    if (before > error && isfinite(before)) {
       *out = (place){rows[k - 1], rows[k], share_at(before, here, error)};
     }
     return true;
@@ -297,7 +258,7 @@ static bool find_best(const baum_study *study, const question *q, place *best)
     if (count == 0 || rows[0]->out.unstable || rows[0]->options.integrator == q->without) {
       continue;
     }
-    if (find_place(study, rows, count, q->error, q->with_margin, &p) &&
+    if (find_place(rows, count, q->error, q->with_margin, &p) &&
         (!best->fine || place_cost(&p, q->cost) < place_cost(best, q->cost))) {
       *best = p;
     }
@@ -369,12 +330,11 @@ static void add_margin(const baum_study *study, const place *p, const question *
     baum_i_append(why, size, "; nothing is left for other starts or a longer span");
     return;
   }
-  double growth = growth_of(study, p->fine);
-  baum_i_append(why, size,
-                "; that is %.2g times less than %.2g, for over twice the span and from starts "
-                "nearby errors have "
-                "grown by up to %.2g",
-                q->error / place_error(p), q->error, growth);
+  baum_i_append(
+    why, size,
+    "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
+    "of %g is left",
+    p->fine->name, p->fine->out.error_rehearsed, MARGIN);
   add_rival(study, p, *q, why, size);
 }
 
@@ -406,7 +366,7 @@ static baum_status refuse_error(const baum_study *study, double error, const cha
   const baum_i_row *best = NULL;
   for (int k = 0; k < study->row_count; k++) {
     const baum_i_row *row = study->rows[k];
-    if (is_answer(row) && (!best || row->out.error < best->out.error)) {
+    if (baum_i_study_is_answer(row) && (!best || row->out.error < best->out.error)) {
       best = row;
     }
   }

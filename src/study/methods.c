@@ -32,7 +32,7 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
   }
   study->methods = methods;
   baum_i_study_method *method = &methods[study->method_count];
-  *method = (baum_i_study_method){.key = key, .first = row, .growth = (double)NAN};
+  *method = (baum_i_study_method){.key = key, .first = row};
   baum_i_name_method(options, method->name, sizeof method->name);
   return study->method_count++;
 }
@@ -42,6 +42,13 @@ static int by_setting(const void *a, const void *b)
   double x = baum_i_setting(&(*(const baum_i_row *const *)a)->options);
   double y = baum_i_setting(&(*(const baum_i_row *const *)b)->options);
   return (x < y) - (x > y);
+}
+
+bool baum_i_study_is_answer(const baum_i_row *row)
+{
+  const baum_study_row *r = &row->out;
+  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && !r->unstable &&
+         isfinite(r->error) && r->error > 0.0;
 }
 
 int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity)
@@ -102,6 +109,19 @@ static void fit(const baum_i_row *const *rows, int count, baum_study_method *out
   out->cpu_per_digit = pow(10.0, -slope_of(error, cpu, used));
 }
 
+static double growth_of(const baum_i_row *const *rows, int count)
+{
+  double sum = 0.0;
+  int used = 0;
+  for (int k = 0; k < count; k++) {
+    if (isfinite(rows[k]->out.error_rehearsed)) {
+      sum += log(rows[k]->out.error_rehearsed / rows[k]->out.error);
+      used++;
+    }
+  }
+  return used > 0 ? exp(sum / used) : (double)NAN;
+}
+
 int32_t baum_study_method_count(const baum_study *study)
 {
   return study ? study->method_count : 0;
@@ -128,7 +148,6 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
                              .gains = o->gains,
                              .fixed_step = !isnan(o->step),
                              .least_error = none,
-                             .growth = method->growth,
                              .slope = none,
                              .work_per_digit = none,
                              .cpu_per_digit = none};
@@ -141,6 +160,7 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
     whole.least_error = fmin(whole.least_error, rows[i]->out.error);
   }
   fit(rows, whole.usable, &whole);
+  whole.growth = growth_of(rows, whole.usable);
   baum_i_give_sized(out, caller_size, &whole, sizeof whole);
   return BAUM_OK;
 }

@@ -2,9 +2,9 @@
 /* What becomes of errors over twice the span and from other starts.
  *
  * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they may grow hundredfold.
- * So one row of each method is run once more, over twice the span, from the start as drawn and from two others whose
+ * So rows that may be recommended are run again over twice the span, from the start as drawn and from two others whose
  * velocities differ by NUDGE of their size, or, where all is at rest, of the rate of the motion. There is a reference for
- * each, by the setting of the study's own. The growth of a method is the largest of these errors over that of the row.
+ * each, by the setting of the study's own. Rows that cost more than NEAR times another one that is as exact are left out.
  */
 #include <math.h>
 #include <string.h>
@@ -16,7 +16,7 @@
 #include "study/study.h"
 
 static const double NUDGE = 0.05;
-static const double TYPICAL = 1e-5; /* error of the row that is rehearsed with, as near as may be */
+static const double NEAR = 2.5;
 
 void baum_i_study_clear_course(baum_i_course *course)
 {
@@ -116,35 +116,31 @@ baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch)
   return status;
 }
 
-/* ---- a method ---- */
+/* ---- a row ---- */
 
-/* The row whose error is nearest to a typical one, in logarithms. */
-static const baum_i_row *typical_row(const baum_study *study, int method)
+/* Could it be recommended? */
+static bool is_near_front(const baum_study *study, const baum_i_row *row)
 {
-  const baum_i_row *found = NULL;
   for (int k = 0; k < study->row_count; k++) {
-    const baum_i_row *row = study->rows[k];
-    bool fits = row->out.method == method && row->out.state == BAUM_STUDY_DONE && !row->out.off &&
-                !row->out.at_floor && row->out.error > 0.0 && isfinite(row->out.error);
-    if (fits &&
-        (!found || fabs(log(row->out.error / TYPICAL)) < fabs(log(found->out.error / TYPICAL)))) {
-      found = row;
+    const baum_i_row *other = study->rows[k];
+    if (baum_i_study_is_answer(other) && other->out.error <= row->out.error &&
+        NEAR * other->out.work < row->out.work) {
+      return false;
     }
   }
-  return found;
+  return true;
 }
 
-bool baum_i_study_wants_rehearsal(const baum_study *study, int method)
+bool baum_i_study_wants_rehearsal(const baum_study *study, const baum_i_row *row)
 {
-  return !study->methods[method].rehearsed && typical_row(study, method) != NULL;
+  return !row->rehearsed && baum_i_study_is_answer(row) && is_near_front(study, row);
 }
 
-double baum_i_study_rehearse(const baum_study *study, int method, baum_i_watch *watch,
+double baum_i_study_rehearse(const baum_study *study, const baum_i_row *row, baum_i_watch *watch,
                              double *samples)
 {
-  const baum_i_row *row = typical_row(study, method);
-  double growth = (double)NAN;
-  for (int k = 0; row && k < BAUM_I_REHEARSALS; k++) {
+  double largest = (double)NAN;
+  for (int k = 0; k < BAUM_I_REHEARSALS; k++) {
     const baum_i_course *course = &study->rehearsals[k];
     if (!course->rows) {
       continue;
@@ -152,12 +148,9 @@ double baum_i_study_rehearse(const baum_study *study, int method, baum_i_watch *
     const baum_i_task task = {study, &row->options, course};
     baum_i_outcome outcome;
     baum_i_study_run_one(&task, watch, samples, &outcome);
-    if (baum_i_watch_stops(watch)) {
-      return (double)NAN;
-    }
     bool ended = outcome.status == BAUM_OK || outcome.status == BAUM_WARNED;
     baum_i_differences d = baum_i_study_compare(study, course, samples);
-    growth = fmax(growth, ended ? d.error[0] / row->out.error : (double)INFINITY);
+    largest = fmax(largest, ended ? d.error[0] : (double)INFINITY);
   }
-  return growth;
+  return fmax(largest, row->out.error);
 }

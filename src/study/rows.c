@@ -17,7 +17,7 @@ static void clear(baum_study_row *row)
   row->energy_error = row->energy_error_final = none;
   row->max_phi = row->max_phi_rate = none;
   row->violation_work = row->projection_work = row->gains_work = none;
-  row->work = row->cpu = row->cpu_spread = none;
+  row->work = row->cpu = row->cpu_spread = row->error_rehearsed = none;
 }
 
 /* The formulation that DEFAULT stands for. */

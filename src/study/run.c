@@ -112,6 +112,22 @@ static void give_up(crew *c, baum_status status)
   }
 }
 
+/* For runs that take so many row limits at most. */
+static baum_i_watch watch_of(const crew *c, double limits)
+{
+  return (baum_i_watch){
+    .study = c->study, .limit = limits * c->study->options.row_limit, .deadline = c->deadline};
+}
+
+/* As many threads as there are rows, or as the options say. */
+static void run_crew(crew *c, void (*work)(void *user, int k))
+{
+  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
+  if (threads > 0) {
+    baum_i_threads_run(threads, work, c);
+  }
+}
+
 /* A row has come a stage further. Called by one thread at a time. */
 static void report(crew *c)
 {
@@ -141,7 +157,7 @@ static void pass_over(const crew *c, baum_i_row *row)
 /* The next row, or NULL. */
 static baum_i_row *next_row(crew *c)
 {
-  const baum_i_watch watch = {.study = c->study, .deadline = c->deadline};
+  const baum_i_watch watch = watch_of(c, 1.0);
   baum_i_row *row = NULL;
   baum_i_lock_take(&c->lock);
   if (c->next < c->count && c->status == BAUM_OK && !baum_i_watch_stops(&watch)) {
@@ -166,8 +182,7 @@ static void finish_row(crew *c, baum_i_row *row)
 
 static void measure_row(crew *c, baum_i_row *row, double *samples)
 {
-  baum_i_watch watch = {
-    .study = c->study, .limit = c->study->options.row_limit, .deadline = c->deadline};
+  baum_i_watch watch = watch_of(c, 1.0);
   baum_i_lock_take(&c->lock);
   bool passed = is_too_fine(c, row);
   baum_i_lock_give(&c->lock);
@@ -204,7 +219,7 @@ static double *samples_of(crew *c)
   return samples;
 }
 
-static void work(void *self, int k)
+static void measure(void *self, int k)
 {
   (void)k;
   crew *c = self;
@@ -221,37 +236,20 @@ static void work(void *self, int k)
 
 /* ---- rehearsals ---- */
 
-/* The next method whose growth is not known, or -1. */
-static int next_method(crew *c)
-{
-  const baum_i_watch watch = {.study = c->study, .deadline = c->deadline};
-  int method = -1;
-  baum_i_lock_take(&c->lock);
-  while (method < 0 && c->next < c->study->method_count && c->status == BAUM_OK &&
-         !baum_i_watch_stops(&watch)) {
-    method = baum_i_study_wants_rehearsal(c->study, c->next) ? c->next : -1;
-    c->next++;
-  }
-  baum_i_lock_give(&c->lock);
-  return method;
-}
-
 static void rehearse(void *self, int k)
 {
   (void)k;
   crew *c = self;
   double *samples = samples_of(c);
-  int method = -1;
-  while (samples && (method = next_method(c)) >= 0) {
-    baum_i_watch watch = {.study = c->study,
-                          .limit = REHEARSED_FOR * c->study->options.row_limit,
-                          .deadline = c->deadline};
-    double growth = baum_i_study_rehearse(c->study, method, &watch, samples);
+  baum_i_row *row = NULL;
+  while (samples && (row = next_row(c)) != NULL) {
+    baum_i_watch watch = watch_of(c, REHEARSED_FOR);
+    double error = baum_i_study_rehearse(c->study, row, &watch, samples);
     baum_i_lock_take(&c->lock);
     if (!baum_i_watch_stops(&watch)) {
-      c->study->methods[method].growth = growth;
-      c->study->methods[method].rehearsed = true;
-      baum_status status = baum_i_study_file_growth(c->file, &c->study->methods[method]);
+      row->out.error_rehearsed = error;
+      row->rehearsed = true;
+      baum_status status = baum_i_study_file_rehearsed(c->file, row);
       if (status != BAUM_OK) {
         give_up(c, status);
       }
@@ -261,38 +259,33 @@ static void rehearse(void *self, int k)
   baum_i_free(samples);
 }
 
-static bool some_to_rehearse(const baum_study *study)
+/* Those that are to be rehearsed into the order; returns whether there are some. */
+static bool order_rehearsals(crew *c)
 {
-  if (!study->options.rehearse) {
-    return false;
-  }
-  for (int k = 0; k < study->method_count; k++) {
-    if (baum_i_study_wants_rehearsal(study, k)) {
-      return true;
+  const baum_study *study = c->study;
+  c->count = c->next = 0;
+  for (int k = 0; study->options.rehearse && k < study->row_count; k++) {
+    if (baum_i_study_wants_rehearsal(study, study->rows[k])) {
+      c->order[c->count++] = study->rows[k];
     }
   }
-  return false;
+  return c->count > 0;
 }
 
 static void rehearse_all(crew *c)
 {
   bool known = c->study->reference.course.rows != NULL;
-  if (!known || c->status != BAUM_OK || !some_to_rehearse(c->study)) {
+  if (!known || c->status != BAUM_OK || !order_rehearsals(c)) {
     return;
   }
-  baum_i_watch watch = {.study = c->study,
-                        .limit = REHEARSED_FOR * c->study->options.row_limit,
-                        .deadline = c->deadline};
+  baum_i_watch watch = watch_of(c, REHEARSED_FOR);
   baum_status status =
     c->study->rehearsed ? BAUM_OK : baum_i_study_make_rehearsals(c->study, &watch);
   if (status != BAUM_OK) {
     give_up(c, status);
     return;
   }
-  int methods = c->study->method_count;
-  int threads = c->study->options.threads;
-  c->next = 0;
-  baum_i_threads_run(threads < methods ? threads : methods, rehearse, c);
+  run_crew(c, rehearse);
 }
 
 /* ---- order ---- */
@@ -329,11 +322,10 @@ static baum_status set_order(crew *c)
 {
   const baum_study *study = c->study;
   place *places = baum_i_alloc((size_t)study->row_count, sizeof *places);
-  c->order = baum_i_alloc((size_t)study->row_count, sizeof(baum_i_row *));
-  if (!places || !c->order) {
-    baum_i_free(places);
+  if (!places) {
     return baum_i_fail_memory();
   }
+  c->count = 0;
   for (int k = 0; k < study->row_count; k++) {
     baum_i_row *row = study->rows[k];
     if (!row->measured) {
@@ -366,7 +358,7 @@ static void take_times(const baum_study *study, const baum_i_outcome *first, con
 
 static baum_status time_row(crew *c, baum_i_row *row)
 {
-  baum_i_watch watch = {.study = c->study, .limit = (double)INFINITY, .deadline = c->deadline};
+  baum_i_watch watch = watch_of(c, (double)INFINITY);
   const baum_i_task task = {c->study, &row->options, &c->study->reference.course};
   baum_i_outcome first = {0};
   double least[2] = {(double)INFINITY, (double)INFINITY};
@@ -394,7 +386,7 @@ static baum_status time_row(crew *c, baum_i_row *row)
 
 static void time_rows(crew *c)
 {
-  const baum_i_watch watch = {.study = c->study, .deadline = c->deadline};
+  const baum_i_watch watch = watch_of(c, 1.0);
   for (int k = 0; k < c->study->row_count && c->status == BAUM_OK; k++) {
     baum_i_row *row = c->study->rows[k];
     if (baum_i_watch_stops(&watch)) {
@@ -447,14 +439,14 @@ static baum_status prepare(crew *c)
 {
   baum_study *study = c->study;
   baum_status status = BAUM_OK;
-  if (!some_to_measure(study) && !some_to_rehearse(study) && study->reference.known) {
+  if (!some_to_measure(study) && !order_rehearsals(c) && study->reference.known) {
     return BAUM_OK;
   }
   if (wants_check(study) && !study->reference.known) {
     status = baum_mechanism_check_derivatives(study->mechanism);
   }
   bool was_known = study->reference.known;
-  baum_i_watch watch = {.study = study, .limit = study->options.row_limit, .deadline = c->deadline};
+  baum_i_watch watch = watch_of(c, 1.0);
   if (status == BAUM_OK) {
     status = baum_i_study_make_reference(study, &watch);
   }
@@ -467,12 +459,9 @@ static void run_rows(crew *c)
     give_up(c, baum_i_fail_memory());
     return;
   }
-  int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
-  if (threads > 0) {
-    baum_i_threads_run(threads, work, c);
-  }
-  rehearse_all(c);
+  run_crew(c, measure);
   time_rows(c);
+  rehearse_all(c);
   baum_i_lock_end(&c->lock);
 }
 
@@ -503,7 +492,8 @@ baum_status baum_study_run(baum_study *study)
     return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no rows; add settings");
   }
   crew c = {.study = study, .deadline = baum_i_wall_seconds() + study->options.time_budget};
-  baum_status status = baum_i_study_set_times(study);
+  c.order = baum_i_alloc((size_t)study->row_count, sizeof(baum_i_row *));
+  baum_status status = c.order ? baum_i_study_set_times(study) : baum_i_fail_memory();
   if (status == BAUM_OK) {
     status = baum_i_study_file_open(study, &c.file);
   }

@@ -44,10 +44,11 @@ typedef struct baum_i_row {
   double *row_gains; /* own copy of the option */
   char name[BAUM_I_NAME_SIZE];
   char message[BAUM_I_NOTE_SIZE];
-  uint64_t key;  /* of the options */
-  double limit;  /* [s] the row limit when it was measured */
-  bool measured; /* errors and all that belongs to the motion are known */
-  bool timed;    /* so are its counts of work and its time, where it is done */
+  uint64_t key;   /* of the options */
+  double limit;   /* [s] the row limit when it was measured */
+  bool measured;  /* errors and all that belongs to the motion are known */
+  bool timed;     /* so are its counts of work and its time, where it is done */
+  bool rehearsed; /* error_rehearsed is as well known as it can be */
 } baum_i_row;
 
 /* A motion, and where it is looked at. */
@@ -65,8 +66,6 @@ typedef struct baum_i_study_method {
   int first;                   /* row, for all they have in common */
   char name[BAUM_I_NAME_SIZE]; /* of its rows without step or tolerance */
   double too_fine;             /* step or rtol that has reached the row limit, else 0 */
-  double growth;               /* see rehearse.c; NaN: not known */
-  bool rehearsed;              /* it is as well known as it can be */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
@@ -204,12 +203,11 @@ void baum_i_study_clear_reference(baum_study *study);
 /* Make the motions that are rehearsed with. BAUM_OK, also where some cannot be made; BAUM_ERR_MEMORY. */
 baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch);
 
-/* Is there a method that is to be rehearsed, and can be? */
-bool baum_i_study_wants_rehearsal(const baum_study *study, int method);
+/* Is a row to be rehearsed, all rows being timed? */
+bool baum_i_study_wants_rehearsal(const baum_study *study, const baum_i_row *row);
 
-/* How much larger an error of a method is there; samples: (n x width) to work in. NaN: not known, also when the watch has
- * stopped it. */
-double baum_i_study_rehearse(const baum_study *study, int method, baum_i_watch *watch,
+/* Largest error of a row there; samples: (n x width) to work in. NaN: not known. */
+double baum_i_study_rehearse(const baum_study *study, const baum_i_row *row, baum_i_watch *watch,
                              double *samples);
 
 void baum_i_study_clear_course(baum_i_course *course);
@@ -224,7 +222,7 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row);
 baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row);
-baum_status baum_i_study_file_growth(baum_i_study_file *file, const baum_i_study_method *method);
+baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_row *row);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
 
 /* ---- work.c ---- */
@@ -236,6 +234,9 @@ double baum_i_study_work(const baum_study *study, const baum_i_row *row);
 
 /* The method of a row's options, which is new if need be; -1 without memory. */
 int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row);
+
+/* Done, timed, with an error of the motion that is asked for, and gains that damp: what may be recommended. */
+bool baum_i_study_is_answer(const baum_i_row *row);
 
 /* Rows of a method that are done, timed and not off, from coarse to fine; returns how many. */
 int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity);

@@ -5,7 +5,7 @@
  *   reference DIGITS ... | TEXT #SUM
  *   row KEY STATE STATUS ... | MESSAGE #SUM
  *   time KEY EVALUATIONS ... #SUM
- *   growth KEY NUMBER #SUM
+ *   rehearsed KEY NUMBER #SUM
  *
  * KEY is a sum over the options of a row, so that rows may be added in any order. SUM is over the line before it: a line
  * that is cut off or damaged is not a result, and its row is run again. Of two lines of one row the last counts.
@@ -359,14 +359,15 @@ static void take_reference(baum_study *study, const char *rest)
   }
 }
 
-static void take_growth(const baum_study *study, const char *text)
+static void take_rehearsed(const baum_study *study, const char *text)
 {
   char *end = NULL;
   uint64_t key = strtoull(text, &end, 16);
-  for (int k = 0; k < study->method_count; k++) {
-    if (study->methods[k].key == key) {
-      study->methods[k].growth = strtod(end, NULL);
-      study->methods[k].rehearsed = true;
+  for (int k = 0; k < study->row_count; k++) {
+    baum_i_row *row = study->rows[k];
+    if (row->key == key && row->timed) {
+      row->out.error_rehearsed = strtod(end, NULL);
+      row->rehearsed = true;
     }
   }
 }
@@ -380,8 +381,8 @@ static void take_line(baum_study *study, char *line)
     take_reference(study, line + 9);
     return;
   }
-  if (strncmp(line, "growth ", 7) == 0) {
-    take_growth(study, line + 7);
+  if (strncmp(line, "rehearsed ", 10) == 0) {
+    take_rehearsed(study, line + 10);
     return;
   }
   bool is_row = strncmp(line, "row ", 4) == 0;
@@ -532,12 +533,12 @@ baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *r
   return write_line(file, line);
 }
 
-baum_status baum_i_study_file_growth(baum_i_study_file *file, const baum_i_study_method *method)
+baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_row *row)
 {
   char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "growth %016" PRIx64 " %.17g", method->key, method->growth);
+  baum_i_append(line, LINE, "rehearsed %016" PRIx64 " %.17g", row->key, row->out.error_rehearsed);
   return write_line(file, line);
 }

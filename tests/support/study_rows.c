@@ -44,11 +44,13 @@ static void assert_same_numbers(const baum_study_row *a, const baum_study_row *b
   const double x[] = {a->step,         a->rtol,           a->error,           a->error_final,
                       a->error_half,   a->error_q,        a->error_q_final,   a->error_v,
                       a->error_lambda, a->energy_error,   a->max_phi,         a->max_phi_rate,
-                      a->gains_work,   a->violation_work, a->projection_work, a->work};
+                      a->gains_work,   a->violation_work, a->projection_work, a->error_rehearsed,
+                      a->work};
   const double y[] = {b->step,         b->rtol,           b->error,           b->error_final,
                       b->error_half,   b->error_q,        b->error_q_final,   b->error_v,
                       b->error_lambda, b->energy_error,   b->max_phi,         b->max_phi_rate,
-                      b->gains_work,   b->violation_work, b->projection_work, b->work};
+                      b->gains_work,   b->violation_work, b->projection_work, b->error_rehearsed,
+                      b->work};
   assert_memory_equal(x, y, sizeof x);
   const int64_t i[] = {a->steps,    a->rejected, a->evaluations, a->factorizations,
                        a->warnings, a->at_floor, a->off,         a->untrusted};

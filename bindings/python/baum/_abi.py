@@ -695,6 +695,7 @@ class baum_study_row(Structure):
         ("cpu", c_double),
         ("cpu_spread", c_double),
         ("repeats", c_int32),
+        ("error_rehearsed", c_double),
     ]
 
 
