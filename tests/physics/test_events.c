@@ -221,6 +221,59 @@ static void events_at_one_time_are_all_told(void **state)
   }
 }
 
+/* A swing and its mirror image on a pin of its own. */
+static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
+{
+  baum_mechanism *m = NULL;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  for (int k = 0; k < 2; k++) {
+    double a = k == 0 ? angle : -angle;
+    baum_planar_body_def bob = baum_planar_body_def_default();
+    bob.inertia = 0.25;
+    bob.angle = a;
+    bob.position[0] = 3.0 * k + sin(a);
+    bob.position[1] = -cos(a);
+    bob.angular_velocity = 0.0;
+    baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+    pin.body_a = BAUM_GROUND;
+    pin.point[0] = 3.0 * k;
+    pin.point[1] = 0.0;
+    assert_int_equal(baum_mechanism_add_planar_body(m, &bob, &pin.body_b), BAUM_OK);
+    assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &pins[k]), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* Their times differ by rounding, and by 5e-13 s where IDA's iteration ends; the tolerance makes them one. */
+static void two_bodies_at_their_stops_are_one_stop(void **state)
+{
+  (void)state;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    baum_joint_id pins[2];
+    swing s = {.mechanism = make_mirrored(1.2, pins)};
+    baum_simulation_options o = step_mode_options(mode, STEP, RTOL);
+    baum_simulation *run = open_run(&s, &o);
+    for (int i = 0; i < 2; i++) {
+      baum_event_def def = baum_event_def_default();
+      def.joint = pins[i];
+      def.tolerance = 1e-11;
+      assert_int_equal(baum_simulation_add_event(run, &def, NULL), BAUM_OK);
+    }
+    for (int stops = 1; stops <= 3; stops++) {
+      assert_int_equal(baum_simulation_advance_to(run, 100.0), BAUM_STOP_EVENT);
+      assert_int_equal(baum_simulation_event_count(run), 2 * stops);
+      for (int i = 0; i < 2; i++) {
+        baum_event_record r = record_of(run, 2 * (stops - 1) + i);
+        assert_true(r.t == baum_simulation_time(run) && r.event == i);
+        assert_int_equal(r.direction, (i == 0) == (stops % 2 == 1) ? -1 : 1);
+      }
+    }
+    close_all(run, &s);
+  }
+}
+
 /* Where a run without outputs finds its event. */
 static double event_time(step_mode mode)
 {
@@ -403,6 +456,7 @@ int main(void)
     cmocka_unit_test(pendulum_bounces_at_a_stop),
     cmocka_unit_test(directions_are_those_of_time),
     cmocka_unit_test(events_at_one_time_are_all_told),
+    cmocka_unit_test(two_bodies_at_their_stops_are_one_stop),
     cmocka_unit_test(event_at_an_output_is_both),
     cmocka_unit_test(zero_at_the_start_is_left_and_met_again),
     cmocka_unit_test(turning_at_an_event_finds_it_once),
