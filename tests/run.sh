@@ -4,14 +4,14 @@
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
 #   format build test asan minimal install python tidy
-#   coverage valgrind thread analyzer sweeps                                 longer or rarer, by name only
+#   coverage valgrind thread analyzer sweeps browser   longer or rarer, by name only
 # BAUM_COVERAGE=90 is the least line coverage of src in percent.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format build test asan minimal install python tidy"
-named="coverage valgrind thread analyzer sweeps"
+named="coverage valgrind thread analyzer sweeps browser"
 prefix=$PWD/build/install-prefix
 
 stage_format() {
@@ -132,6 +132,14 @@ stage_thread() {
   need_venv
   build dev thread -DBAUM_SANITIZE=thread
   run_tests thread -R thread
+}
+
+# The page of a study in headless Chromium, which is a large package.
+stage_browser() {
+  need_packages chromium
+  build_dev
+  BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
+    "$venv/bin/python" tests/browser/check_page.py build/browser
 }
 
 stage_analyzer() {

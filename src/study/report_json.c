@@ -120,6 +120,7 @@ static void put_method(const baum_study_method *method, baum_i_buffer *out)
   put_number(out, "slope", method->slope, false);
   put_number(out, "work_per_digit", method->work_per_digit, false);
   put_number(out, "cpu_per_digit", method->cpu_per_digit, false);
+  put_number(out, "growth", method->growth, false);
 }
 
 static void put_advice(const baum_i_advice *advice, baum_study_cost cost, baum_i_buffer *out)

@@ -75,6 +75,9 @@ void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlight
   put_heading(out, "slope", "d log error / d log step or rtol", false);
   put_heading(out, "× work", "for one more digit", false);
   put_heading(out, "× CPU", "for one more digit", false);
+  put_heading(out, "growth",
+              "of the error over twice the span and from starts nearby; infinite: it fails there",
+              false);
   baum_i_put(out, "</tr></thead>\n<tbody>\n");
   for (int k = 0; k < survey->method_count; k++) {
     const baum_study_method *m = &survey->methods[k];
@@ -94,6 +97,7 @@ void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlight
     put_number_cell(out, m->slope, 2);
     put_number_cell(out, m->work_per_digit, DIGITS);
     put_number_cell(out, m->cpu_per_digit, DIGITS);
+    put_number_cell(out, m->growth, 2);
     baum_i_put(out, "</tr>\n");
   }
   baum_i_put(out, "</tbody></table></div>\n</section>\n");

@@ -122,7 +122,7 @@ static void put_methods(const baum_i_survey *survey, int width, baum_i_buffer *o
 {
   baum_i_put(out, "\nThe price of accuracy: factors on the cost for one more digit\n");
   baum_i_put_left(out, "method", width);
-  baum_i_put(out, "  settings  usable  least error   slope     work      CPU\n");
+  baum_i_put(out, "  settings  usable  least error   slope     work      CPU  growth\n");
   for (int k = 0; k < survey->method_count; k++) {
     const baum_study_method *m = &survey->methods[k];
     baum_i_put(out, m->name);
@@ -133,6 +133,7 @@ static void put_methods(const baum_i_survey *survey, int width, baum_i_buffer *o
     put_figure(out, m->slope, 2, 6);
     put_figure(out, m->work_per_digit, 3, 7);
     put_figure(out, m->cpu_per_digit, 3, 7);
+    put_figure(out, m->growth, 2, 6);
     baum_i_put(out, "\n");
   }
 }
