@@ -19,7 +19,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MARGIN = 1.5;
+static const double MARGIN = 2.0;
 static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
 
 enum { MOST_ROWS = 256 };

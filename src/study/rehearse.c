@@ -15,7 +15,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double NUDGE = 0.05;
+static const double NUDGE = 0.1;
 static const double NEAR = 2.5;
 
 void baum_i_study_clear_course(baum_i_course *course)

@@ -483,6 +483,28 @@ static baum_status conclude(crew *c)
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
+/* Memory, samples, file and reference, then all rows. */
+static baum_status run_all(crew *c)
+{
+  baum_study *study = c->study;
+  c->order = baum_i_alloc((size_t)study->row_count, sizeof(baum_i_row *));
+  baum_status status = c->order ? baum_i_study_set_times(study) : baum_i_fail_memory();
+  if (status == BAUM_OK) {
+    status = baum_i_study_file_open(study, &c->file);
+  }
+  if (status == BAUM_OK) {
+    study->begun = true;
+    status = prepare(c);
+  }
+  if (status == BAUM_OK) {
+    status = set_order(c);
+  }
+  if (status == BAUM_OK) {
+    run_rows(c);
+  }
+  return status == BAUM_OK || status == BAUM_STOP_CANCELLED ? conclude(c) : status;
+}
+
 baum_status baum_study_run(baum_study *study)
 {
   if (!study) {
@@ -492,27 +514,9 @@ baum_status baum_study_run(baum_study *study)
     return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no rows; add settings");
   }
   crew c = {.study = study, .deadline = baum_i_wall_seconds() + study->options.time_budget};
-  c.order = baum_i_alloc((size_t)study->row_count, sizeof(baum_i_row *));
-  baum_status status = c.order ? baum_i_study_set_times(study) : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    status = baum_i_study_file_open(study, &c.file);
-  }
-  if (status == BAUM_OK) {
-    study->begun = true;
-    status = prepare(&c);
-  }
-  if (status == BAUM_OK) {
-    status = set_order(&c);
-  }
-  if (status == BAUM_OK) {
-    run_rows(&c);
-  }
-  if (status == BAUM_OK || status == BAUM_STOP_CANCELLED) {
-    status = conclude(&c);
-  }
+  baum_status status = run_all(&c);
   baum_status closed = baum_i_study_file_close(c.file);
   baum_i_free(c.order);
   atomic_store(&study->cancelled, 0);
-  return status == BAUM_OK || status == BAUM_WARNED ? (closed == BAUM_OK ? status : closed)
-                                                    : status;
+  return closed != BAUM_OK && (status == BAUM_OK || status == BAUM_WARNED) ? closed : status;
 }
