@@ -8,7 +8,7 @@
  *
  *  Data, results and samples are in SI units. Angles are against the x axis, counterclockwise, unless a text says otherwise.
  *  A reference is either stored samples, which hold for the default parameters alone, or formulas (`exact`), which hold
- *  for all parameters and times. Nothing is ever compared with a reference that does not hold.
+ *  for all parameters, and for all times at which rounding leaves them their digits. Nothing is ever compared with a reference that does not hold.
  *  Threads: everything here may be called from any thread. Mechanisms made here need nothing to be kept beside them.
  *  Texts are constant.
  */
@@ -128,11 +128,11 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 
 /** The state by the reference.
  *  @param[in]  choice  what, with which parameters
- *  @param      t       [s] a time of baum_catalog_times(); any finite one where the reference is exact
+ *  @param      t       [s] a time of baum_catalog_times(); any finite one where the reference is exact, before 0 too
  *  @param[out] q       (nq) positions in the order of the mechanism; NULL: not wanted
  *  @param[out] v       (nv) velocities; NULL: not wanted
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED (there is no reference,
- *              or none for these parameters)
+ *              none for these parameters, or formulas are not known to their digits so far away)
  */
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);

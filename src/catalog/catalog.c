@@ -213,7 +213,7 @@ baum_status baum_catalog_build(const baum_catalog_choice *choice, baum_mechanism
   const baum_i_catalog_mechanism *which = NULL;
   double p[BAUM_I_CATALOG_PARAMETERS];
   baum_status status = baum_i_catalog_resolve(choice, &which, p);
-  if (status != BAUM_OK) {
+  if (status != BAUM_OK || !which) {
     return status;
   }
   baum_i_parts parts = baum_i_parts_begin();

@@ -53,7 +53,8 @@ typedef struct baum_i_catalog_mechanism {
   int columns;
   const double *q; /* (samples x columns) */
   const double *v; /* (samples x columns) */
-  void (*solution)(const double *p, double t, double *q, double *v);
+  double (*solution)(const double *p, double t, double *q,
+                     double *v); /* by how much they may be off */
   /* Positions and velocities of one body from the columns; NULL: the columns are those of all bodies. */
   void (*state)(const double *p, const double *q, const double *v, int body, double *body_q,
                 double *body_v);

@@ -35,31 +35,28 @@ static int count(const double *p)
   return 2 * (int)p[WINDOWS] + 1;
 }
 
-static void solution(const double *p, double t, double *q, double *v)
+static double solution(const double *p, double t, double *q, double *v)
 {
   double n = p[WINDOWS];
   double inertia = ((n + 1) * p[CRANK_MASS] / 3 + n * p[COUPLER_MASS]) * p[LENGTH];
   double moment = ((n + 1) * p[CRANK_MASS] / 2 + n * p[COUPLER_MASS]) * p[GRAVITY];
   q[0] = p[ANGLE] + QUARTER;
   v[0] = p[RATE];
-  baum_i_swing(moment / inertia, t, q, v);
+  double off = baum_i_swing(moment / inertia, t, q, v);
   q[0] -= QUARTER;
+  return off;
 }
 
 /* Crank 0, coupler 0, crank 1, ..., crank N. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
 {
+  bool crank = body % 2 == 0;
+  int window = body / 2;
   double half = p[LENGTH] / 2;
-  baum_i_mover at = {{body / 2 * p[LENGTH], 0.0}, {0.0, 0.0}};
-  if (body % 2 == 0) {
-    baum_i_mover_go(&at, q[0], v[0], half, 0.0);
-    baum_i_mover_state(&at, q[0], v[0], body_q, body_v);
-  } else {
-    baum_i_mover_go(&at, q[0], v[0], p[LENGTH], 0.0);
-    at.r[0] += half;
-    baum_i_mover_state(&at, 0.0, 0.0, body_q, body_v);
-  }
+  baum_i_mover at = {{window * p[LENGTH] + (crank ? 0.0 : half), 0.0}, {0.0, 0.0}};
+  baum_i_mover_go(&at, q[0], v[0], crank ? half : p[LENGTH], 0.0);
+  baum_i_mover_state(&at, crank ? q[0] : 0.0, crank ? v[0] : 0.0, body_q, body_v);
 }
 
 static baum_body_id add_rod(baum_i_parts *parts, const double *p, int k)
@@ -115,8 +112,8 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .parameters = PARAMETERS,
   .defaults = DEFAULTS,
   .end = 10.0,
-  .digits_q = 12,
-  .digits_v = 12,
+  .digits_q = 11,
+  .digits_v = 11,
   .build = build,
   .units = "mmr",
   .count = count,

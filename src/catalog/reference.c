@@ -67,6 +67,22 @@ static baum_status resolve(const baum_catalog_choice *choice, sample *at)
   return status == BAUM_OK ? check_parameters(at) : status;
 }
 
+/* Formulas are rounded, too: what grows of that is no reference any more. */
+static baum_status solve(sample *at, double t)
+{
+  const baum_i_catalog_mechanism *of = at->of;
+  double off = of->solution(at->p, t, at->q, at->v);
+  double wanted = pow(10.0, -fmin(of->digits_q, of->digits_v));
+  if (off <= wanted) {
+    return BAUM_OK;
+  }
+  return baum_i_catalog_fail(
+    BAUM_ERR_UNSUPPORTED,
+    "catalogue: with these parameters the formulas of \"%s\" may be off by "
+    "%.1e at t = %g s, which is more than their %g digits",
+    of->name, off, t, fmin(of->digits_q, of->digits_v));
+}
+
 static baum_status find_sample(sample *at, double t)
 {
   const baum_i_catalog_mechanism *of = at->of;
@@ -74,8 +90,7 @@ static baum_status find_sample(sample *at, double t)
     return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: t is %g s, must be finite", t);
   }
   if (of->solution) {
-    of->solution(at->p, t, at->q, at->v);
-    return BAUM_OK;
+    return solve(at, t);
   }
   for (int k = 0; k < of->samples; k++) {
     if (of->t[k] == t) {
@@ -155,6 +170,7 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
   return status;
 }
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): it is a baum_study_solution_fn. */
 int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *user)
 {
   (void)lambda;

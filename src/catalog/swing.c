@@ -14,7 +14,11 @@
 
 #include <math.h>
 
-enum { TERMS = 25 };
+enum { TERMS = 25, MOST_STEPS = 100000 };
+
+/* Of each step, relative; steps add up like a random walk. Against 80-bit numbers motions over the top are off by 2e-14,
+ * 2.0e-12, 1.2e-11 rad after 10, 30, 100 s, where 8e-13, 8e-12, 1.4e-11 is said. */
+static const double ROUNDING = 5e-16;
 
 /* A sum and what rounding has left out of it. */
 typedef struct sum {
@@ -45,13 +49,11 @@ static void series(double k, double angle, double rate, double x[TERMS])
   }
 }
 
-void baum_i_swing(double k, double t, double *angle, double *rate)
+static void go(double k, double h, long steps, double *angle, double *rate)
 {
-  double steps = ceil(4.0 * fabs(t) * sqrt(*rate * *rate + 4.0 * fabs(k))) + 1.0;
-  double h = t / steps;
   sum x = {*angle, 0.0};
   sum v = {*rate, 0.0};
-  for (double done = 0.0; done < steps; done += 1.0) {
+  for (long done = 0; done < steps; done++) {
     double terms[TERMS];
     series(k, x.value, v.value, terms);
     double dx = 0.0;
@@ -65,4 +67,23 @@ void baum_i_swing(double k, double t, double *angle, double *rate)
   }
   *angle = x.value + x.rest;
   *rate = v.value + v.rest;
+}
+
+double baum_i_swing(double k, double t, double *angle, double *rate)
+{
+  /* What a motion beside this one is apart at the end tells how rounding grows on the way. */
+  const double beside = 1e-9;
+  double fast = sqrt(*rate * *rate + 4.0 * fabs(k));
+  double steps = ceil(4.0 * fabs(t) * fast) + 1.0;
+  if (!(steps <= MOST_STEPS)) {
+    *angle = *rate = (double)NAN;
+    return (double)INFINITY;
+  }
+  double h = t / steps;
+  double other = *angle + beside;
+  double other_rate = *rate + beside * fast;
+  go(k, h, (long)steps, angle, rate);
+  go(k, h, (long)steps, &other, &other_rate);
+  double apart = fabs(other - *angle) + (fast > 0.0 ? fabs(other_rate - *rate) / fast : 0.0);
+  return ROUNDING * sqrt(steps) * (apart / beside + fabs(*angle));
 }

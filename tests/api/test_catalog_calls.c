@@ -218,6 +218,11 @@ static void a_reference_that_does_not_hold_is_not_given(void **state)
   ASSERT_SAYS(baum_catalog_reference(&CRANK, 0.005, q, NULL), BAUM_ERR_ARGUMENT, "no sample at");
   ASSERT_SAYS(baum_catalog_reference(&CRANK, (double)INFINITY, q, NULL), BAUM_ERR_ARGUMENT,
               "must be finite");
+  const baum_catalog_choice swing = {.name = "pendulum"};
+  ASSERT_SAYS(baum_catalog_reference(&swing, 1e4, q, NULL), BAUM_ERR_UNSUPPORTED,
+              "may be off by |at t = 10000 s, which is more than their 12 digits");
+  ASSERT_SAYS(baum_catalog_reference(&swing, 1e300, q, NULL), BAUM_ERR_UNSUPPORTED, "off by inf");
+  assert_int_equal(baum_catalog_reference(&swing, -10.0, q, NULL), BAUM_OK);
   /* Downwards the rod does not reach up to the guide: 0.153 + 0.05 > 0.19. */
   assert_int_equal(baum_catalog_reference(&too_short, 0.0, q, NULL), BAUM_OK);
   ASSERT_SAYS(baum_catalog_reference(&too_short, 0.0314159, q, NULL), BAUM_ERR_UNSUPPORTED,

@@ -10,9 +10,9 @@
 
 #include <cmocka.h>
 
+#include "catalog/data/slider_crank_eccentric.h"
 #include "physics_run.h"
 #include "slider_crank_driven_reference.h"
-#include "catalog/data/slider_crank_eccentric.h"
 
 enum { FAR = 5, LOOKS = 200, NQ = SLIDER_CRANK_DRIVEN_WIDTH };
 

@@ -14,9 +14,9 @@
 #include "a01_pendulum_reference.h"
 #include "assert_near.h"
 #include "catalog/data/four_bar.h"
+#include "catalog/data/slider_crank_eccentric.h"
 #include "physics_run.h"
 #include "reference.h"
-#include "catalog/data/slider_crank_eccentric.h"
 
 enum { RUNGS = 4, METHODS = 10, ORDER_MAX = 4 };
 

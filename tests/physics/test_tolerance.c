@@ -11,10 +11,10 @@
 
 #include "a01_pendulum_reference.h"
 #include "catalog/data/four_bar.h"
+#include "catalog/data/slider_crank_eccentric.h"
 #include "physics_run.h"
 #include "reference.h"
 #include "slider_crank_driven_reference.h"
-#include "catalog/data/slider_crank_eccentric.h"
 
 enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFERENCE_COUNT = 4 };
 enum { MIDDLE = TOLERANCES / 2 };

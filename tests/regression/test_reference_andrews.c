@@ -10,8 +10,8 @@
 
 #include <cmocka.h>
 
-#include "catalog/data/andrews.h"
 #include "assert_near.h"
+#include "catalog/data/andrews.h"
 #include "reference_test.h"
 
 static const reference ANGLES = {.name = "Andrews, 7 angles",

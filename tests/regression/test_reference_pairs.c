@@ -10,16 +10,16 @@
 #include <cmocka.h>
 
 #include "a01_pendulum_reference.h"
-#include "catalog/data/andrews.h"
 #include "assert_near.h"
+#include "catalog/data/andrews.h"
 #include "catalog/data/car_axis.h"
 #include "catalog/data/chain.h"
 #include "catalog/data/four_bar.h"
+#include "catalog/data/slider_crank_eccentric.h"
+#include "catalog/data/slider_crank_sundials.h"
 #include "reference_test.h"
 #include "slider_crank_driven_reference.h"
-#include "catalog/data/slider_crank_eccentric.h"
 #include "sundials_pendulum_reference.h"
-#include "catalog/data/slider_crank_sundials.h"
 
 /* ---- the problems ---- */
 

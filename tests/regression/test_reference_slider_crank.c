@@ -13,9 +13,9 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "catalog/data/slider_crank_eccentric.h"
 #include "reference_test.h"
 #include "slider_crank_driven_reference.h"
-#include "catalog/data/slider_crank_eccentric.h"
 
 static const char COLUMNS[] = "mmrmmrmmr";
 static const double SPEED = 150.0;

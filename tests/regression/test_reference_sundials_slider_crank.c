@@ -7,8 +7,8 @@
 
 #include <cmocka.h>
 
-#include "reference_test.h"
 #include "catalog/data/slider_crank_sundials.h"
+#include "reference_test.h"
 
 /* Crank angle, the rod's x and angle. */
 static void three_coordinates(const double *q, double *out)

@@ -8,10 +8,10 @@
 #include "catalog/data/andrews.h"
 #include "catalog/data/car_axis.h"
 #include "catalog/data/four_bar.h"
-#include "simulate/run.h"
-#include "slider_crank_driven_reference.h"
 #include "catalog/data/slider_crank_eccentric.h"
 #include "catalog/data/slider_crank_sundials.h"
+#include "simulate/run.h"
+#include "slider_crank_driven_reference.h"
 
 /* ---- the list ---- */
 
