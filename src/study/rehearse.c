@@ -15,7 +15,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-static const double NUDGE = 0.1;
+static const double NUDGE = 0.05;
 static const double NEAR = 2.5;
 
 void baum_i_study_clear_course(baum_i_course *course)
@@ -136,8 +136,8 @@ bool baum_i_study_wants_rehearsal(const baum_study *study, const baum_i_row *row
   return !row->rehearsed && baum_i_study_is_answer(row) && is_near_front(study, row);
 }
 
-double baum_i_study_rehearse(const baum_study *study, const baum_i_row *row, baum_i_watch *watch,
-                             double *samples)
+baum_status baum_i_study_rehearse(const baum_study *study, const baum_i_row *row,
+                                  baum_i_watch *watch, double *samples, double *error)
 {
   double largest = (double)NAN;
   for (int k = 0; k < BAUM_I_REHEARSALS; k++) {
@@ -148,9 +148,13 @@ double baum_i_study_rehearse(const baum_study *study, const baum_i_row *row, bau
     const baum_i_task task = {study, &row->options, course};
     baum_i_outcome outcome;
     baum_i_study_run_one(&task, watch, samples, &outcome);
+    if (outcome.status == BAUM_ERR_MEMORY) {
+      return baum_i_fail_memory();
+    }
     bool ended = outcome.status == BAUM_OK || outcome.status == BAUM_WARNED;
     baum_i_differences d = baum_i_study_compare(study, course, samples);
     largest = fmax(largest, ended ? d.error[0] : (double)INFINITY);
   }
-  return fmax(largest, row->out.error);
+  *error = isnan(largest) ? largest : fmax(largest, row->out.error);
+  return BAUM_OK;
 }

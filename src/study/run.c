@@ -244,15 +244,16 @@ static void rehearse(void *self, int k)
   baum_i_row *row = NULL;
   while (samples && (row = next_row(c)) != NULL) {
     baum_i_watch watch = watch_of(c, REHEARSED_FOR);
-    double error = baum_i_study_rehearse(c->study, row, &watch, samples);
+    double error = (double)NAN;
+    baum_status status = baum_i_study_rehearse(c->study, row, &watch, samples, &error);
     baum_i_lock_take(&c->lock);
-    if (!baum_i_watch_stops(&watch)) {
+    if (status == BAUM_OK && !baum_i_watch_stops(&watch)) {
       row->out.error_rehearsed = error;
       row->rehearsed = true;
-      baum_status status = baum_i_study_file_rehearsed(c->file, row);
-      if (status != BAUM_OK) {
-        give_up(c, status);
-      }
+      status = baum_i_study_file_rehearsed(c->file, row);
+    }
+    if (status != BAUM_OK) {
+      give_up(c, status);
     }
     baum_i_lock_give(&c->lock);
   }

@@ -206,9 +206,10 @@ baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch)
 /* Is a row to be rehearsed, all rows being timed? */
 bool baum_i_study_wants_rehearsal(const baum_study *study, const baum_i_row *row);
 
-/* Largest error of a row there; samples: (n x width) to work in. NaN: not known. */
-double baum_i_study_rehearse(const baum_study *study, const baum_i_row *row, baum_i_watch *watch,
-                             double *samples);
+/* Largest error of a row there, NaN where it is not known; samples: (n x width) to work in. BAUM_OK, also for a row that
+ * fails there; BAUM_ERR_MEMORY. */
+baum_status baum_i_study_rehearse(const baum_study *study, const baum_i_row *row,
+                                  baum_i_watch *watch, double *samples, double *error);
 
 void baum_i_study_clear_course(baum_i_course *course);
 

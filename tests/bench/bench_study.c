@@ -59,7 +59,7 @@ static baum_status slider_crank(double nudge, model *out)
 static baum_status four_bar(double nudge, model *out)
 {
   baum_status status = model_four_bar(out);
-  return status == BAUM_OK ? nudge_rates(out, 2.0 * (1.0 + 2.0 * nudge)) : status;
+  return status == BAUM_OK ? nudge_rates(out, 2.0 * (1.0 + nudge)) : status;
 }
 
 static baum_status andrews(double nudge, model *out)

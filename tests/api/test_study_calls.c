@@ -1,0 +1,342 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Calls of a study that are refused, with the sentence and nothing changed; defaults; rows that cannot be run; memory that
+ * runs out. */
+#define _GNU_SOURCE /* of heap.h */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "heap.h"
+#include "models.h"
+#include "sentence.h"
+#include "study_rows.h"
+
+static baum_study *make(const model *m)
+{
+  baum_study *study = NULL;
+  assert_int_equal(baum_study_create(m->mechanism, 0.0, 1.0, &study), BAUM_OK);
+  return study;
+}
+
+static baum_simulation_options rk4(double step)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.step = step;
+  return o;
+}
+
+static int build(void **state)
+{
+  static model m;
+  *state = &m;
+  return model_pendulum_rod(&MODEL_PENDULUM_A01, &m) == BAUM_OK ? 0 : -1;
+}
+
+static int clear(void **state)
+{
+  model_destroy(*state);
+  return 0;
+}
+
+/* ---- refused ---- */
+
+static void making_one_is_refused_without_a_frozen_mechanism_or_a_span(void **state)
+{
+  const model *m = *state;
+  baum_study *study = (baum_study *)(uintptr_t)16;
+  baum_mechanism *thawed = NULL;
+  ASSERT_SAYS(baum_study_create(NULL, 0.0, 1.0, &study), BAUM_ERR_ARGUMENT, "mechanism is NULL");
+  assert_null(study);
+  ASSERT_SAYS(baum_study_create(m->mechanism, 0.0, 1.0, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
+  ASSERT_SAYS(baum_study_create(m->mechanism, 2.0, 2.0, &study), BAUM_ERR_ARGUMENT,
+              "t0 is 2 s|must be finite and differ");
+  ASSERT_SAYS(baum_study_create(m->mechanism, 0.0, (double)INFINITY, &study), BAUM_ERR_ARGUMENT,
+              "t1 is inf");
+  assert_int_equal(baum_mechanism_copy(m->mechanism, &thawed), BAUM_OK);
+  ASSERT_SAYS(baum_study_create(thawed, 0.0, 1.0, &study), BAUM_ERR_STATE, "not frozen");
+  baum_mechanism_destroy(thawed);
+  baum_study_destroy(NULL);
+  baum_study_cancel(NULL);
+}
+
+static void calls_on_no_study_are_refused(void **state)
+{
+  (void)state;
+  baum_study_options o = baum_study_options_default();
+  baum_study_row row;
+  baum_study_method method;
+  baum_study_reference reference;
+  baum_simulation_options best;
+  const double one = 1.0;
+  double number = 0.0;
+  int32_t count = 0;
+  const baum_channel q = {.quantity = BAUM_Q};
+  const baum_status refused[] = {
+    baum_study_set_options(NULL, &o),
+    baum_study_add(NULL, &best),
+    baum_study_add_standard(NULL, NULL),
+    baum_study_set_error(NULL, &q, 1, 1.0),
+    baum_study_set_reference(NULL, &one, 1, &one, NULL, NULL, 9.0),
+    baum_study_set_solution(NULL, NULL, NULL, 9.0),
+    baum_study_run(NULL),
+    baum_study_row_at(NULL, 0, &row, sizeof row),
+    baum_study_row_options(NULL, 0, &best, sizeof best),
+    baum_study_method_at(NULL, 0, &method, sizeof method),
+    baum_study_reference_read(NULL, &reference, sizeof reference),
+    baum_study_reference_sample(NULL, 0, NULL, NULL, NULL, NULL),
+    baum_study_settings(NULL, NULL, NULL, NULL, 0),
+    baum_study_front(NULL, BAUM_STUDY_WORK, 0, NULL, &count),
+    baum_study_cost_at(NULL, 0, 1e-3, BAUM_STUDY_WORK, &number),
+    baum_study_compare(NULL, 0, 1, 1e-3, BAUM_STUDY_WORK, &number),
+    baum_study_recommend(NULL, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
+    baum_study_recommend_budget(NULL, 1.0, &best, sizeof best, NULL, 0),
+  };
+  for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
+    assert_int_equal(refused[k], BAUM_ERR_ARGUMENT);
+  }
+  assert_int_equal(baum_study_row_count(NULL), 0);
+  assert_int_equal(baum_study_method_count(NULL), 0);
+  assert_null(baum_study_error_text(NULL));
+  assert_null(baum_study_state_name((baum_study_state)99));
+}
+
+static void options_out_of_range_are_refused_by_name(void **state)
+{
+  baum_study *study = make(*state);
+  const struct {
+    baum_study_options options;
+    const char *says;
+  } wrong[] = {
+    {{.samples = 1}, "samples is 1, must be >= 2"},
+    {{.threads = 0}, "threads is 0, must be >= 1"},
+    {{.repeats = -1}, "repeats is -1"},
+    {{.row_limit = 0.0}, "row_limit is 0 s, must be > 0"},
+    {{.time_budget = (double)NAN}, "time_budget is nan s"},
+  };
+  for (int k = 0; k < 5; k++) {
+    baum_study_options o = baum_study_options_default();
+    o.samples = k == 0 ? wrong[k].options.samples : o.samples;
+    o.threads = k == 1 ? wrong[k].options.threads : o.threads;
+    o.repeats = k == 2 ? wrong[k].options.repeats : o.repeats;
+    o.row_limit = k == 3 ? wrong[k].options.row_limit : o.row_limit;
+    o.time_budget = k == 4 ? wrong[k].options.time_budget : o.time_budget;
+    ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT, wrong[k].says);
+  }
+  baum_study_options o = baum_study_options_default();
+  o.struct_size = 3;
+  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STRUCT, "struct_size is 3");
+  baum_study_destroy(study);
+}
+
+static void grids_out_of_range_are_refused_and_add_nothing(void **state)
+{
+  baum_study *study = make(*state);
+  baum_study_grid g = baum_study_grid_default();
+  g.settings = 0;
+  ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT, "settings is 0");
+  g = baum_study_grid_default();
+  g.constants = 5;
+  ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT, "constants is 5");
+  g = baum_study_grid_default();
+  g.finest = 0.5;
+  ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT, "finest is 0.5");
+  g = baum_study_grid_default();
+  g.coarsest = -1.0;
+  ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT, "coarsest is -1 s");
+  assert_int_equal(baum_study_row_count(study), 0);
+  assert_int_equal(baum_study_method_count(study), 0);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_STATE, "no rows");
+  baum_study_destroy(study);
+}
+
+static void what_is_not_known_yet_is_refused(void **state)
+{
+  baum_study *study = make(*state);
+  baum_simulation_options o = rk4(0.01);
+  baum_simulation_options best;
+  double cost = 0.0;
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  o.integrator = NULL;
+  ASSERT_SAYS(baum_study_add(study, &o), BAUM_ERR_ARGUMENT, "integrator is NULL");
+  ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
+              BAUM_ERR_STATE, "no row is done");
+  ASSERT_SAYS(baum_study_cost_at(study, 1, 1e-3, BAUM_STUDY_WORK, &cost), BAUM_ERR_ARGUMENT,
+              "no method 1");
+  ASSERT_SAYS(baum_study_reference_sample(study, 0, NULL, NULL, NULL, NULL), BAUM_ERR_STATE,
+              "has not been made");
+  baum_study_row row = study_row(study, 0);
+  assert_int_equal(row.state, BAUM_STUDY_WAITING);
+  assert_true(isnan(row.error) && isnan(row.cpu) && isnan(row.error_rehearsed));
+  assert_string_equal(row.name, "rk4 projection, step 0.01 s");
+  baum_study_destroy(study);
+}
+
+static void what_rows_depend_on_stays_once_they_are_run(void **state)
+{
+  baum_study *study = make(*state);
+  baum_study_options o = small_study_options();
+  const baum_simulation_options run = rk4(0.01);
+  const baum_channel q = {.quantity = BAUM_Q};
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  assert_int_equal(baum_study_add(study, &run), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  o.threads = 2;
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  o.samples++;
+  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STATE, "samples stays as it is");
+  ASSERT_SAYS(baum_study_set_error(study, &q, 1, 1.0), BAUM_ERR_STATE, "what error means");
+  const double t = 1.0;
+  const double place[2] = {0.0, -1.0};
+  ASSERT_SAYS(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_ERR_STATE,
+              "the reference");
+  baum_study_destroy(study);
+}
+
+static void references_out_of_order_or_without_digits_are_refused(void **state)
+{
+  baum_study *study = make(*state);
+  const double q[4] = {0.0, -1.0, 0.0, -1.0};
+  const double good[2] = {0.5, 1.0};
+  const double start[2] = {0.0, 1.0};
+  const double late[2] = {0.5, 1.5};
+  ASSERT_SAYS(baum_study_set_reference(study, good, 2, q, NULL, NULL, 0.0), BAUM_ERR_ARGUMENT,
+              "digits is 0");
+  ASSERT_SAYS(baum_study_set_reference(study, start, 2, q, NULL, NULL, 9.0), BAUM_ERR_ARGUMENT,
+              "times[0] is 0 s");
+  ASSERT_SAYS(baum_study_set_reference(study, late, 2, q, NULL, NULL, 9.0), BAUM_ERR_ARGUMENT,
+              "times[1] is 1.5 s");
+  assert_int_equal(baum_study_set_reference(study, good, 2, q, NULL, NULL, 9.0), BAUM_OK);
+  baum_study_destroy(study);
+}
+
+/* ---- rows ---- */
+
+static void a_setting_that_cannot_be_run_is_a_row_with_its_reason(void **state)
+{
+  baum_study *study = make(*state);
+  baum_study_options options = small_study_options();
+  options.row_limit = 1e-3;
+  options.rehearse = false;
+  assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
+  baum_simulation_options o = rk4(0.01);
+  o.formulation = BAUM_FORMULATION_GGL;
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  o = rk4(0.01);
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  o.gains = baum_gains_fixed(1e4, 1e4);
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  o = rk4(1e-7); /* ten million steps are not done in a millisecond; nor are those of half of it */
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  o.step = 5e-8;
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  /* The study's own reference may take more than that limit. */
+  double t = 1.0;
+  const double place[2] = {0.0, -1.0};
+  assert_int_equal(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  const struct {
+    baum_study_state row;
+    baum_status status;
+    const char *says;
+  } want[] = {
+    {BAUM_STUDY_REFUSED, BAUM_ERR_UNSUPPORTED, "does not offer"},
+    {BAUM_STUDY_REFUSED, BAUM_ERR_UNSTABLE, "violations grow"},
+    {BAUM_STUDY_TIMED_OUT, BAUM_STOP_CANCELLED, "more than 0.001 s"},
+    {BAUM_STUDY_TIMED_OUT, BAUM_STOP_CANCELLED, "more than 0.001 s"},
+  };
+  for (int32_t k = 0; k < 4; k++) {
+    baum_study_row row = study_row(study, k);
+    assert_int_equal(row.state, want[k].row);
+    assert_int_equal(row.status, want[k].status);
+    assert_non_null(strstr(row.message, want[k].says));
+    assert_true(isnan(row.error) && isnan(row.work));
+  }
+  assert_true(study_row(study, 1).unstable);
+  baum_study_destroy(study);
+}
+
+static void the_standard_grid_has_all_integrators_and_formulations(void **state)
+{
+  baum_study *study = make(*state);
+  baum_study_grid g = baum_study_grid_default();
+  g.settings = 1;
+  assert_int_equal(baum_study_add_standard(study, &g), BAUM_OK);
+  for (int32_t i = 0; baum_integrator_at(i); i++) {
+    const baum_integrator *integrator = baum_integrator_at(i);
+    bool of_sundials = strncmp(baum_integrator_name(integrator), "cvode", 5) == 0 ||
+                       strcmp(baum_integrator_name(integrator), "ida") == 0;
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      bool found = false;
+      for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+        baum_study_row row = study_row(study, k);
+        found = found || (row.integrator == integrator && row.formulation == (baum_formulation)f);
+      }
+      bool wanted = baum_integrator_offers(integrator, (baum_formulation)f) &&
+                    (!of_sundials || baum_has("sundials"));
+      assert_int_equal(found, wanted);
+    }
+  }
+  baum_study_destroy(study);
+}
+
+/* ---- memory ---- */
+
+static baum_status study_little(const model *m)
+{
+  baum_study *study = NULL;
+  baum_study_options o = small_study_options();
+  o.threads = 2;
+  o.samples = 2;
+  baum_status status = baum_study_create(m->mechanism, 0.0, 0.05, &study);
+  status = status == BAUM_OK ? baum_study_set_options(study, &o) : status;
+  const baum_simulation_options run = rk4(0.01);
+  status = status == BAUM_OK ? baum_study_add(study, &run) : status;
+  status = status == BAUM_OK ? baum_study_run(study) : status;
+  baum_study_destroy(study);
+  return status;
+}
+
+/* Every seventh, for there are some thousand; no row is taken for refused because there was no memory for it. */
+static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
+{
+  const model *m = *state;
+  if (!heap_is_ours()) {
+    skip();
+  }
+  assert_int_equal(study_little(m), BAUM_OK);
+  long before = heap_blocks();
+  heap_watch();
+  assert_int_equal(study_little(m), BAUM_OK);
+  long allocations = heap_stop();
+  assert_true(allocations > 100);
+  for (long n = 0; n < allocations; n += 7) {
+    heap_fail(n, true);
+    baum_status status = study_little(m);
+    (void)heap_stop();
+    assert_int_equal(status, BAUM_ERR_MEMORY);
+    assert_int_equal(heap_blocks(), before);
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(making_one_is_refused_without_a_frozen_mechanism_or_a_span),
+    cmocka_unit_test(calls_on_no_study_are_refused),
+    cmocka_unit_test(options_out_of_range_are_refused_by_name),
+    cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
+    cmocka_unit_test(what_is_not_known_yet_is_refused),
+    cmocka_unit_test(what_rows_depend_on_stays_once_they_are_run),
+    cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),
+    cmocka_unit_test(a_setting_that_cannot_be_run_is_a_row_with_its_reason),
+    cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
+    cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),
+  };
+  return cmocka_run_group_tests(tests, build, clear);
+}
