@@ -53,6 +53,8 @@ typedef struct adaptive_run {
   bool unfinished; /* a start or step that failed must be begun anew */
   int64_t rejected;
   int64_t forced;
+  double gap;  /* middle of the widest gap between stages, of the step */
+  double pose; /* [s] from the start of the step to a singular pose ahead; INFINITY: none is near */
   double pivot;     /* at the start of the step, of the usual one */
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
@@ -63,10 +65,20 @@ typedef struct adaptive_run {
 static const double SHARE_OF_ERROR3 = 0.01;
 
 /* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
-static const double SHORT = 0.002;
+static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
 /* [rad] Error of such a step, of the scales, above which it is refused all the same. */
 static const double LARGEST_FORCED = 0.01;
+/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it with 40 windows, where it
+ * was up to 3e-11. */
+static const double ROUNDING = 1e-10;
+
+/* Pivots, of the usual one: below the first a singular pose ahead is looked for, and from above it no step ends below the
+ * second, where rounding over p is large. */
+static const double PIVOT_AHEAD = 0.2;
+static const double PIVOT_POOR = 1e-3;
+/* [rad] over which pivots are compared to find the pose. */
+static const double LOOK = 1e-4;
 
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
@@ -252,9 +264,8 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
   return status;
 }
 
-/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most 1, or the step
- * is forced. */
-static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, bool forced,
+/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most `most`. */
+static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, double most,
                             double *error)
 {
   const baum_i_rk *rk = &run->rk;
@@ -268,7 +279,7 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, bo
   if (!needs_end) {
     *error = estimate(run, run->h);
   }
-  if (*error <= 1.0 || forced) {
+  if (*error <= most) {
     baum_i_rk_combine(rk, table->stages, table->b, run->h, run->end);
     status = finish_end(run, problem);
   }
@@ -302,11 +313,38 @@ static double least_length(const adaptive_run *run, const baum_i_problem *proble
   return SHORT / fmax(rate, problem->rate);
 }
 
+/* Where the root of the pivot, which falls in a straight line, would be zero. */
+static double find_pose(adaptive_run *run, const baum_i_problem *problem)
+{
+  if (!(run->pivot < PIVOT_AHEAD && run->pivot > 0.0)) {
+    return (double)INFINITY;
+  }
+  const baum_i_rk *rk = &run->rk;
+  const double one = 1.0;
+  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  double dt = problem->direction * LOOK / fmax(rate, problem->rate);
+  baum_i_rk_combine(rk, 1, &one, dt, rk->point);
+  baum_status status = baum_i_problem_motion(problem, run->t + dt, rk->point, rk->point + rk->nv);
+  double now = sqrt(run->pivot);
+  double then = sqrt(baum_i_smallest_pivot(problem->workspace) / run->usual);
+  return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;
+}
+
+/* Rates close to the pose are poor: it is passed between two stages, from as far as the length allows. Not before a step
+ * so short that the next one could not grow to the length. */
+static double keep_clear(const adaptive_run *run, double length)
+{
+  double over = run->pose / run->gap;
+  double before = run->pose - run->gap * length;
+  return length >= over ? over : fmin(fmax(before, 0.2 * length), length);
+}
+
 /* The next length to try, from where the step begins. */
 static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double least)
 {
   bool over = run->control.step < least;
-  double length = fmin(over ? STEP_OVER / SHORT * least : run->control.step, problem->max_step);
+  double length = over ? STEP_OVER / SHORT * least : keep_clear(run, run->control.step);
+  length = fmin(length, problem->max_step);
   double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
@@ -318,11 +356,29 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
   return length < shortest ? fail_short(run, problem, length) : BAUM_OK;
 }
 
+/* Error that is accepted, in units of the tolerance. */
+static double largest_error(const adaptive_run *run, const baum_i_problem *problem, bool forced)
+{
+  double error = 0.0;
+  if (forced) {
+    error = LARGEST_FORCED;
+  } else if (fabs(run->h) > run->pose) {
+    error = ROUNDING / run->pivot;
+  }
+  return fmax(1.0, error / problem->rtol);
+}
+
+/* Of a step that began where no pose was looked for. */
+static bool ends_in_pose(const adaptive_run *run)
+{
+  return run->pivot >= PIVOT_AHEAD && run->pivot_end < PIVOT_POOR;
+}
+
 /* Tries until one is accepted. */
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   double least = least_length(run, problem);
-  double most = LARGEST_FORCED / problem->rtol;
+  run->pose = find_pose(run, problem);
   for (;;) {
     double error = 0.0;
     baum_status status = choose_end(run, problem, least);
@@ -330,24 +386,25 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
       return status;
     }
     bool forced = run->control.step < least;
-    status = try_step(run, problem, forced, &error);
-    if (status == BAUM_OK && (error <= 1.0 || (forced && error <= most))) {
-      run->forced += error > 1.0;
+    double most = largest_error(run, problem, forced);
+    status = try_step(run, problem, most, &error);
+    if (status == BAUM_OK && error <= most) {
       run->pivot_end = see_pivot(run, problem);
-      accept(run, fmin(error, 1.0), state);
-      return BAUM_OK;
+      if (!ends_in_pose(run)) {
+        run->forced += error > 1.0;
+        accept(run, fmin(error, 1.0), state);
+        return BAUM_OK;
+      }
     }
     if (status != BAUM_OK) {
       remember(run, status);
       if (!may_shorten(problem, status)) {
         return fail_with_evaluation(run, run->h);
       }
-      least = 0.0; /* for another reason, perhaps */
-      baum_i_step_control_halve(&run->control, fabs(run->h));
-    } else {
-      least = forced ? 0.0 : least;
-      baum_i_step_control_refuse(&run->control, fabs(run->h), error);
     }
+    bool known = status == BAUM_OK && error > most;
+    baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
+    least = forced || status != BAUM_OK ? 0.0 : least; /* for another reason, perhaps */
     run->rejected++;
   }
 }
@@ -456,6 +513,24 @@ void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
   *out = (baum_i_statistics){.rejected = run->rejected, .forced = run->forced};
 }
 
+/* Stages are in no order. */
+static double widest_gap(const baum_i_rk_table *table)
+{
+  double middle = 0.5;
+  double width = 0.0;
+  for (int i = 0; i < table->stages; i++) {
+    double next = 1.0;
+    for (int k = 0; k < table->stages; k++) {
+      next = table->c[k] > table->c[i] ? fmin(next, table->c[k]) : next;
+    }
+    if (next - table->c[i] > width) {
+      width = next - table->c[i];
+      middle = 0.5 * (next + table->c[i]);
+    }
+  }
+  return middle;
+}
+
 baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,
                                       void **out)
 {
@@ -473,6 +548,7 @@ baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_p
     return status;
   }
   run->pair = pair;
+  run->gap = widest_gap(&pair->table);
   run->end = more;
   run->weights = run->end + run->rk.size;
   run->dense = run->weights + run->rk.size;

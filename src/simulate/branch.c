@@ -18,7 +18,7 @@
 
 #include "simulate/passage.h"
 
-static const double SMALL_JUMP = 5e-3;
+static const double SMALL_JUMP = 0.02; /* polynomials over the longest steps are off by so much */
 static const double LARGE_JUMP =
   0.3;                           /* directions of branches differ by the size of the velocity */
 static const double KNOWN = 0.1; /* largest error of a jump that is judged */

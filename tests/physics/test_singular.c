@@ -66,6 +66,23 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
   assert_true(20 * alarmed <= right);
 }
 
+/* The setting that docs/theory/singular.md recommends. Its errors there are at most 1e-8; the bound is what is promised. */
+static void recommended_setting_is_accurate(void **state)
+{
+  (void)state;
+  const singular_setting setting = {
+    .integrator = baum_rk8, .formulation = BAUM_FORMULATION_PROJECTION, .rtol = 1e-11};
+  uint64_t seed = 11;
+  for (int k = 0; k < SCENE_COUNT * STARTS; k++) {
+    singular_scene scene = singular_open(SCENES[k / STARTS].kind, SCENES[k / STARTS].loops, &seed);
+    singular_result r = singular_run(&scene, &setting);
+    assert_true(r.status >= BAUM_OK);
+    assert_true(r.error <= 1e-7);
+    assert_true(r.intervals > 0);
+    singular_close(&scene);
+  }
+}
+
 /* An interval as it is at the first flat pose of a four-bar: time, joint, branch. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
@@ -177,6 +194,7 @@ static void mechanisms_away_from_singular_poses_are_silent(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
+    cmocka_unit_test(recommended_setting_is_accurate),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
     cmocka_unit_test(mechanisms_away_from_singular_poses_are_silent),
     cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),
