@@ -51,7 +51,7 @@ static outcome simulate(const slider_crank *s, const method *how, int setting)
   outcome out = {0};
   CHECK(baum_simulation_create(s->mechanism, &options, &run));
   for (int k = 0; k < REFERENCE_SAMPLES; k++) {
-    baum_status status = baum_simulation_advance_to(run, REFERENCE[k].t);
+    baum_status status = baum_simulation_advance_to(run, reference_time(k));
     if (status != BAUM_WARNED || setting == SHOWN) { /* once is enough */
       CHECK(status);
     }
@@ -126,7 +126,7 @@ int main(int argc, char **argv)
   slider_crank s = slider_crank_build(false);
   printf("formulations: slider-crank, 3 bodies, 4 joints, 1 freedom; crank let go at %g rad/s, to "
          "%g s\n",
-         SLIDER_CRANK_SPEED, REFERENCE[REFERENCE_SAMPLES - 1].t);
+         SLIDER_CRANK_SPEED, reference_time(REFERENCE_SAMPLES - 1));
   for (int k = 0; k < SETTINGS * count; k++) {
     outcomes[k / SETTINGS][k % SETTINGS] = simulate(&s, &methods[k / SETTINGS], k % SETTINGS);
   }

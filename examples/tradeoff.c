@@ -9,7 +9,7 @@ static const char TITLE[] = "Undriven slider-crank, let go at 150 rad/s";
 static baum_study *make_study(const slider_crank *s)
 {
   baum_study *study = NULL;
-  CHECK(baum_study_create(s->mechanism, 0.0, REFERENCE[REFERENCE_SAMPLES - 1].t, &study));
+  CHECK(baum_study_create(s->mechanism, 0.0, reference_time(REFERENCE_SAMPLES - 1), &study));
   baum_study_options options = baum_study_options_default();
   options.repeats = 2;
   options.row_limit = 0.06;
@@ -78,7 +78,7 @@ static double error_of(const slider_crank *s, const baum_simulation_options *opt
   double error = 0.0;
   CHECK(baum_simulation_create(s->mechanism, options, &run));
   for (int k = 0; k < REFERENCE_SAMPLES; k++) {
-    CHECK(baum_simulation_advance_to(run, REFERENCE[k].t));
+    CHECK(baum_simulation_advance_to(run, reference_time(k)));
     error = fmax(error, slider_crank_error(s, run, k));
   }
   baum_simulation_destroy(run);
