@@ -5,7 +5,7 @@
  *   (n + 1) C_{n+1} = -sum_i (i + 1) x_{i+1} S_{n-i}
  *   (n + 1) (n + 2) x_{n+2} = -k S_n
  *
- * The nearest singularities in complex time are at least K(1/2) / sqrt(k), or about 2 / |x'| where it turns fast, away: with
+ * The nearest singularities in complex time are at least (pi / 2) / sqrt(k), or 2 / |x'| where it turns fast, away: with
  * w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is below (1/8)^24 = 2e-22 of the first. What is added in
  * each step is small against the angle, so that sums with compensation keep the rounding of many steps below that of the
  * result.
