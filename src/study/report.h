@@ -93,8 +93,8 @@ typedef struct baum_i_column {
   bool when_is_run; /* else it is known of every row */
 } baum_i_column;
 
-extern const baum_i_column BAUM_I_COLUMNS[];
-extern const int BAUM_I_COLUMN_COUNT_ALL;
+extern const baum_i_column baum_i_columns[];
+extern const int baum_i_column_count;
 
 const char *baum_i_column_text(const baum_i_column *column, const baum_i_report_row *row);
 const baum_i_column *baum_i_column_by_key(const char *key);

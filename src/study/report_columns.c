@@ -16,7 +16,7 @@
     key, unit, title, meaning, BAUM_I_COLUMN_##kind, AT(row.member), 1.0, true \
   }
 
-const baum_i_column BAUM_I_COLUMNS[] = {
+const baum_i_column baum_i_columns[] = {
   IS("name", "", "setting", "method and step or tolerance", TEXT, row.name),
   IS("state", "", "state", "done, refused, failed, timed_out or waiting", TEXT, state),
   IS("integrator", "", NULL, "", TEXT, integrator),
@@ -74,7 +74,7 @@ const baum_i_column BAUM_I_COLUMNS[] = {
   IS("status", "", NULL, "of its run", TEXT, status),
   IS("message", "", NULL, "why it is refused or failed, or its first warning", TEXT, message),
 };
-const int BAUM_I_COLUMN_COUNT_ALL = sizeof BAUM_I_COLUMNS / sizeof BAUM_I_COLUMNS[0];
+const int baum_i_column_count = sizeof baum_i_columns / sizeof baum_i_columns[0];
 
 /* The member that a column is. */
 static void take(const baum_i_column *column, const baum_i_report_row *row, void *to, size_t size)
@@ -110,7 +110,7 @@ double baum_i_column_number(const baum_i_column *column, const baum_i_report_row
 
 const baum_i_column *baum_i_column_by_key(const char *key)
 {
-  const baum_i_column *column = BAUM_I_COLUMNS;
+  const baum_i_column *column = baum_i_columns;
   while (strcmp(column->key, key) != 0) {
     column++;
   }

@@ -20,14 +20,14 @@ static void put_cell(baum_i_buffer *out, const baum_i_column *column, const baum
 
 void baum_i_report_csv(const baum_i_survey *survey, baum_i_buffer *out)
 {
-  for (int c = 0; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
-    baum_i_putf(out, "%s%s", c ? "," : "", BAUM_I_COLUMNS[c].key);
+  for (int c = 0; c < baum_i_column_count; c++) {
+    baum_i_putf(out, "%s%s", c ? "," : "", baum_i_columns[c].key);
   }
   baum_i_put(out, "\r\n");
   for (int k = 0; k < survey->row_count; k++) {
-    for (int c = 0; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
+    for (int c = 0; c < baum_i_column_count; c++) {
       baum_i_put(out, c ? "," : "");
-      put_cell(out, &BAUM_I_COLUMNS[c], &survey->rows[k]);
+      put_cell(out, &baum_i_columns[c], &survey->rows[k]);
     }
     baum_i_put(out, "\r\n");
   }

@@ -83,9 +83,9 @@ static void put_units(baum_i_buffer *out)
     {"cpu_per_digit", "1"}};
   baum_i_put(out, "},\n\"units\": {");
   bool first = true;
-  for (int c = 0; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
-    if (BAUM_I_COLUMNS[c].unit[0]) {
-      put_text(out, BAUM_I_COLUMNS[c].key, BAUM_I_COLUMNS[c].unit, first);
+  for (int c = 0; c < baum_i_column_count; c++) {
+    if (baum_i_columns[c].unit[0]) {
+      put_text(out, baum_i_columns[c].key, baum_i_columns[c].unit, first);
       first = false;
     }
   }
@@ -96,8 +96,8 @@ static void put_units(baum_i_buffer *out)
 
 static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
 {
-  for (int c = 0; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
-    const baum_i_column *column = &BAUM_I_COLUMNS[c];
+  for (int c = 0; c < baum_i_column_count; c++) {
+    const baum_i_column *column = &baum_i_columns[c];
     if (column->kind == BAUM_I_COLUMN_TEXT) {
       put_text(out, column->key, baum_i_column_text(column, row), c == 0);
     } else if (column->kind == BAUM_I_COLUMN_FLAG) {

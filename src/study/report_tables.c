@@ -113,8 +113,8 @@ static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
     row->row.state == BAUM_STUDY_DONE);
   baum_i_put_html(out, row->row.name);
   baum_i_put(out, "</th>");
-  for (int c = 1; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
-    const baum_i_column *column = &BAUM_I_COLUMNS[c];
+  for (int c = 1; c < baum_i_column_count; c++) {
+    const baum_i_column *column = &baum_i_columns[c];
     if (!column->title) {
       continue;
     }
@@ -144,10 +144,10 @@ void baum_i_put_row_table(const baum_i_survey *survey, baum_i_buffer *out)
              "<output id=\"shown\"></output></form>\n"
              "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"settings\">\n"
              "<table class=\"sortable\" id=\"rows\">\n<thead><tr>");
-  for (int c = 0; c < BAUM_I_COLUMN_COUNT_ALL; c++) {
-    if (BAUM_I_COLUMNS[c].title) {
-      put_heading(out, BAUM_I_COLUMNS[c].title, BAUM_I_COLUMNS[c].meaning,
-                  BAUM_I_COLUMNS[c].kind == BAUM_I_COLUMN_TEXT);
+  for (int c = 0; c < baum_i_column_count; c++) {
+    if (baum_i_columns[c].title) {
+      put_heading(out, baum_i_columns[c].title, baum_i_columns[c].meaning,
+                  baum_i_columns[c].kind == BAUM_I_COLUMN_TEXT);
     }
   }
   put_heading(out, "remarks", "see below", true);
