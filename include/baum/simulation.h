@@ -218,9 +218,11 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  the end, which is counted and starts a new grid. A variable-step method passes t and
  *  interpolates, so that targets never alter its steps.
  *  @param t  [s] finite
- *  @return   BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR,
- *            BAUM_ERR_STEP, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE,
- *            BAUM_ERR_CALLBACK, BAUM_ERR_MEMORY
+ *  @return   BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
+ *            BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps have been taken, or 10000 steps in
+ *            a row have led on by less than 1e-9 each of the time 1/rate of the motion),
+ *            BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK,
+ *            BAUM_ERR_INCONSISTENT (kinematics, where a driver jumps at a break), BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_advance_to(baum_simulation *simulation, double t);
 
@@ -409,7 +411,8 @@ BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum
  *  @param[in]  channels  (count)
  *  @param[out] rows      (n x width)
  *  @param[out] done      number of rows written, also on failure. May be NULL.
- *  @return     as baum_simulation_advance_to()
+ *  @return     as baum_simulation_advance_to(); BAUM_ERR_STATE (BAUM_ENERGY_ACCOUNT without the
+ *              option)
  */
 BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const double *times,
                                             int64_t n, const baum_channel *channels, int32_t count,

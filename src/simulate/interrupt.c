@@ -1,6 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What may stop a run before its next step: the user, progress, too many steps. */
+/* What may stop a run before its next step: the user, progress, too many steps, steps that lead nowhere.
+ *
+ * A method that chooses its steps may get stuck with them, as BDF does next to a singular pose, or an explicit method
+ * with a stiff force. One that has taken 1e4 steps in a call and at this pace would take more than 1e9, the default of
+ * max_steps, for the time 1/rate in which the motion does anything at all, stops: it would not come to an end. Steps that
+ * high gains or stiff forces ask for are far longer: those of 1e-6 of that time already cost 1e6 steps.
+ */
+#include <math.h>
+
 #include "simulate/run.h"
+
+enum { PACE_STEPS = 10000 };
+static const double SLOWEST = 1e-9; /* mean step times rate */
 
 void baum_simulation_cancel(baum_simulation *simulation)
 {
@@ -26,6 +37,32 @@ static bool progress_cancels(baum_simulation *run)
   return o->progress(run, run->state.t, o->user) != 0;
 }
 
+/* Over the last steps of this call, every so many of them. A fixed step is the user's own. */
+static bool creeps(baum_simulation *run, int64_t taken)
+{
+  if (baum_i_problem_has_fixed_step(&run->problem) || taken % PACE_STEPS != 0) {
+    return false;
+  }
+  const baum_i_state *now = &run->ahead;
+  double rate = fmax(run->problem.rate, baum_i_scaled_size(run->workspace->mechanism, now->v));
+  double passed = fabs(now->t - run->paced_at) * rate;
+  run->paced_at = now->t;
+  return taken > 0 && passed < PACE_STEPS * SLOWEST;
+}
+
+static baum_status fail_creeping(baum_simulation *run)
+{
+  const baum_i_state *now = &run->ahead;
+  baum_status status = baum_i_fail(
+    BAUM_ERR_STEP,
+    "t = %.9g s: %s creeps: %d steps have led on by less than 1e-9 of the time of the motion each; "
+    "forces may be stiff, which only cvode_bdf and ida are for, or the pose singular, where rk8 "
+    "goes "
+    "on",
+    now->t, run->integrator->name, (int)PACE_STEPS);
+  return baum_i_run_explain_failure(run, status, now);
+}
+
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
 {
   double t = baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
@@ -36,5 +73,5 @@ baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
     return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
                        (long long)run->options.max_steps);
   }
-  return BAUM_OK;
+  return creeps(run, taken) ? fail_creeping(run) : BAUM_OK;
 }

@@ -93,6 +93,7 @@ struct baum_simulation {
 
   atomic_int cancelled;
   struct timespec last_progress;
+  double paced_at; /* [s] of a call: where its pace has last been looked at */
 };
 
 /* ---- start.c ---- */
@@ -150,8 +151,8 @@ void baum_i_run_count_from_here(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Before every step: cancelled, or too many steps in this call? A run that stops here stands where
- * its last step ended, which a variable-step method keeps ahead. */
+/* Before every step: cancelled, too many steps in this call, or steps that lead nowhere? A run that stops here stands
+ * where its last step ended, which a variable-step method keeps ahead. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
 /* [s] of wall time. */

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run whose steps lead nowhere ends with a sentence; one whose steps are short for a reason goes on. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "models.h"
+
+enum { STEPS = 10000 }; /* between two looks at the pace */
+
+/* A link of 1 kg and 1 m, level, that turns in a grease of this rate [1/s] of decay. */
+static baum_mechanism *greased_link(double rate)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id body;
+  baum_planar_body_def link = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_planar_torsion_spring_def grease = baum_planar_torsion_spring_def_default();
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  link.mass = 1.0;
+  link.inertia = 1.0 / 12.0;
+  link.position[0] = 0.5;
+  assert_int_equal(baum_mechanism_add_planar_body(m, &link, &body), BAUM_OK);
+  pin.name = "pin";
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = body;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  grease.body_a = BAUM_GROUND;
+  grease.body_b = body;
+  grease.damping = rate / 3.0; /* the link has 1/3 kg m^2 about the pin */
+  assert_int_equal(baum_mechanism_add_planar_torsion_spring(m, &grease, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static baum_simulation *open_run(const baum_mechanism *m, const baum_integrator *integrator,
+                                 double rtol)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = integrator;
+  o.rtol = rtol;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  return run;
+}
+
+static int64_t steps_of(baum_simulation *run)
+{
+  baum_counters c;
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  return c.steps;
+}
+
+/* Explicit steps are about 5 over the rate of decay: 1e-11 of the time of the motion, which is about 1 s. */
+static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
+{
+  (void)state;
+  baum_mechanism *m = greased_link(1e12);
+  const baum_integrator *const explicit[] = {baum_dp5(), baum_rk8()};
+  for (int k = 0; k < 2; k++) {
+    baum_simulation *run = open_run(m, explicit[k], 1e-6);
+    assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_ERR_STEP);
+    const char *sentence = baum_simulation_message(run);
+    assert_non_null(strstr(sentence, "creeps: 10000 steps"));
+    assert_non_null(strstr(sentence, "\"pin\" bears the largest load"));
+    assert_true(steps_of(run) == STEPS);
+    assert_true(baum_simulation_time(run) > 0.0); /* where its last step ended */
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* Steps of 1e-6 of that time are what a stiff force costs; they are taken as long as max_steps allows. */
+static void short_steps_that_lead_on_are_taken(void **state)
+{
+  (void)state;
+  baum_mechanism *m = greased_link(1e7);
+  baum_simulation *run = open_run(m, baum_dp5(), 1e-6);
+  assert_int_equal(baum_simulation_step(run, 3 * STEPS), BAUM_OK);
+  assert_true(baum_simulation_time(run) < 0.1); /* the steps were short */
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* Next to a flat pose BDF may get stuck; whatever comes of such a run, it comes soon. */
+static void a_run_next_to_a_singular_pose_ends(void **state)
+{
+  (void)state;
+  if (!baum_has("sundials")) {
+    skip();
+  }
+  const baum_integrator *const integrators[] = {baum_ida(), baum_cvode_adams(), baum_cvode_bdf()};
+  const model_parallelogram_data data = {
+    .which = MODEL_THREE_CRANKS, .angle = 1e-8, .units = &MODEL_MILLI};
+  model m;
+  assert_int_equal(model_parallelogram_build_of(&data, &m), BAUM_OK);
+  for (int k = 0; k < 3; k++) {
+    baum_simulation *run = open_run(m.mechanism, integrators[k], 1e-7);
+    baum_status status = baum_simulation_advance_to(run, 1000.0); /* [ms] */
+    assert_true(status == BAUM_WARNED || strlen(baum_simulation_message(run)) > 0);
+    assert_true(steps_of(run) <= 2 * STEPS); /* some hundred where it gets through */
+    baum_simulation_destroy(run);
+  }
+  model_destroy(&m);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(an_explicit_method_that_a_stiff_force_holds_up_says_so),
+    cmocka_unit_test(short_steps_that_lead_on_are_taken),
+    cmocka_unit_test(a_run_next_to_a_singular_pose_ends),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
