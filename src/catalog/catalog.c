@@ -189,7 +189,9 @@ baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
       BAUM_ERR_ARGUMENT, "catalogue: \"%s\": settings %s, their number is %d", (*out)->name,
       choice->settings ? "are given" : "is NULL", (int)choice->setting_count);
   }
-  memcpy(p, (*out)->defaults, (size_t)(*out)->parameter_count * sizeof *p);
+  for (int k = 0; k < (*out)->parameter_count; k++) {
+    p[k] = (*out)->defaults[k];
+  }
   baum_status status = BAUM_OK;
   for (int k = 0; k < choice->setting_count && status == BAUM_OK; k++) {
     status = set(*out, &choice->settings[k], p);
