@@ -8,16 +8,10 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "check.h"
 #include "models.h"
 
 enum { PHYSICS_NQ = 9, PHYSICS_NC = 9 }; /* the largest are the slider-cranks */
-
-static inline void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 /* ---- mechanisms ---- */
 

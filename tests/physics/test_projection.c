@@ -18,6 +18,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "check.h"
 #include "models.h"
 
 enum { WIDEST = 21, STEPS = 400, PARTS = 4000, SAMPLES = 37 };
@@ -25,13 +26,6 @@ enum { WIDEST = 21, STEPS = 400, PARTS = 4000, SAMPLES = 37 };
 static const double KEPT = 1e-13;
 /* Some roundings. */
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 /* ---- one state ---- */
 

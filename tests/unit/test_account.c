@@ -15,17 +15,11 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "sentence.h"
 
 /* rk8 at rtol 1e-12, whose errors over a second are some 1e-12. */
 static const double CLOSE = 1e-10;
-
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 static baum_simulation_options account_options(void)
 {

@@ -9,30 +9,16 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "integrator_run.h"
+#include "one_coordinate.h"
 #include "sentence.h"
 
 typedef const baum_integrator *method_fn(void);
 static method_fn *const METHODS[] = {baum_ab2, baum_ab3, baum_ab4};
 enum { METHOD_COUNT = 3, STEPS = 12 };
 
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
-
 /* ---- one coordinate: x'' = t^power, or u - x with the input u ---- */
-
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
 
 static int push(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
@@ -40,29 +26,6 @@ static int push(double t, const double *q, const double *v, const double *inputs
   (void)v;
   out[0] = inputs ? inputs[0] - q[0] : pow(t, *(const int *)user);
   return 0;
-}
-
-/* At rest in x0; power NULL: the oscillator. */
-static baum_mechanism *make_coordinate(double x0, int *power, baum_input_id *input)
-{
-  const double at[1] = {x0};
-  const double rest[1] = {0.0};
-  baum_mechanism *mechanism = NULL;
-  baum_coordinates_def def = baum_coordinates_def_default();
-  def.size = 1;
-  def.q = at;
-  def.v = rest;
-  def.mass = unit_mass;
-  def.force = push;
-  def.user = power;
-  check(baum_mechanism_create(&mechanism));
-  if (!power) {
-    check(baum_mechanism_add_input(mechanism, "u", 0.0, input));
-  }
-  check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
-  check(baum_mechanism_set_scale(mechanism, 1.0));
-  check(baum_mechanism_freeze(mechanism));
-  return mechanism;
 }
 
 static integrator_setup setup_of(baum_mechanism *mechanism, const baum_integrator *integrator)
@@ -82,7 +45,7 @@ static void forces_of_time_are_integrated_exactly_up_to_the_order(void **state)
   for (int k = 0; k < METHOD_COUNT; k++) {
     const baum_integrator *integrator = METHODS[k]();
     for (int power = 0; power < integrator->order; power++) {
-      baum_mechanism *mechanism = make_coordinate(0.0, &power, NULL);
+      baum_mechanism *mechanism = one_coordinate(0.0, 0.0, push, &power, NULL);
       integrator_setup setup = setup_of(mechanism, integrator);
       integrator_run run;
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
@@ -102,7 +65,7 @@ static void one_power_more_shows_the_error_constant(void **state)
   (void)state;
   for (int k = 0; k < METHOD_COUNT; k++) {
     int power = METHODS[k]()->order;
-    baum_mechanism *mechanism = make_coordinate(0.0, &power, NULL);
+    baum_mechanism *mechanism = one_coordinate(0.0, 0.0, push, &power, NULL);
     integrator_setup setup = setup_of(mechanism, METHODS[k]());
     integrator_run run;
     assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
@@ -205,7 +168,7 @@ static void demand_order(error_fn *error)
 static double error_with_jump(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
-  baum_mechanism *mechanism = make_coordinate(1.0, NULL, &u);
+  baum_mechanism *mechanism = one_coordinate(1.0, 0.0, push, NULL, &u);
   baum_simulation *run = start_run(mechanism, integrator, step);
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_set_input(run, u, 3.0));
@@ -230,7 +193,7 @@ static void a_jump_of_an_input_does_not_cost_the_order(void **state)
 static double error_with_short_steps(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
-  baum_mechanism *mechanism = make_coordinate(1.0, NULL, &u);
+  baum_mechanism *mechanism = one_coordinate(1.0, 0.0, push, NULL, &u);
   baum_simulation *run = start_run(mechanism, integrator, step);
   check(baum_simulation_advance_to(run, 1.0 + step / 3.0));
   check(baum_simulation_advance_to(run, 2.0 + 0.4 * step));
@@ -254,7 +217,7 @@ static void targets_off_the_grid_do_not_cost_the_order(void **state)
 static double error_there_and_back(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
-  baum_mechanism *mechanism = make_coordinate(1.0, NULL, &u);
+  baum_mechanism *mechanism = one_coordinate(1.0, 0.0, push, NULL, &u);
   baum_simulation *run = start_run(mechanism, integrator, step);
   check(baum_simulation_advance_to(run, 1.0));
   check(baum_simulation_advance_to(run, -2.0));
@@ -274,7 +237,7 @@ static void turning_round_does_not_cost_the_order(void **state)
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;
-  baum_mechanism *mechanism = make_coordinate(1.0, NULL, &u);
+  baum_mechanism *mechanism = one_coordinate(1.0, 0.0, push, NULL, &u);
   baum_simulation *run = start_run(mechanism, integrator, step);
   const double q[1] = {cos(5.0)};
   const double v[1] = {-sin(5.0)};
@@ -308,7 +271,7 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
   }
   for (int k = 0; k < METHOD_COUNT; k++) {
     baum_input_id u;
-    baum_mechanism *mechanism = make_coordinate(1.0, NULL, &u);
+    baum_mechanism *mechanism = one_coordinate(1.0, 0.0, push, NULL, &u);
     baum_simulation *sampled = start_run(mechanism, METHODS[k](), step);
     baum_simulation *plain = start_run(mechanism, METHODS[k](), step);
     check(baum_simulation_sample(sampled, times, SAMPLES, &channel, 1, rows, NULL));

@@ -250,16 +250,6 @@ int main(void)
 
 #else
 
-static void there_is_nothing_to_test_without_sundials(void **state)
-{
-  (void)state;
-  skip();
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {cmocka_unit_test(there_is_nothing_to_test_without_sundials)};
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
+#include "without_sundials.h"
 
 #endif

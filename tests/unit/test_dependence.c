@@ -10,14 +10,8 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "sentence.h"
-
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 /* ---- a bar on a pin, and what acts on it ---- */
 

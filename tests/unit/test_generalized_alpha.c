@@ -11,17 +11,12 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "integrate/generalized_alpha.h"
 #include "integrator_run.h"
 #include "models.h"
+#include "one_coordinate.h"
 #include "sentence.h"
-
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -60,15 +55,6 @@ typedef struct oscillator {
   double d;
 } oscillator;
 
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
 static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -80,28 +66,9 @@ static int pull(double t, const double *q, const double *v, const double *inputs
 }
 
 /* From rest at x = 1. */
-static baum_mechanism *make_coordinate(baum_force_fn *force, void *user)
-{
-  static const double at[1] = {1.0};
-  static const double rest[1] = {0.0};
-  baum_mechanism *mechanism = NULL;
-  baum_coordinates_def def = baum_coordinates_def_default();
-  def.size = 1;
-  def.q = at;
-  def.v = rest;
-  def.mass = unit_mass;
-  def.force = force;
-  def.user = user;
-  check(baum_mechanism_create(&mechanism));
-  check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
-  check(baum_mechanism_set_scale(mechanism, 1.0));
-  check(baum_mechanism_freeze(mechanism));
-  return mechanism;
-}
-
 static baum_mechanism *make_oscillating(oscillator *o)
 {
-  return make_coordinate(pull, o);
+  return one_coordinate(1.0, 0.0, pull, o, NULL);
 }
 
 /* w h = 1e4, for which all three roots are -rho but for some 1e-4: sizes fall as k^2 rho^k. */
@@ -337,7 +304,7 @@ static void samples_of_a_mechanism_alter_nothing_from_the_first_step_on(void **s
 static void a_step_without_an_end_is_refused_and_leaves_the_state(void **state)
 {
   (void)state;
-  baum_mechanism *mechanism = make_coordinate(jump, NULL);
+  baum_mechanism *mechanism = one_coordinate(1.0, 0.0, jump, NULL, NULL);
   baum_simulation_options options = options_with(baum_generalized_alpha(), 1e-2);
   baum_simulation *run = start(mechanism, &options);
   ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_ERR_CONVERGENCE,

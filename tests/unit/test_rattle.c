@@ -10,15 +10,9 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "models.h"
 #include "sentence.h"
-
-static void check(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {

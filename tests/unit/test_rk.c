@@ -9,6 +9,7 @@
 
 #include "assert_near.h"
 #include "integrator_run.h"
+#include "one_coordinate.h"
 
 typedef const baum_integrator *method_fn(void);
 static method_fn *const METHODS[] = {baum_rk2, baum_rk3, baum_rk4};
@@ -54,39 +55,13 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
-static baum_mechanism *make_pushed(int *power)
-{
-  static const double AT_REST[1] = {0.0};
-  baum_mechanism *mechanism = NULL;
-  baum_coordinates_def def = baum_coordinates_def_default();
-  def.size = 1;
-  def.v = AT_REST;
-  def.mass = unit_mass;
-  def.force = push;
-  def.user = power;
-  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
-  assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
-  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
-  return mechanism;
-}
-
 static void forces_of_time_are_integrated_to_the_order(void **state)
 {
   (void)state;
   for (int k = 0; k < 3; k++) {
     const baum_integrator *integrator = METHODS[k]();
     for (int power = 0; power < integrator->order; power++) {
-      baum_mechanism *mechanism = make_pushed(&power);
+      baum_mechanism *mechanism = one_coordinate(0.0, 0.0, push, &power, NULL);
       integrator_setup setup = setup_of(mechanism, integrator);
       integrator_run run;
       assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);

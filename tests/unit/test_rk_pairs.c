@@ -13,6 +13,7 @@
 
 #include "assert_near.h"
 #include "integrator_run.h"
+#include "one_coordinate.h"
 
 /* ---- both pairs in all formulations ---- */
 
@@ -343,32 +344,13 @@ static int push(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
 static void a_motion_without_bound_ends_in_steps_too_short(void **state)
 {
   (void)state;
-  static const double SPEED[1] = {1.0};
   const baum_integrator *const pairs[2] = {baum_dp5(), baum_rk8()};
   for (int k = 0; k < 2; k++) {
-    baum_mechanism *mechanism = NULL;
-    baum_coordinates_def def = baum_coordinates_def_default();
+    baum_mechanism *mechanism = one_coordinate(0.0, 1.0, push, NULL, NULL);
     integrator_run run;
-    def.size = 1;
-    def.v = SPEED;
-    def.mass = unit_mass;
-    def.force = push;
-    assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
-    assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
-    assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
-    assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
     open_run(&run, mechanism, &(method){pairs[k], BAUM_FORMULATION_UNSTABILIZED, 0}, 1e-6);
     assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
     assert_non_null(strstr(baum_message(), "grow without bound"));

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "one_coordinate.h"
+
+static int unit_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *user,
+                               baum_input_id *input)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = 1;
+  def.q = &x;
+  def.v = &v;
+  def.mass = unit_mass;
+  def.force = force;
+  def.user = user;
+  check(baum_mechanism_create(&mechanism));
+  if (input) {
+    check(baum_mechanism_add_input(mechanism, "u", 0.0, input));
+  }
+  check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
+  check(baum_mechanism_set_scale(mechanism, 1.0));
+  check(baum_mechanism_freeze(mechanism));
+  return mechanism;
+}
