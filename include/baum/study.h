@@ -273,7 +273,7 @@ typedef struct baum_study_row {
   int64_t warnings;             /**< [-] */
   int64_t near_singular_intervals; /**< [-] */
   int64_t branch_warnings;         /**< [-] */
-  double work; /**< [evaluations] cost that does not depend on the machine, see BAUM_STUDY_WORK. */
+  double work; /**< [-] cost that does not depend on the machine, see BAUM_STUDY_WORK. */
   double cpu;  /**< [s] least CPU time of a run from its making to its end, without samples. */
   double cpu_spread; /**< [s] second least less least; NaN when there was one repeat. */
   int32_t repeats;   /**< [-] of the time. */
@@ -364,8 +364,8 @@ BAUM_API const char *baum_study_error_text(const baum_study *study);
 /** What cost means. */
 typedef enum baum_study_cost {
   BAUM_STUDY_WORK =
-    0, /**< [evaluations] the same on every machine: right-hand sides or residuals, and
-                            factorizations weighed by their size. */
+    0, /**< [-] the same on every machine: evaluations, factorizations and iterations of implicit
+            methods, each counted alike. */
   BAUM_STUDY_CPU = 1 /**< [s] as measured. */
 } baum_study_cost;
 
@@ -414,7 +414,7 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
 /** What a method costs at an error, on the line through the logarithms of its rows; up to one setting beyond its ends.
  *  @param      method  see baum_study_method_at()
  *  @param      error   [-] > 0
- *  @param[out] out     [evaluations or s]
+ *  @param[out] out     [- or s]
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the sentence says how far it comes)
  */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,

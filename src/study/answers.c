@@ -4,9 +4,9 @@
  * Between two rows of a method error and cost are taken to lie on straight lines over the logarithm of step or rtol.
  * A recommendation for the error E asks for
  *
- *   error_rehearsed x MARGIN <= E
+ *   error_rehearsed x margin <= E
  *
- * of a row and the next finer one: a lucky row does not count. Where there is none, error <= E of both.
+ * of a row and the next finer one: a lucky row does not count. The margin is what MORE_WORK buys with the method. Where there is none, error <= E of both.
  */
 #include <math.h>
 #include <stdio.h>
@@ -19,8 +19,9 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double MARGIN = 2.0;
-static const double SPEED_MARGIN = 1.25; /* on times, which vary from run to run */
+static const double MORE_WORK = 1.15;        /* what a margin may cost */
+static const double MARGINS[2] = {2.0, 4.0}; /* least and largest */
+static const double SPEED_MARGIN = 1.25;     /* on times, which vary from run to run */
 
 enum { MOST_ROWS = 256 };
 
@@ -111,7 +112,8 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 typedef struct place {
   const baum_i_row *coarse;
   const baum_i_row *fine;
-  double share; /* of the way from coarse to fine, in logarithms */
+  double share;  /* of the way from coarse to fine, in logarithms */
+  double margin; /* that is left for other starts and spans; 1: none */
 } place;
 
 static double between(double a, double b, double share)
@@ -146,7 +148,7 @@ static bool find_error(const baum_i_row *const *rows, int count, double error, p
     bool first = k == 0;
     bool last = k + 2 == count;
     if (e[1] < e[0] && share >= (first ? -1.0 : 0.0) && share <= (last ? 2.0 : 1.0)) {
-      *out = (place){rows[k], rows[k + 1], share};
+      *out = (place){rows[k], rows[k + 1], share, 1.0};
       return true;
     }
   }
@@ -216,7 +218,18 @@ static double expected(const baum_i_row *row, const baum_i_row *beside, bool wit
   if (isnan(rehearsed)) {
     rehearsed = row->out.error * beside->out.error_rehearsed / beside->out.error;
   }
-  return isnan(rehearsed) ? (double)INFINITY : MARGIN * rehearsed;
+  return isnan(rehearsed) ? (double)INFINITY : rehearsed;
+}
+
+/* What a little more work buys at a row: much with high orders, little with low ones. */
+static double margin_at(const baum_i_row *const *rows, int count, int k)
+{
+  int fine = k > 0 || count == 1 ? k : 1;
+  int coarse = fine > 0 ? fine - 1 : 0;
+  double errors = rows[coarse]->out.error / rows[fine]->out.error;
+  double works = rows[fine]->out.work / rows[coarse]->out.work;
+  double power = works > 1.0 && errors > 1.0 ? log(errors) / log(works) : 0.0;
+  return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
 /* The coarsest place of a method where the error is kept; the next finer row keeps it too. */
@@ -224,15 +237,17 @@ static bool find_place(const baum_i_row *const *rows, int count, double error, b
                        place *out)
 {
   for (int k = 0; k < count; k++) {
+    double margin = with_margin ? margin_at(rows, count, k) : 1.0;
+    double wanted = error / margin;
     double here = expected(rows[k], rows[k], with_margin);
-    bool next = k + 1 == count || expected(rows[k + 1], rows[k], with_margin) <= error;
-    if (here > error || !next) {
+    bool next = k + 1 == count || expected(rows[k + 1], rows[k], with_margin) <= wanted;
+    if (here > wanted || !next) {
       continue;
     }
-    *out = (place){rows[k], rows[k], 0.0};
+    *out = (place){rows[k], rows[k], 0.0, margin};
     double before = k > 0 ? expected(rows[k - 1], rows[k], with_margin) : 0.0;
-    if (before > error && isfinite(before)) {
-      *out = (place){rows[k - 1], rows[k], share_at(before, here, error)};
+    if (before > wanted && isfinite(before)) {
+      *out = (place){rows[k - 1], rows[k], share_at(before, here, wanted), margin};
     }
     return true;
   }
@@ -313,14 +328,17 @@ static void explain(const place *p, const baum_simulation_options *o, char *why,
   char name[BAUM_I_NAME_SIZE];
   name_options(o, name, sizeof name);
   why[0] = '\0';
-  baum_i_append(why, size, "%s: error %.2g at %.3g evaluations and %.3g ms", name, place_error(p),
+  baum_i_append(why, size, "%s: error %.2g for a work of %.3g and %.3g ms", name, place_error(p),
                 place_cost(p, BAUM_STUDY_WORK), 1e3 * place_cost(p, BAUM_STUDY_CPU));
-  if (p->coarse != p->fine) {
-    baum_i_append(why, size, ", between what was measured with %s (error %.2g) and %s (error %.2g)",
-                  p->coarse->name, p->coarse->out.error, p->fine->name, p->fine->out.error);
-  } else {
+  if (p->coarse == p->fine) {
     baum_i_append(why, size, ", as measured");
+    return;
   }
+  bool fixed = !isnan(o->step);
+  const char *unit = fixed ? " s" : "";
+  baum_i_append(why, size, ", between %s %.3g%s with %.2g and %.3g%s with %.2g",
+                fixed ? "step" : "rtol", baum_i_setting(&p->coarse->options), unit,
+                p->coarse->out.error, baum_i_setting(&p->fine->options), unit, p->fine->out.error);
 }
 
 static void add_margin(const baum_study *study, const place *p, const question *q, char *why,
@@ -333,8 +351,8 @@ static void add_margin(const baum_study *study, const place *p, const question *
   baum_i_append(
     why, size,
     "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
-    "of %g is left",
-    p->fine->name, p->fine->out.error_rehearsed, MARGIN);
+    "of %.2g is left",
+    p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_rehearsed, p->margin);
   add_rival(study, p, *q, why, size);
 }
 
@@ -428,11 +446,11 @@ static bool beats(const place *p, const place *other)
 static void find_affordable(const baum_i_row *const *rows, int count, double seconds, place *best)
 {
   for (int k = 0; k < count; k++) {
-    place p = {rows[k], rows[k], 0.0};
+    place p = {rows[k], rows[k], 0.0, 1.0};
     double here = rows[k]->out.cpu;
     double before = k > 0 ? rows[k - 1]->out.cpu : (double)INFINITY;
     if (here > seconds && before <= seconds && rows[k]->out.error < rows[k - 1]->out.error) {
-      p = (place){rows[k - 1], rows[k], share_at(before, here, seconds)};
+      p = (place){rows[k - 1], rows[k], share_at(before, here, seconds), 1.0};
     } else if (here > seconds) {
       continue;
     }

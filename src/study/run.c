@@ -345,12 +345,12 @@ static baum_status set_order(crew *c)
 
 /* ---- times ---- */
 
-static void take_times(const baum_study *study, const baum_i_outcome *first, const double least[2],
-                       int repeats, baum_i_row *row)
+static void take_times(const baum_i_outcome *first, const double least[2], int repeats,
+                       baum_i_row *row)
 {
   row->out.evaluations = first->counters.evaluations;
   row->out.factorizations = first->counters.factorizations;
-  row->out.work = baum_i_study_work(study, row);
+  row->out.work = baum_i_study_work(row);
   row->out.cpu = least[0];
   row->out.cpu_spread = repeats > 1 ? least[1] - least[0] : (double)NAN;
   row->out.repeats = repeats;
@@ -381,7 +381,7 @@ static baum_status time_row(crew *c, baum_i_row *row)
     least[0] = fmin(least[0], outcome.cpu);
     repeats++;
   }
-  take_times(c->study, &first, least, repeats, row);
+  take_times(&first, least, repeats, row);
   return baum_i_study_file_timed(c->file, row);
 }
 

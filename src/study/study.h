@@ -228,8 +228,7 @@ baum_status baum_i_study_file_close(baum_i_study_file *file);
 
 /* ---- work.c ---- */
 
-/* [evaluations] What a run has cost on any machine. */
-double baum_i_study_work(const baum_study *study, const baum_i_row *row);
+double baum_i_study_work(const baum_i_row *row);
 
 /* ---- methods.c ---- */
 
