@@ -111,11 +111,12 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  char why[BAUM_I_MESSAGE_SIZE];
-  (void)snprintf(why, sizeof why, "%s", baum_message());
+  baum_i_sentence why;
+  baum_i_message_keep(&why);
   char label[BAUM_I_LABEL_SIZE];
   (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
-  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label, why);
+  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label,
+                     why.text);
 }
 
 /* Every factor that differs from that of the row before. */
@@ -160,6 +161,7 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
   }
   baum_i_gain_context context = {
     .method = &run->integrator->method,
+    .family = run->integrator->family,
     .integrator = run->integrator->name,
     .step = o->step,
     .rule_default = run->integrator->gains,

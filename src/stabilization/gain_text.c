@@ -105,6 +105,8 @@ static const char *const class_text[] = {
   [BAUM_UNSTABLE] = "UNSTABLE, violations grow",
 };
 
+static const char UNDAMPED[] = "warning: alpha = 0 damps nothing but by the error of the method";
+
 /* Of the slower mode of (6), per step. */
 static double promised_damping(const baum_i_gain_draft *gains)
 {
@@ -138,19 +140,23 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
                    radius, exp(-promised_damping(gains)));
   }
   if (undamped) {
-    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length,
-                   "; warning: alpha = 0 damps nothing but by the error of the method");
+    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length, "; %s", UNDAMPED);
   }
   return !stable || undamped || near_edge;
 }
 
-/* True when the clause warns. */
-static bool print_variable_step(const baum_i_gain_draft *gains, double max_step,
-                                char text[CLAUSE_SIZE])
+/* True when the clause warns. The error test keeps explicit and Adams methods where violations decay; BDF may take order and
+ * step where they do not (statement.c). */
+static bool print_variable_step(baum_i_method_family family, const baum_i_gain_draft *gains,
+                                double max_step, char text[CLAUSE_SIZE])
 {
   if (gains->beta == 0.0 && gains->alpha > 0.0) {
     (void)snprintf(text, CLAUSE_SIZE,
                    "variable step; warning: beta = 0 leaves violations of position");
+    return true;
+  }
+  if (gains->beta > 0.0 && gains->alpha == 0.0) {
+    (void)snprintf(text, CLAUSE_SIZE, "variable step; %s", UNDAMPED);
     return true;
   }
   if (isfinite(max_step)) {
@@ -159,9 +165,9 @@ static bool print_variable_step(const baum_i_gain_draft *gains, double max_step,
                    max_step);
     return false;
   }
-  if (gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
+  if (family == BAUM_I_FAMILY_BDF && gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
     (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step; warning: alpha / beta = %.3g < %g, BDF and IDA may not damp",
+                   "variable step; warning: alpha / beta = %.3g < %g, where BDF may not damp",
                    gains->alpha / gains->beta, BDF_DAMPING_RATIO);
     return true;
   }
@@ -174,7 +180,7 @@ void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
 {
   char clause[CLAUSE_SIZE];
   if (choice->amplification.stability == BAUM_VARIABLE_STEP) {
-    choice->doubtful = print_variable_step(gains, choice->max_step, clause);
+    choice->doubtful = print_variable_step(context->family, gains, choice->max_step, clause);
   } else {
     choice->doubtful = print_fixed_step(context, gains, &choice->amplification, clause);
   }

@@ -10,6 +10,7 @@
 /* What a rule may depend on. */
 typedef struct baum_i_gain_context {
   const baum_i_method *method;
+  baum_i_method_family family; /* of a method that chooses its steps */
   const char *integrator;      /* name, for messages */
   double step;                 /* [s] > 0, or NaN for variable step */
   double rate;                 /* [1/s] >= 0 angular rate of the motion */
@@ -32,9 +33,9 @@ typedef struct baum_i_gain_choice {
 } baum_i_gain_choice;
 
 /* Apply a rule and check its stability. BAUM_OK, BAUM_ERR_ARGUMENT (rule's numbers, or a rule that
- * needs a fixed step), BAUM_ERR_UNSUPPORTED (the method has no such point), BAUM_ERR_UNSTABLE (sentence with (alpha h, beta^2 h^2), the spectral radius,
- * what is stable and the nearest good pair, both as alpha, beta [1/s] and scaled). Marginal pairs
- * are BAUM_OK; the caller warns. */
+ * needs a fixed step), BAUM_ERR_UNSUPPORTED (the method has no such point), BAUM_ERR_UNSTABLE (the
+ * sentence has (alpha h, beta^2 h^2), the spectral radius, what is stable and the nearest good pair,
+ * both as alpha, beta [1/s] and scaled). Marginal pairs are BAUM_OK; the caller warns. */
 baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_context *context,
                                 baum_i_gain_choice *out);
 

@@ -34,6 +34,7 @@ static const baum_i_method variable_method = {
 static baum_i_gain_context variable_step(void)
 {
   return (baum_i_gain_context){.method = &variable_method,
+                               .family = BAUM_I_FAMILY_BDF,
                                .integrator = "cvode_bdf",
                                .step = (double)NAN,
                                .rate = 40.0,
@@ -418,6 +419,21 @@ static void weak_damping_is_warned_of_with_variable_steps(void **state)
   has(chosen(baum_gains_fixed(2.0, 0.0), variable_step()).why, "warning: beta = 0");
 }
 
+/* The error test of explicit and Adams methods keeps to where violations decay, if slowly. */
+static void weak_damping_is_a_matter_of_bdf(void **state)
+{
+  (void)state;
+  baum_i_gain_context adams = variable_step();
+  baum_i_gain_context rk4 = fixed_step(RK4);
+  adams.family = BAUM_I_FAMILY_ADAMS;
+  rk4.step = (double)NAN;
+  assert_false(chosen(baum_gains_fixed(2.0, 10.0), adams).doubtful);
+  assert_false(chosen(baum_gains_fixed(2.0, 10.0), rk4).doubtful);
+  has(chosen(baum_gains_fixed(0.0, 10.0), adams).why, "variable step; warning: alpha = 0 damps");
+  has(chosen(baum_gains_fixed(0.0, 10.0), rk4).why, "variable step; warning: alpha = 0 damps");
+  has(chosen(baum_gains_fixed(0.0, 10.0), variable_step()).why, "warning: alpha = 0 damps");
+}
+
 /* ---- Refusals ------------------------------------------------------------- */
 
 static void numbers_out_of_range_are_refused_by_name_and_unit(void **state)
@@ -571,6 +587,7 @@ int main(void)
     cmocka_unit_test(rules_of_the_step_are_refused_without_one),
     cmocka_unit_test(variable_steps_have_no_radius),
     cmocka_unit_test(weak_damping_is_warned_of_with_variable_steps),
+    cmocka_unit_test(weak_damping_is_a_matter_of_bdf),
     cmocka_unit_test(numbers_out_of_range_are_refused_by_name_and_unit),
     cmocka_unit_test(numbers_that_overflow_are_refused),
     cmocka_unit_test(unknown_rules_are_refused),
