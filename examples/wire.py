@@ -37,8 +37,7 @@ def wire():
 def main():
     report = Report("wire")
     m = wire()
-    study = baum.study(m, 0, SPAN, samples=30, repeats=1, row_limit=2.0, energy_account=False,
-                       rehearse=False)
+    study = baum.study(m, 0, SPAN, samples=30, repeats=1, row_limit=2.0, energy_account=False)
     for name, way in METHODS.items():
         if name not in baum.integrators() or name == "cvode_adams" and not baum.has("sundials"):
             continue

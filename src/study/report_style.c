@@ -34,7 +34,7 @@ static const char *const LINES[] = {
   "tbody tr:hover > * { background: var(--shade); }",
   "td[data-v] { text-align: right; white-space: nowrap; }",
   "td.none { color: var(--faint); }",
-  ".sortable tbody th { min-width: 11rem; position: sticky; left: 0; z-index: 1; background: var(--paper); }",
+  ".sortable tbody th { min-width: 16rem; position: sticky; left: 0; z-index: 1; background: var(--paper); }",
   ".sortable thead th:first-child { left: 0; z-index: 3; }",
   ".advice td { min-width: 8rem; }",
   ".advice .why { color: var(--faint); border-top: 0; padding-top: 0; }",
