@@ -15,9 +15,9 @@
  * about as the step, on the way (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for Nonlinear
  * Problems, 2004, chapters 2 and 5). D is probed: with z of one part of every scale in every coordinate,
  *
- *   turning = max_k (|D^k z| / |z|)^(1/k),  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
+ *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
  *
- * grows to the largest eigenvalue, and one that is near singular is in every z. A probe costs a solution with the
+ * comes near the largest eigenvalue or above it, and one that is near singular is in every z. A probe costs a solution with the
  * factors that v and a need anyway.
  *
  * All solutions are those of the saddle-point system: with no freedom left its a is J^-1 of the lower right side
