@@ -70,7 +70,7 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
   const baum_mechanism *m = w->mechanism;
   baum_i_chord chord;
   baum_status status = baum_i_chord_begin(w, state->t, state->q, &chord);
-  double before = INFINITY;
+  double size = INFINITY;
   for (int k = 0; k < ITERATIONS && status == BAUM_OK; k++) {
     status = baum_i_chord_change(w, &chord, state->t + h, run->q);
     if (status != BAUM_OK) {
@@ -81,16 +81,16 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
       run->q[i] += w->a[i];
       run->change[i] += w->a[i];
     }
-    double size = baum_i_scaled_size(m, w->a);
+    double before = size;
+    size = baum_i_scaled_size(m, w->a);
     if (is_last(size, before, ROUNDING * fmax(1.0, baum_i_scaled_size(m, run->q)))) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * before)) {
       break;
     }
-    before = size;
   }
-  return status == BAUM_OK ? fail(state->t, before) : status;
+  return status == BAUM_OK ? fail(state->t, size) : status;
 }
 
 /* ---- one step ---- */
