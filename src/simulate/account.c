@@ -28,6 +28,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sized.h"
 #include "simulate/saved.h"
 
 enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
@@ -564,7 +565,7 @@ baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_ene
                                            size_t caller_size)
 {
   const char *call = "baum_simulation_energy_account";
-  if (!simulation || !out || caller_size < sizeof(size_t)) {
+  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
                        simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
   }
@@ -592,7 +593,6 @@ baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_ene
                                  .gains = works[BAUM_I_WORK_GAINS],
                                  .residual = works[BAUM_I_WORKS],
                                  .evaluations = simulation->account->workspace->evaluations};
-  account.struct_size = caller_size < sizeof account ? caller_size : sizeof account;
-  memcpy(out, &account, account.struct_size);
+  baum_i_give_sized(out, caller_size, &account, sizeof account);
   return BAUM_OK;
 }
