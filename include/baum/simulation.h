@@ -200,7 +200,8 @@ static inline baum_simulation_options baum_simulation_options_default(void)
  *  @param[out] out        receives the run, NULL on failure; release with baum_simulation_destroy()
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE (not frozen),
  *              BAUM_ERR_UNSUPPORTED (the pair of integrator and formulation, the build, kinematics
- *              where freedom is left, or blocks where they do not suit),
+ *              where freedom is left or with an energy account, gains that the method has no point
+ *              for, RATTLE with what it is not for, or blocks where they do not suit),
  *              BAUM_ERR_INCONSISTENT, BAUM_ERR_SINGULAR, BAUM_ERR_UNSTABLE, BAUM_ERR_MEMORY,
  *              BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR
  */
@@ -257,7 +258,8 @@ BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, doub
  *  changed by the least that fulfils the constraints. So another integrator, formulation, tolerance or solver takes over
  *  from the last good step.
  *  @param[in] from  of the same mechanism, or of one with the same elements and numbers; unchanged
- *  @return          as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism
+ *  @return          as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism,
+ *                   BAUM_ERR_CONVERGENCE also where q and v cannot be brought onto the constraints
  */
 BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
                                               const baum_simulation *from);

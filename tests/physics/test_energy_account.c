@@ -130,8 +130,8 @@ static void closes_with_the_order(void **state)
 /* ---- steps of the method's choice ---- */
 
 /* 100, in units of rtol. Orders of BDF and IDA end at 5, so that their own errors fall by 6.8 per decade of rtol only:
- * below 1e-6 they have that much more (what_is_left_is_the_error_of_the_motion). Index 3 of IDA, whose velocities are outside of its error test, is far above its
- * tolerance in all else too. */
+ * below 1e-6 they have that much more (what_is_left_is_the_error_of_the_motion). Index 3 of IDA, whose velocities are
+ * outside of its error test, is far above its tolerance in all else too. */
 static double allowed(const baum_simulation_options *options)
 {
   double decades = fmax(-6.0 - log10(options->rtol), 0.0);
