@@ -60,6 +60,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   if (observe) {
     baum_i_passages_note(run, state);
     baum_i_run_observe(run, state->t, true);
+    baum_i_run_resolve(run);
   }
   memcpy(run->acceleration, run->workspace->a,
          (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);

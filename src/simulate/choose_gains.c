@@ -8,7 +8,8 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: below it nothing is known to move. */
+/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: without gravity, which would tell what is slow, nothing is
+ * known to move below it. */
 static const double ROUNDING_RATE = 1e-7;
 static const double AT_REST = 1e-3; /* of the rate at which gravity swings it */
 
@@ -28,7 +29,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
   if (rate < AT_REST * swing) {
     return swing;
   }
-  return rate > ROUNDING_RATE ? rate : 0.0;
+  return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
 static bool is_driven(const baum_simulation *run)

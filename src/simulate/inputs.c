@@ -39,6 +39,7 @@ baum_status baum_i_run_begin_anew(baum_simulation *run)
   }
   if (status == BAUM_OK) {
     run->origin = run->state.t;
+    run->resolution.follows = false; /* accelerations may jump */
   }
   if (status == BAUM_OK && run->events) {
     baum_i_events_go_on(run);

@@ -46,6 +46,15 @@ typedef struct baum_i_schedule {
   int room;
 } baum_i_schedule;
 
+/* What tells whether fixed steps resolve the motion, see resolution.c; sizes in the scales. */
+typedef struct baum_i_resolution {
+  double sizes;   /* sum of squares of accelerations */
+  double changes; /* likewise of their changes from step to step */
+  double way;     /* sum of |v| h */
+  bool follows;   /* run->acceleration is that of the step before */
+  bool coarse;    /* has been warned of */
+} baum_i_resolution;
+
 typedef struct baum_i_account baum_i_account;
 typedef struct baum_i_passages baum_i_passages;
 typedef struct baum_i_events baum_i_events;
@@ -85,6 +94,8 @@ struct baum_simulation {
   bool large_seen;            /* a violation above a share of the scales has been warned of */
   double judged_phi;          /* max_phi when that was last looked at */
 
+  baum_i_resolution resolution;
+
   int64_t signalled; /* warnings that a status has announced */
   char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
   char explain[BAUM_I_EXPLAIN_SIZE];
@@ -95,6 +106,12 @@ struct baum_simulation {
   struct timespec last_progress;
   double paced_at; /* [s] of a call: where its pace has last been looked at */
 };
+
+/* ---- resolution.c ---- */
+
+/* A fixed step begins: its acceleration is in the workspace, that of the last in run->acceleration. Warns once
+ * where steps are too long. */
+void baum_i_run_resolve(baum_simulation *run);
 
 /* ---- start.c ---- */
 

@@ -75,6 +75,7 @@ static size_t largest_size(const baum_i_saved *list)
 static void forget(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
+  run->resolution.follows = false;
   if (run->account) {
     baum_i_account_forget(run->account);
   }

@@ -163,6 +163,7 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "redundant seen", run->redundant_seen);
   BAUM_I_SAVED_ADD(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
+  BAUM_I_SAVED_ADD(list, "resolution", run->resolution);
   BAUM_I_SAVED_ADD(list, "signalled", run->signalled);
   baum_i_saved_add_some(list, "warnings", run->warnings, BAUM_I_WARNING_SIZE,
                         run->counters.warnings, BAUM_I_WARNINGS);

@@ -10,7 +10,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 3, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 4, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */

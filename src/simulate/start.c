@@ -185,6 +185,7 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
   run->origin = run->state.t;
+  run->resolution.follows = false;
   baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_begin(run);

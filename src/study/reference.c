@@ -20,7 +20,7 @@
 static const double CLOSE = 1e-9;     /* a difference with which nothing else is tried */
 static const double TRUSTED = 1e-3;   /* the largest with which a reference is trusted */
 static const double ROUNDING = 1e-15; /* nothing is known better than that */
-static const double LIMITS = 5.0;     /* row limits that a run of the reference may take */
+static const double PATIENCE = 5.0;   /* row limits that a run of the reference may take */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
@@ -393,7 +393,7 @@ baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
     return BAUM_OK;
   }
   baum_i_watch longer = *watch;
-  longer.limit = fmax(LIMITS * watch->limit, BAUM_I_PATIENCE);
+  longer.limit = PATIENCE * watch->limit;
   bool is_given = r->given[0] || r->solution;
   baum_status status = is_given ? take_given(study) : make_own(study, &longer);
   if (status != BAUM_OK) {

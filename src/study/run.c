@@ -81,13 +81,6 @@ static void take_motion(const baum_i_outcome *outcome, baum_study_row *row)
   }
 }
 
-/* The same of all, for which of them have been tried depends on the threads. */
-static void say_too_long(baum_i_row *row, double limit)
-{
-  (void)snprintf(row->message, sizeof row->message,
-                 "it, or a coarser setting of its method, takes more than %g s", limit);
-}
-
 static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
                          const baum_i_watch *watch, const double *samples, baum_i_row *row)
 {
@@ -97,7 +90,7 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
   out->untrusted = !study->reference.out.trusted;
   (void)snprintf(row->message, sizeof row->message, "%s", outcome->message);
   if (out->state == BAUM_STUDY_TIMED_OUT) {
-    say_too_long(row, watch->limit);
+    (void)snprintf(row->message, sizeof row->message, "it takes more than %g s", watch->limit);
   }
   take_motion(outcome, out);
   if (out->state == BAUM_STUDY_DONE && study->reference.course.rows) {
@@ -157,7 +150,7 @@ static void pass_over(const crew *c, baum_i_row *row)
   row->out.status = BAUM_STOP_CANCELLED;
   row->out.untrusted = !c->study->reference.out.trusted;
   row->limit = c->study->options.row_limit;
-  say_too_long(row, row->limit);
+  (void)snprintf(row->message, sizeof row->message, "it takes more than %g s", row->limit);
   row->measured = true;
 }
 
@@ -287,7 +280,6 @@ static void rehearse_all(crew *c)
     return;
   }
   baum_i_watch watch = watch_of(c, REHEARSED_FOR);
-  watch.limit = fmax(watch.limit, BAUM_I_PATIENCE);
   baum_status status =
     c->study->rehearsed ? BAUM_OK : baum_i_study_make_rehearsals(c->study, &watch);
   if (status != BAUM_OK) {

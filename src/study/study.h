@@ -83,9 +83,6 @@ typedef struct baum_i_study_reference {
   double *weight; /* (width) on differences */
 } baum_i_study_reference;
 
-/* [s] of CPU time that a run of a reference may take however low the row limit. */
-enum { BAUM_I_PATIENCE = 60 };
-
 /* Of other starts, over twice the span. */
 enum { BAUM_I_REHEARSALS = 3 };
 

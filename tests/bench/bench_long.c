@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy of long runs: RATTLE, whose change stays in a band, and beside it semi-implicit Euler with dead-beat
- * gains, whose change grows with time. Pendulum A01 and the slider-crank that is not driven; neither dissipates.
+/* The energy of long runs: RATTLE, whose change stays in a band, and beside it methods whose change grows with time,
+ * semi-implicit Euler with dead-beat gains first. Pendulum A01 and the slider-crank that is not driven; neither dissipates.
  *
  *   bench_long [STEPS]      10000000 by default
  *
@@ -103,8 +103,9 @@ static void run_decades(const model *m, const baum_simulation_options *options, 
 
 static void compare(const char *name, const model *m, double step, int64_t steps)
 {
-  const baum_integrator *const methods[2] = {baum_rattle(), baum_semi_implicit_euler()};
-  for (int k = 0; k < 2; k++) {
+  const baum_integrator *const methods[] = {baum_rattle(), baum_semi_implicit_euler(), baum_rk4(),
+                                            baum_ab4(), baum_generalized_alpha()};
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
     baum_simulation_options options = baum_simulation_options_default();
     options.integrator = methods[k];
     options.step = step;

@@ -52,6 +52,18 @@ typedef struct grade {
 
 const char *outcome_name(outcome o);
 
+/* How long a cell runs, and in which units of time and length. */
+typedef struct cell_time {
+  double rate;   /* [rad/s] fastest of the motion */
+  double period; /* [s] */
+  double span;   /* [s] */
+  double scale;  /* [m] */
+} cell_time;
+
+cell_time cell_time_of(const cell *c);
+/* Error and promise of positions q, in the units of the scene, after out->steps. */
+void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time,
+                  grade *out);
 grade cell_grade(const cell *c);
 
 #endif

@@ -25,8 +25,10 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* An error above this share of the mechanism is no answer, whatever a step of that order may leave. */
-static const double WORTHLESS = 0.05;
+/* An error above this share of the mechanism, and above so many tolerances, is no answer, whatever a step may leave and
+ * however neighbours part. */
+static const double WORTHLESS = 0.1;
+static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
 static const double PI = 3.141592653589793;
 
@@ -196,10 +198,8 @@ static void end_trial(trial *t)
 
 /* ---- grading ---- */
 
-static double error_of(const cell *c, const trial *t, oracle_state end, double scale)
+static double error_of(const scene *s, const double *q, oracle_state end, double scale)
 {
-  const scene *s = &c->scene;
-  const double *q = baum_simulation_q(t->run);
   int width = scene_width(s);
   double most = 0.0;
   for (int k = 0; k < scene_bodies(s); k++) {
@@ -219,11 +219,13 @@ static double promise_of(const cell *c, const truth *true_, int64_t steps, doubl
   double parts = fmax(scale, scene_bodies(&c->scene)); /* each adds its own, and bodies have 1 m */
   double rounding = ROUNDING * (double)(steps + 100) * parts;
   double method = CONSTANT * c->rtol * (double)steps;
+  double most = fmax(WORTHLESS, TOLERANCES * c->rtol);
   if (c->way->fixed) {
     double h = c->step * 2.0 * PI; /* times the rate */
-    method = fmin(CONSTANT * true_->rate * true_->span * pow(h, c->way->order), WORTHLESS);
+    method = CONSTANT * true_->rate * true_->span * pow(h, c->way->order);
+    most = WORTHLESS;
   }
-  return fmin((method + rounding + c->share) * true_->growth, WORTHLESS);
+  return fmin((method + rounding + c->share) * true_->growth, most);
 }
 
 static double seconds(void)
@@ -239,14 +241,20 @@ static double scale_of(const cell *c, const trial *t)
   return scale / c->scene.units.length;
 }
 
-/* How far the run is off, and how far it may be. */
-static void measure(const cell *c, const trial *t, double span, double rate, grade *out)
+void cell_measure(const cell *c, const scene *s, const double *q, const cell_time *time, grade *out)
 {
-  double scale = scale_of(c, t);
-  double start = c->scene.start;
-  truth true_ = find_truth(&t->scene, start + span - start, rate, scale); /* as doubles have it */
-  out->error = error_of(c, t, true_.end, scale);
-  out->promise = true_.known ? promise_of(c, &true_, t->steps, scale) : (double)NAN;
+  double start = s->start;
+  double span = start + time->span - start; /* as doubles have it */
+  truth true_ = find_truth(s, span, time->rate, time->scale);
+  out->error = error_of(s, q, true_.end, time->scale);
+  out->promise = true_.known ? promise_of(c, &true_, out->steps, time->scale) : (double)NAN;
+}
+
+static void measure(const cell *c, const trial *t, cell_time time, grade *out)
+{
+  time.scale = scale_of(c, t);
+  out->steps = t->steps;
+  cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
 /* Warnings that leave the motion in doubt; others say what is true however right it is. */
@@ -288,7 +296,7 @@ static const double SINGULAR = 1e-10;
 
 /* A start that is neither singular nor inconsistent should not be refused; gains that are called
  * unstable should not do well. */
-static bool refused_in_vain(const cell *c, baum_simulation_options *o, double span, double rate,
+static bool refused_in_vain(const cell *c, baum_simulation_options *o, cell_time time,
                             baum_status status)
 {
   const scene *s = &c->scene;
@@ -300,42 +308,44 @@ static bool refused_in_vain(const cell *c, baum_simulation_options *o, double sp
   }
   grade again = {.error = (double)NAN};
   o->allow_unstable = true;
-  trial t = try_cell(c, o, span, &again);
+  trial t = try_cell(c, o, time.span, &again);
   if (t.began && t.status >= BAUM_OK) {
-    measure(c, &t, span, rate, &again);
+    measure(c, &t, time, &again);
   }
   end_trial(&t);
   return again.error <= again.promise;
 }
 
-static double span_of(const cell *c, double period)
+cell_time cell_time_of(const cell *c)
 {
-  if (!c->way->fixed) {
-    return c->periods * period;
+  cell_time out = {.rate = find_rate(&c->scene), .scale = 1.0};
+  out.period = 2.0 * PI / out.rate;
+  out.span = c->periods * out.period;
+  if (c->way->fixed) {
+    double steps = fmin(round(c->periods / c->step), (double)c->most);
+    out.span = fmax(1.0, steps) * c->step * out.period;
   }
-  return fmax(1.0, fmin(round(c->periods / c->step), (double)c->most)) * c->step * period;
+  return out;
 }
 
 grade cell_grade(const cell *c)
 {
   grade out = {.error = (double)NAN, .promise = (double)NAN};
   double begin = seconds();
-  double rate = find_rate(&c->scene);
-  double period = 2.0 * PI / rate;
-  double span = span_of(c, period);
-  baum_simulation_options o = options_of(c, period);
+  cell_time time = cell_time_of(c);
+  baum_simulation_options o = options_of(c, time.period);
   double ran = seconds();
-  trial t = try_cell(c, &o, span, &out);
+  trial t = try_cell(c, &o, time.span, &out);
   out.seconds = seconds() - ran;
   out.steps = t.steps;
   out.status = t.status;
   if (t.began && t.status >= BAUM_OK) {
-    measure(c, &t, span, rate, &out);
+    measure(c, &t, time, &out);
   }
-  out.all_seconds = seconds() - begin;
   out.outcome = judge(&t, &out);
   out.false_alarm = (out.outcome == WARNED && out.error <= out.promise) ||
-                    (out.outcome == REFUSED && refused_in_vain(c, &o, span, rate, t.status));
+                    (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));
   end_trial(&t);
+  out.all_seconds = seconds() - begin;
   return out;
 }

@@ -322,6 +322,12 @@ static void event_at_an_output_is_both(void **state)
   }
 }
 
+/* Steps that are too long for a method of low order are warned of. */
+static bool is_there(baum_status status, step_mode mode)
+{
+  return status == BAUM_OK || (mode.fixed && status == BAUM_WARNED);
+}
+
 static void zero_at_the_start_is_left_and_met_again(void **state)
 {
   (void)state;
@@ -338,7 +344,7 @@ static void zero_at_the_start_is_left_and_met_again(void **state)
     assert_int_equal(baum_simulation_set_state(run, 0.0, q0, v0), BAUM_OK);
     (void)add_angle(run, &s, 0.0, 0, false);
     assert_int_equal(baum_simulation_set_state(run, 0.0, q0, v0), BAUM_OK);
-    assert_int_equal(baum_simulation_advance_to(run, 5.0 * s.quarter), BAUM_OK);
+    assert_true(is_there(baum_simulation_advance_to(run, 5.0 * s.quarter), mode));
     check_records(run, &s, mode, want, 2);
     close_all(run, &s);
   }
@@ -356,7 +362,7 @@ static void turning_at_an_event_finds_it_once(void **state)
     baum_simulation *run = open_run(&s, &o);
     (void)add_angle(run, &s, 0.0, 0, true);
     assert_int_equal(baum_simulation_advance_to(run, 2.0 * s.quarter), BAUM_STOP_EVENT);
-    assert_int_equal(baum_simulation_advance_to(run, 0.0), BAUM_OK);
+    assert_true(is_there(baum_simulation_advance_to(run, 0.0), mode));
     assert_int_equal(baum_simulation_advance_to(run, -2.0 * s.quarter), BAUM_STOP_EVENT);
     check_records(run, &s, mode, want, 2);
     close_all(run, &s);
