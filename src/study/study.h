@@ -49,6 +49,7 @@ typedef struct baum_i_row {
   bool measured;  /* errors and all that belongs to the motion are known */
   bool timed;     /* so are its counts of work and its time, where it is done */
   bool rehearsed; /* error_rehearsed is as well known as it can be */
+  unsigned filed; /* what of it the study file had when it was opened */
 } baum_i_row;
 
 /* A motion, and where it is looked at. */

@@ -26,6 +26,7 @@
 #include "study/study.h"
 
 enum { LINE = 4096, MARKS = 8 };
+enum { FILED_MEASURED = 1, FILED_TIMED = 2, FILED_REHEARSED = 4 };
 static const char HEAD[] = "baum-study ";
 
 struct baum_i_study_file {
@@ -325,7 +326,11 @@ static void take_measured(const baum_study *study, const char *rest, uint64_t ke
     double limit = strtod(rest, &end);
     const char *text = read_fields(end, &out, MEASURED, MEASURED_COUNT);
     bool too_short = out.state == BAUM_STUDY_TIMED_OUT && limit < study->options.row_limit;
-    if (row->key == key && text && !row->measured && !too_short) {
+    if (row->key != key || !text || too_short) {
+      continue;
+    }
+    row->filed |= FILED_MEASURED;
+    if (!row->measured) {
       row->out = out;
       row->limit = limit;
       row->measured = true;
@@ -339,8 +344,11 @@ static void take_timed(const baum_study *study, const char *rest, uint64_t key)
   for (int k = 0; k < study->row_count; k++) {
     baum_i_row *row = study->rows[k];
     baum_study_row out = row->out;
-    if (row->key == key && row->measured && !row->timed &&
-        read_fields(rest, &out, TIMED, TIMED_COUNT)) {
+    if (row->key != key || !row->measured || !read_fields(rest, &out, TIMED, TIMED_COUNT)) {
+      continue;
+    }
+    row->filed |= FILED_TIMED;
+    if (!row->timed) {
       row->out = out;
       row->timed = true;
     }
@@ -366,6 +374,7 @@ static void take_rehearsed(const baum_study *study, const char *text)
   for (int k = 0; k < study->row_count; k++) {
     baum_i_row *row = study->rows[k];
     if (row->key == key && row->timed) {
+      row->filed |= FILED_REHEARSED;
       row->out.error_rehearsed = strtod(end, NULL);
       row->rehearsed = true;
     }
@@ -462,6 +471,25 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : complain(file, "written");
 }
 
+/* What is known but not in the file, which may have been full. */
+static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
+{
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < study->row_count && status == BAUM_OK; k++) {
+    const baum_i_row *row = study->rows[k];
+    if (row->measured && !(row->filed & FILED_MEASURED)) {
+      status = baum_i_study_file_measured(file, row);
+    }
+    if (status == BAUM_OK && row->timed && !(row->filed & FILED_TIMED)) {
+      status = baum_i_study_file_timed(file, row);
+    }
+    if (status == BAUM_OK && row->rehearsed && !(row->filed & FILED_REHEARSED)) {
+      status = baum_i_study_file_rehearsed(file, row);
+    }
+  }
+  return status;
+}
+
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
 {
   *out = NULL;
@@ -475,9 +503,15 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
   file->path = study->options.file;
   bool is_new = true;
   bool whole = true;
+  for (int k = 0; k < study->row_count; k++) {
+    study->rows[k]->filed = 0;
+  }
   baum_status status = take_present(file, study, &is_new, &whole);
   if (status == BAUM_OK) {
     status = begin(file, study, is_new, whole);
+  }
+  if (status == BAUM_OK) {
+    status = catch_up(file, study);
   }
   if (status != BAUM_OK) {
     (void)baum_i_study_file_close(file);

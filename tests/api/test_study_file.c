@@ -259,6 +259,12 @@ static void a_full_disk_and_a_missing_folder_are_statuses(void **state)
   ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "cannot be written");
   assert_int_equal(setrlimit(RLIMIT_FSIZE, &before), 0);
   assert_int_equal(baum_study_run(study), BAUM_OK); /* there is room again */
+  int first = 0;
+  baum_study *again = run_to_the_end(&s, &first);
+  assert_int_equal(first, baum_study_row_count(study) + 1); /* what had no room is there now */
+  assert_same_rows(again, study);
+  assert_true(study_row(again, 0).cpu == study_row(study, 0).cpu);
+  baum_study_destroy(again);
   baum_study_destroy(study);
   end_scene(&s);
 }
