@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "models.h"
 #include "sentence.h"
 
@@ -18,14 +19,6 @@ enum { ARMS = 60 };
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU, BAUM_SOLVER_QR,
                                       BAUM_SOLVER_BLOCK};
-
-static void must(baum_status status)
-{
-  if (status < BAUM_OK) {
-    print_error("%s\n", baum_message());
-  }
-  assert_true(status >= BAUM_OK);
-}
 
 static baum_simulation_options euler(baum_solver solver)
 {
@@ -39,7 +32,7 @@ static baum_simulation_options euler(baum_solver solver)
 static baum_simulation *start(const baum_mechanism *mechanism, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
-  must(baum_simulation_create(mechanism, o, &run));
+  check(baum_simulation_create(mechanism, o, &run));
   return run;
 }
 
@@ -66,27 +59,27 @@ static baum_mechanism *make_hub(int arms)
 {
   baum_mechanism *m = NULL;
   baum_body_id hub;
-  must(baum_mechanism_create(&m));
+  check(baum_mechanism_create(&m));
   baum_planar_body_def disc = baum_planar_body_def_default();
   disc.name = "hub";
   disc.mass = 10.0;
-  must(baum_mechanism_add_planar_body(m, &disc, &hub));
+  check(baum_mechanism_add_planar_body(m, &disc, &hub));
   baum_planar_revolute_def pin = baum_planar_revolute_def_default();
   pin.body_a = BAUM_GROUND;
   pin.body_b = hub;
   pin.point[0] = 0.0;
   pin.point[1] = 0.0;
-  must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
   for (int k = 0; k < arms; k++) {
     double angle = 2.0 * PI * k / arms;
     baum_planar_body_def arm = baum_planar_body_def_default();
     arm.position[0] = 1.5 * cos(angle);
     arm.position[1] = 1.5 * sin(angle);
-    must(baum_mechanism_add_planar_body(m, &arm, &pin.body_b));
+    check(baum_mechanism_add_planar_body(m, &arm, &pin.body_b));
     pin.body_a = hub;
     pin.point[0] = cos(angle);
     pin.point[1] = sin(angle);
-    must(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+    check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
   }
   return m;
 }
@@ -125,21 +118,21 @@ static baum_mechanism *make_massless(void)
 {
   baum_mechanism *m = NULL;
   baum_body_id body;
-  must(baum_mechanism_create(&m));
+  check(baum_mechanism_create(&m));
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "twin";
   def.size = 2;
   def.mass = half_a_mass;
   def.force = pull;
   def.constant_mass = true;
-  must(baum_mechanism_add_coordinates(m, &def, &body));
+  check(baum_mechanism_add_coordinates(m, &def, &body));
   baum_user_constraint_def same = baum_user_constraint_def_default();
   same.bodies = &body;
   same.body_count = 1;
   same.row_count = 1;
   same.phi = tie;
-  must(baum_mechanism_add_user_constraint(m, &same, NULL));
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_add_user_constraint(m, &same, NULL));
+  check(baum_mechanism_freeze(m));
   return m;
 }
 
@@ -150,16 +143,16 @@ static void all_solvers_find_the_same(void **state)
   (void)state;
   model m;
   model_slider_crank data = {.angle = 1.0, .moving = true};
-  must(model_slider_crank_build(data, &m));
+  check(model_slider_crank_build(data, &m));
   const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
   double want[17];
   for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
     baum_simulation_options o = euler(SOLVERS[k]);
     baum_simulation *run = start(m.mechanism, &o);
     double row[17];
-    must(baum_simulation_step(run, 100));
+    check(baum_simulation_step(run, 100));
     assert_int_equal(baum_channels_width(m.mechanism, channels, 2), 17);
-    must(baum_simulation_get(run, channels, 2, row));
+    check(baum_simulation_get(run, channels, 2, row));
     for (int i = 0; i < 17; i++) {
       want[i] = k == 0 ? row[i] : want[i];
       /* Rounding of accelerations of 1e4 m/s^2 and multipliers of 1e3 N, times some condition. */
@@ -181,7 +174,7 @@ static void explain_names_the_solver(void **state)
   };
   model m;
   model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};
-  must(model_slider_crank_build(data, &m));
+  check(model_slider_crank_build(data, &m));
   for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
     baum_simulation_options o = euler(SOLVERS[k]);
     baum_simulation *run = start(m.mechanism, &o);
@@ -197,7 +190,7 @@ static void methods_without_accelerations_say_so(void **state)
   (void)state;
   model m;
   model_slider_crank data = {.driven = true, .angle = 1.0, .moving = true};
-  must(model_slider_crank_build(data, &m));
+  check(model_slider_crank_build(data, &m));
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_kinematics();
   baum_simulation *run = start(m.mechanism, &o);
@@ -218,10 +211,10 @@ static void bodies_with_very_many_joints_are_named(void **state)
 {
   (void)state;
   baum_mechanism *m = make_hub(ARMS);
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
   baum_simulation *run = start(m, &o);
-  must(baum_simulation_step(run, 10));
+  check(baum_simulation_step(run, 10));
   assert_explained(run,
                    "\nsolver        klu on the whole system: body 1 \"hub\" has 61 joints, too "
                    "many for blocks\n");
@@ -236,10 +229,10 @@ static void many_joints_below_that_are_fine(void **state)
 {
   (void)state;
   baum_mechanism *m = make_hub(40);
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   baum_simulation *run = start(m, &o);
-  must(baum_simulation_step(run, 10));
+  check(baum_simulation_step(run, 10));
   assert_explained(run, "\nsolver        blocks, 41 nodes, 820 couplings"); /* a clique */
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -253,7 +246,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   baum_simulation *run = start(m, &o);
   const baum_channel channel = {.quantity = BAUM_A};
   double a[2];
-  must(baum_simulation_get(run, &channel, 1, a));
+  check(baum_simulation_get(run, &channel, 1, a));
   ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* differences of Phi */
   ASSERT_NEAR(a[1], 3.0, 0.0, 1e-10);
   assert_explained(run,
@@ -271,14 +264,14 @@ static void blocks_alone_stop_close_to_a_singular_pose(void **state)
   (void)state;
   model m;
   model_slider_crank data = {.centric = true, .rod = 0.153, .angle = PI / 2 - 1e-7, .moving = true};
-  must(model_slider_crank_build(data, &m));
+  check(model_slider_crank_build(data, &m));
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   o.start = BAUM_START_AS_GIVEN;
   assert_refused(m.mechanism, &o, BAUM_ERR_SINGULAR, "t = 0 s|pivots by blocks are too small");
   o.solver = BAUM_SOLVER_AUTO;
   baum_simulation *run = start(m.mechanism, &o);
   baum_counters counters;
-  must(baum_simulation_counters(run, &counters, sizeof counters));
+  check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(counters.full_factorizations > 0); /* klu's */
   baum_simulation_destroy(run);
   model_destroy(&m);
@@ -288,19 +281,19 @@ static void no_joints_are_no_nodes(void **state)
 {
   (void)state;
   baum_mechanism *m = NULL;
-  must(baum_mechanism_create(&m));
+  check(baum_mechanism_create(&m));
   baum_planar_body_def def = baum_planar_body_def_default();
   def.velocity[0] = 2.0;
   def.velocity[1] = 0.0;
-  must(baum_mechanism_add_planar_body(m, &def, NULL));
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_add_planar_body(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
   o.integrator = baum_rk2();
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
   o.step = 0.5;
   baum_simulation *run = start(m, &o);
   assert_explained(run, "\nsolver        blocks, 0 nodes, 0 couplings");
-  must(baum_simulation_step(run, 2));
+  check(baum_simulation_step(run, 2));
   const double *q = baum_simulation_q(run);
   ASSERT_NEAR(q[0], 2.0, 1e-15, 0.0);
   ASSERT_NEAR(q[1], -9.81 / 2, 1e-15, 0.0);

@@ -9,6 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
+#include "check.h"
 #include "models.h"
 #include "quad_saddle.h"
 
@@ -26,20 +27,13 @@ typedef struct posed {
   double *want_lambda;
 } posed;
 
-static inline void must(baum_status status)
-{
-  if (status < BAUM_OK) {
-    fail_msg("%s: %s", baum_status_name(status), baum_message());
-  }
-}
-
 /* Take over a model that was just built, in its drawn pose. */
 static inline posed pose_model(baum_status built, model m)
 {
-  must(built);
+  check(built);
   posed p = {.m = m};
-  must(baum_workspace_create(m.mechanism, &p.workspace));
-  must(baum_mechanism_sizes(m.mechanism, NULL, &p.nv, &p.nc));
+  check(baum_workspace_create(m.mechanism, &p.workspace));
+  check(baum_mechanism_sizes(m.mechanism, NULL, &p.nv, &p.nc));
   size_t nv = (size_t)p.nv;
   size_t nc = (size_t)p.nc;
   p.memory = calloc(4 * nv + 2 * nc, sizeof *p.memory);
@@ -50,7 +44,7 @@ static inline posed pose_model(baum_status built, model m)
   p.want_a = p.a + nv;
   p.lambda = p.want_a + nv;
   p.want_lambda = p.lambda + nc;
-  must(baum_workspace_drawn(p.workspace, p.q, p.v));
+  check(baum_workspace_drawn(p.workspace, p.q, p.v));
   return p;
 }
 
@@ -70,7 +64,7 @@ static inline double draw(uint64_t *seed, double low, double high)
 
 static inline void accelerate(posed *p)
 {
-  must(baum_workspace_acceleration(p->workspace, 0.0, p->q, p->v, 0.0, 0.0, p->a, p->lambda));
+  check(baum_workspace_acceleration(p->workspace, 0.0, p->q, p->v, 0.0, 0.0, p->a, p->lambda));
 }
 
 #endif

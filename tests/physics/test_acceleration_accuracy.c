@@ -103,7 +103,7 @@ static posed andrews(uint64_t *seed, int size)
     p.v[i] = (double)NAN;
   }
   p.v[2] = draw(seed, -1e3, 1e3);
-  must(baum_workspace_assemble(p.workspace, 0.0, p.q, p.v, m.bodies, 1));
+  check(baum_workspace_assemble(p.workspace, 0.0, p.q, p.v, m.bodies, 1));
   return p;
 }
 

@@ -121,10 +121,10 @@ static double compare_runs(int pair, const baum_simulation_options *options)
   posed with = PAIRS[pair].pose(1, true);
   posed without = PAIRS[pair].pose(1, false);
   baum_simulation *runs[2] = {NULL, NULL};
-  must(baum_simulation_create(with.m.mechanism, options, &runs[0]));
-  must(baum_simulation_create(without.m.mechanism, options, &runs[1]));
+  check(baum_simulation_create(with.m.mechanism, options, &runs[0]));
+  check(baum_simulation_create(without.m.mechanism, options, &runs[1]));
   for (int i = 0; i < 2; i++) {
-    must(baum_simulation_step(runs[i], 200));
+    check(baum_simulation_step(runs[i], 200));
   }
   for (int i = 0; i < with.nv; i++) {
     double apart = fabs(baum_simulation_q(runs[0])[i] - baum_simulation_q(runs[1])[i]);
@@ -168,11 +168,11 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
   options.integrator = baum_rk4();
   options.step = 1e-3;
   options.solver = solver;
-  must(model_parallelogram_build_of(&data, &m));
-  must(baum_simulation_create(m.mechanism, &options, &run));
-  must(baum_simulation_step(run, 10));
-  must(baum_simulation_get(run, &channel, 1, lambda));
-  must(baum_simulation_unique_multipliers(run, unique));
+  check(model_parallelogram_build_of(&data, &m));
+  check(baum_simulation_create(m.mechanism, &options, &run));
+  check(baum_simulation_step(run, 10));
+  check(baum_simulation_get(run, &channel, 1, lambda));
+  check(baum_simulation_unique_multipliers(run, unique));
   baum_simulation_destroy(run);
   model_destroy(&m);
 }
@@ -243,7 +243,7 @@ static model tell_apart(int k, const model_units *units)
   model_parallelogram_data data = TELL_APART[k].data;
   model m;
   data.units = units;
-  must(model_parallelogram_build_of(&data, &m));
+  check(model_parallelogram_build_of(&data, &m));
   return m;
 }
 
@@ -254,7 +254,7 @@ static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
   for (int k = 0; k < 2 * TELL_APART_COUNT; k++) {
     model m = tell_apart(k / 2, units[k % 2]);
     baum_mobility report;
-    must(baum_mechanism_mobility(m.mechanism, &report, sizeof report));
+    check(baum_mechanism_mobility(m.mechanism, &report, sizeof report));
     if (report.redundant_rows != TELL_APART[k / 2].redundant || report.freedoms != 1 ||
         report.near_singular != TELL_APART[k / 2].near_singular || report.conflicting_rows != 0) {
       fail_msg("%s, in %s: %s", TELL_APART[k / 2].name, k % 2 == 0 ? "m" : "mm", report.text);
@@ -278,9 +278,9 @@ static void a_run_may_start_next_to_a_singular_pose(void **state)
     baum_simulation *run = NULL;
     baum_counters counters;
     model m = tell_apart(k, NULL);
-    must(baum_simulation_create(m.mechanism, &options, &run));
-    must(baum_simulation_advance_to(run, 0.1));
-    must(baum_simulation_counters(run, &counters, sizeof counters));
+    check(baum_simulation_create(m.mechanism, &options, &run));
+    check(baum_simulation_advance_to(run, 0.1));
+    check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
     /* v^2 / 2 + k sin th = const; the first accelerations at the flat pose itself are not unique, which costs 3e-6 */

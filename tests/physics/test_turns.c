@@ -88,8 +88,8 @@ static void turned_poses_keep_twelve_digits(void **state)
 static baum_simulation *start_run(const posed *p, const baum_simulation_options *options)
 {
   baum_simulation *run = NULL;
-  must(baum_simulation_create(p->m.mechanism, options, &run));
-  must(baum_simulation_set_state(run, 0.0, p->q, p->v));
+  check(baum_simulation_create(p->m.mechanism, options, &run));
+  check(baum_simulation_set_state(run, 0.0, p->q, p->v));
   return run;
 }
 
@@ -99,15 +99,15 @@ static double compare_runs(int which, const baum_simulation_options *options, do
 {
   posed p = pose_case(which, TURNS * TURN);
   double scale = (double)NAN;
-  must(baum_mechanism_get_scale(p.m.mechanism, &scale));
+  check(baum_mechanism_get_scale(p.m.mechanism, &scale));
   baum_simulation *turned = start_run(&p, options);
   /* A mechanism of its own, so that nothing is measured from a turned pose: a driver's start. */
   posed other = pose_case(which, 0.0);
   turn_back(p.nv, p.q);
   (void)memcpy(other.q, p.q, (size_t)p.nv * sizeof *p.q);
   baum_simulation *plain = start_run(&other, options);
-  must(baum_simulation_advance_to(turned, end));
-  must(baum_simulation_advance_to(plain, end));
+  check(baum_simulation_advance_to(turned, end));
+  check(baum_simulation_advance_to(plain, end));
   (void)memcpy(p.q, baum_simulation_q(turned), (size_t)p.nv * sizeof *p.q);
   turn_back(p.nv, p.q);
   double worst = 0.0;

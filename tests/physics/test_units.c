@@ -57,9 +57,9 @@ static baum_simulation *run_in(const model *m, const model_units *units,
   baum_counters counters;
   baum_simulation_options scaled = *options;
   scaled.step *= units ? units->time : 1.0;
-  must(baum_simulation_create(m->mechanism, &scaled, &run));
-  must(baum_simulation_advance_to(run, end * (units ? units->time : 1.0)));
-  must(baum_simulation_counters(run, &counters, sizeof counters));
+  check(baum_simulation_create(m->mechanism, &scaled, &run));
+  check(baum_simulation_advance_to(run, end * (units ? units->time : 1.0)));
+  check(baum_simulation_counters(run, &counters, sizeof counters));
   *steps = counters.steps;
   return run;
 }
@@ -70,10 +70,10 @@ static pair compare_units(int which, const baum_simulation_options *options)
   model m[2];
   int32_t nq = 0;
   double scale = (double)NAN;
-  must(build_case(which, NULL, &m[0]));
-  must(build_case(which, &MODEL_MILLI, &m[1]));
-  must(baum_mechanism_sizes(m[0].mechanism, &nq, NULL, NULL));
-  must(baum_mechanism_get_scale(m[0].mechanism, &scale));
+  check(build_case(which, NULL, &m[0]));
+  check(build_case(which, &MODEL_MILLI, &m[1]));
+  check(baum_mechanism_sizes(m[0].mechanism, &nq, NULL, NULL));
+  check(baum_mechanism_get_scale(m[0].mechanism, &scale));
   baum_simulation *si = run_in(&m[0], NULL, options, END[which], &out.steps[0]);
   baum_simulation *milli = run_in(&m[1], &MODEL_MILLI, options, END[which], &out.steps[1]);
   for (int i = 0; i < nq; i++) {

@@ -13,6 +13,7 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "dynamics/immobile.h"
 #include "simulate/run.h"
 
@@ -20,20 +21,12 @@
 
 enum { MOST = 300 };
 
-static void must(baum_status status)
-{
-  if (status < BAUM_OK) {
-    print_error("%s\n", baum_message());
-  }
-  assert_true(status >= BAUM_OK);
-}
-
 /* ---- parts ---- */
 
 static baum_mechanism *begin(void)
 {
   baum_mechanism *m = NULL;
-  must(baum_mechanism_create(&m));
+  check(baum_mechanism_create(&m));
   return m;
 }
 
@@ -44,7 +37,7 @@ static baum_body_id add_body(baum_mechanism *m, double x, double y)
   def.position[0] = x;
   def.position[1] = y;
   def.inertia = 0.1;
-  must(baum_mechanism_add_planar_body(m, &def, &id));
+  check(baum_mechanism_add_planar_body(m, &def, &id));
   return id;
 }
 
@@ -56,7 +49,7 @@ static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, doub
   def.body_b = b;
   def.point[0] = x;
   def.point[1] = y;
-  must(baum_mechanism_add_planar_revolute(m, &def, &id));
+  check(baum_mechanism_add_planar_revolute(m, &def, &id));
   return id;
 }
 
@@ -68,7 +61,7 @@ static baum_joint_id weld(baum_mechanism *m, baum_body_id a, baum_body_id b)
   def.body_b = b;
   def.point[0] = 0.3;
   def.point[1] = -0.2;
-  must(baum_mechanism_add_planar_fixed(m, &def, &id));
+  check(baum_mechanism_add_planar_fixed(m, &def, &id));
   return id;
 }
 
@@ -93,7 +86,7 @@ static mounted make_mounted(void)
   (void)weld(m, low, high);
   out.shoulder = pin(m, high, arm, 0.0, 0.0);
   (void)pin(m, arm, hand, 1.0, 0.0);
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   return out;
 }
 
@@ -108,7 +101,7 @@ static baum_simulation_options fixed_step(void)
 static baum_simulation *start(const baum_mechanism *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
-  must(baum_simulation_create(m, o, &run));
+  check(baum_simulation_create(m, o, &run));
   return run;
 }
 
@@ -142,8 +135,8 @@ static void assert_same_motion(const baum_mechanism *m, int count)
   baum_simulation *whole = start_whole(m, o);
   assert_int_equal(left_out(run), count);
   assert_int_equal(left_out(whole), 0);
-  must(baum_simulation_advance_to(run, 0.5));
-  must(baum_simulation_advance_to(whole, 0.5));
+  check(baum_simulation_advance_to(run, 0.5));
+  check(baum_simulation_advance_to(whole, 0.5));
   assert_same(run, whole, 1e-11); /* rounding of 500 steps */
   baum_simulation_destroy(run);
   baum_simulation_destroy(whole);
@@ -176,7 +169,7 @@ static void rigid_islands_are_left_out(void **state)
   pin(m, BAUM_GROUND, right, 2.0, 0.0);
   pin(m, left, right, 1.0, 1.0);
   pin(m, BAUM_GROUND, bob, 4.0, 0.0);
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   assert_same_motion(m, 2);
   baum_mechanism_destroy(m);
 }
@@ -194,7 +187,7 @@ static void a_hub_at_rest_is_no_hub(void **state)
     double s = sin(2.0 * PI * k / ARMS);
     pin(m, hub, add_body(m, 1.5 * c, 1.5 * s), c, s);
   }
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
   assert_non_null(strstr(baum_simulation_explain(run),
@@ -209,7 +202,7 @@ static void nothing_but_frames_is_nothing_to_solve(void **state)
   (void)state;
   baum_mechanism *m = begin();
   weld(m, BAUM_GROUND, add_body(m, 1.0, 2.0));
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   assert_same_motion(m, 1);
   baum_mechanism_destroy(m);
 }
@@ -223,8 +216,8 @@ static void what_a_driver_holds_is_not_left_out(void **state)
   baum_driver_def def = baum_driver_def_default();
   def.joint = pin(m, BAUM_GROUND, add_body(m, 1.0, 0.0), 0.0, 0.0);
   def.value = 0.0;
-  must(baum_mechanism_add_driver(m, &def, NULL));
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_add_driver(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
   assert_same_motion(m, 0);
   baum_mechanism_destroy(m);
 }
@@ -243,12 +236,12 @@ static void nothing_is_left_out_where_another_row_was_spared(void **state)
     pin(m, crank, coupler, k, 1.0);
   }
   baum_joint_id foot = weld(m, BAUM_GROUND, frame);
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.formulation = BAUM_FORMULATION_PROJECTION;
   baum_simulation *run = start(m, &o);
   int32_t first = 0;
-  must(baum_mechanism_rows(m, foot, &first, NULL));
+  check(baum_mechanism_rows(m, foot, &first, NULL));
   const unsigned char *dropped = run->workspace->redundancy.dropped + first;
   assert_int_equal(run->workspace->redundancy.count, 1);
   assert_int_equal(dropped[0] + dropped[1] + dropped[2], 1); /* otherwise this tests nothing */
@@ -269,7 +262,7 @@ static void methods_that_need_multipliers_leave_out_nothing(void **state)
   o.rtol = 1e-6;
   baum_simulation *run = start(it.mechanism, &o);
   assert_int_equal(left_out(run), 0);
-  must(baum_simulation_advance_to(run, 0.1));
+  check(baum_simulation_advance_to(run, 0.1));
   baum_simulation_destroy(run);
   baum_mechanism_destroy(it.mechanism);
 }
@@ -296,7 +289,7 @@ static void bodies_left_out_do_not_move_by_a_digit(void **state)
       memcpy(q, baum_simulation_q(run), sizeof q);
       bool leaves_out = left_out(run) == FRAMES;
       assert_true(leaves_out || integrator->solves_residuals);
-      must(baum_simulation_advance_to(run, 0.2));
+      check(baum_simulation_advance_to(run, 0.2));
       for (int i = 0; leaves_out && i < 3 * FRAMES; i++) {
         assert_true(baum_simulation_q(run)[i] == q[i]);
         assert_true(baum_simulation_v(run)[i] == 0.0);
@@ -326,16 +319,16 @@ static void reactions_of_what_is_left_out_are_right(void **state)
   double want[MOST];
   int32_t width = baum_channels_width(it.mechanism, channels, 6);
   assert_true(width > 0 && width <= MOST);
-  must(baum_simulation_advance_to(run, 0.3));
-  must(baum_simulation_advance_to(whole, 0.3));
-  must(baum_simulation_get(run, channels, 6, got));
-  must(baum_simulation_get(whole, channels, 6, want));
+  check(baum_simulation_advance_to(run, 0.3));
+  check(baum_simulation_advance_to(whole, 0.3));
+  check(baum_simulation_get(run, channels, 6, got));
+  check(baum_simulation_get(whole, channels, 6, want));
   for (int i = 0; i < width; i++) {
     ASSERT_NEAR(got[i], want[i], 0.0, 1e-9); /* motions apart by 1e-12, forces up to 1e2 N */
   }
-  assert_true(want[1] > 10.0);                /* the foot carries something */
-  must(baum_simulation_advance_to(run, 0.4)); /* a look at the whole changes nothing */
-  must(baum_simulation_advance_to(whole, 0.4));
+  assert_true(want[1] > 10.0);                 /* the foot carries something */
+  check(baum_simulation_advance_to(run, 0.4)); /* a look at the whole changes nothing */
+  check(baum_simulation_advance_to(whole, 0.4));
   assert_same(run, whole, 1e-11);
   baum_simulation_destroy(run);
   baum_simulation_destroy(whole);
@@ -348,7 +341,7 @@ static void violations_of_what_is_left_out_are_watched(void **state)
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(it.mechanism, &o);
-  must(baum_simulation_advance_to(run, 0.2));
+  check(baum_simulation_advance_to(run, 0.2));
   for (int i = 0; i < 3 * FRAMES; i++) {
     /* What assembly left: some rounding of lengths of about 1. */
     assert_true(fabs(run->workspace->phi[i]) < 1e-14);
@@ -374,16 +367,16 @@ static void frames_out_of_place_are_solved_for(void **state)
   memcpy(v, baum_simulation_v(run), sizeof v);
   assert_int_equal(left_out(run), FRAMES);
   q[0] += 1e-3;
-  must(baum_simulation_set_state(run, 0.0, q, v));
+  check(baum_simulation_set_state(run, 0.0, q, v));
   assert_int_equal(left_out(run), 0);
-  must(baum_simulation_advance_to(run, 0.5));
+  check(baum_simulation_advance_to(run, 0.5));
   ASSERT_NEAR(baum_simulation_q(run)[0], 0.0, 0.0, 1e-5); /* the gains have brought it back */
   q[0] -= 1e-3;
   v[1] = 1e-3;
-  must(baum_simulation_set_state(run, 0.0, q, v));
+  check(baum_simulation_set_state(run, 0.0, q, v));
   assert_int_equal(left_out(run), 0);
   v[1] = 0.0;
-  must(baum_simulation_set_state(run, 0.0, q, v));
+  check(baum_simulation_set_state(run, 0.0, q, v));
   assert_int_equal(left_out(run), FRAMES);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(it.mechanism);
@@ -400,13 +393,13 @@ static void a_start_out_of_place_leaves_out_nothing(void **state)
   def.point_a[1] = 0.0;
   def.point_b[0] = 0.0;
   def.point_b[1] = 0.0;
-  must(baum_mechanism_add_planar_fixed(m, &def, NULL));
-  must(baum_mechanism_freeze(m));
+  check(baum_mechanism_add_planar_fixed(m, &def, NULL));
+  check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.start = BAUM_START_AS_GIVEN;
   baum_simulation *run = start(m, &o);
   assert_int_equal(left_out(run), 0);
-  must(baum_simulation_advance_to(run, 0.5));
+  check(baum_simulation_advance_to(run, 0.5));
   ASSERT_NEAR(baum_simulation_q(run)[0], 1.001, 0.0, 1e-5);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -430,9 +423,9 @@ static void a_state_that_is_refused_changes_nothing(void **state)
   v[0] = 1e-3;
   assert_int_equal(baum_simulation_set_state(run, 0.0, q, v), BAUM_ERR_INCONSISTENT);
   /* Its violations are not those of the steps that follow. */
-  must(baum_simulation_step(run, 1));
+  check(baum_simulation_step(run, 1));
   baum_counters counters;
-  must(baum_simulation_counters(run, &counters, sizeof counters));
+  check(baum_simulation_counters(run, &counters, sizeof counters));
   assert_true(counters.max_phi < 1e-9);
   assert_true(counters.max_phi_rate < 1e-9);
   baum_simulation_destroy(run);
