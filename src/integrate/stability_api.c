@@ -154,17 +154,31 @@ static baum_status check_ray(const baum_integrator *integrator, double damping_r
   return status == BAUM_OK ? check_positive(damping_ratio, "damping_ratio") : status;
 }
 
-baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
-                                 double *alpha_h)
+typedef double alpha_h_of_ray(const baum_i_method *method, double damping_ratio);
+
+static baum_status answer_ray(const baum_integrator *integrator, double damping_ratio,
+                              alpha_h_of_ray *find, double *alpha_h)
 {
   baum_status status = check_ray(integrator, damping_ratio);
   if (status == BAUM_OK) {
     status = check_out(alpha_h, "alpha_h");
   }
   if (status == BAUM_OK) {
-    *alpha_h = baum_i_stability_limit(&integrator->method, damping_ratio);
+    *alpha_h = find(&integrator->method, damping_ratio);
   }
   return status;
+}
+
+baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
+                                 double *alpha_h)
+{
+  return answer_ray(integrator, damping_ratio, baum_i_stability_limit, alpha_h);
+}
+
+baum_status baum_stability_best_on_ray(const baum_integrator *integrator, double damping_ratio,
+                                       double *alpha_h)
+{
+  return answer_ray(integrator, damping_ratio, baum_i_stability_best_on_ray, alpha_h);
 }
 
 baum_status baum_stability_intervals(const baum_integrator *integrator, double damping_ratio,
@@ -176,19 +190,6 @@ baum_status baum_stability_intervals(const baum_integrator *integrator, double d
   }
   if (status == BAUM_OK) {
     *count = baum_i_stability_intervals(&integrator->method, damping_ratio, capacity, from, to);
-  }
-  return status;
-}
-
-baum_status baum_stability_best_on_ray(const baum_integrator *integrator, double damping_ratio,
-                                       double *alpha_h)
-{
-  baum_status status = check_ray(integrator, damping_ratio);
-  if (status == BAUM_OK) {
-    status = check_out(alpha_h, "alpha_h");
-  }
-  if (status == BAUM_OK) {
-    *alpha_h = baum_i_stability_best_on_ray(&integrator->method, damping_ratio);
   }
   return status;
 }

@@ -188,12 +188,18 @@ static bool has_just_been(const baum_simulation *run, int k)
   return fabs(t - last) <= baum_i_event_window(run, &run->events->list[k], t);
 }
 
-void baum_i_events_begin(baum_simulation *run)
+static void look_from_here(baum_simulation *run)
 {
   baum_i_events *events = run->events;
   events->t = run->state.t;
   events->begin = run->state.t;
   events->from = run->state.t;
+}
+
+void baum_i_events_begin(baum_simulation *run)
+{
+  baum_i_events *events = run->events;
+  look_from_here(run);
   for (int k = 0; k < events->count; k++) {
     baum_i_event_mark *mark = &events->marks[k];
     mark->value = events->list[k].next;
@@ -207,9 +213,7 @@ void baum_i_events_begin(baum_simulation *run)
 void baum_i_events_go_on(baum_simulation *run)
 {
   baum_i_events *events = run->events;
-  events->t = run->state.t;
-  events->begin = run->state.t;
-  events->from = run->state.t;
+  look_from_here(run);
   for (int k = 0; k < events->count; k++) {
     baum_i_event_mark *mark = &events->marks[k];
     mark->value = events->list[k].next;
