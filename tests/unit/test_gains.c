@@ -431,7 +431,6 @@ static void weak_damping_is_a_matter_of_bdf(void **state)
   assert_false(chosen(baum_gains_fixed(2.0, 10.0), rk4).doubtful);
   has(chosen(baum_gains_fixed(0.0, 10.0), adams).why, "variable step; warning: alpha = 0 damps");
   has(chosen(baum_gains_fixed(0.0, 10.0), rk4).why, "variable step; warning: alpha = 0 damps");
-  has(chosen(baum_gains_fixed(0.0, 10.0), variable_step()).why, "warning: alpha = 0 damps");
 }
 
 /* ---- Refusals ------------------------------------------------------------- */
