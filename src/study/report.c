@@ -55,7 +55,7 @@ baum_status baum_study_print(const baum_study *study, baum_report_form form, con
   }
   baum_i_buffer report = {0};
   baum_status status = make(study, form, title, call, &report);
-  if (status == BAUM_OK && capacity > 0) {
+  if (status == BAUM_OK && report.text && capacity > 0) {
     size_t kept = report.used < capacity ? report.used : capacity - 1;
     memcpy(text, report.text, kept);
     text[kept] = '\0';

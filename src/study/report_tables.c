@@ -41,7 +41,9 @@ static void put_choice(const baum_i_advice *advice, baum_i_buffer *out)
 
 void baum_i_put_advice_table(const baum_i_survey *survey, baum_i_buffer *out)
 {
-  baum_i_put(out, "<section>\n<h2>What to take</h2>\n<div class=\"scroll\" tabindex=\"0\" "
+  baum_i_put(out, "<section>\n<h2>What to take</h2>\n<p>Work is what was counted, evaluations and "
+                  "factorizations together: the same on every machine. CPU time is that of the "
+                  "machine named below.</p>\n<div class=\"scroll\" tabindex=\"0\" "
                   "role=\"region\" aria-label=\"recommendations\">\n<table class=\"advice\">\n"
                   "<thead><tr><th scope=\"col\">error</th><th scope=\"col\">cheapest by work</th>"
                   "<th scope=\"col\">by CPU time</th></tr></thead>\n");
@@ -59,6 +61,27 @@ void baum_i_put_advice_table(const baum_i_survey *survey, baum_i_buffer *out)
 }
 
 /* ---- methods ---- */
+
+static void put_method(const baum_study_method *m, int number, int colour, baum_i_buffer *out)
+{
+  baum_i_putf(out, "<tr data-m=\"%d\"><th scope=\"row\">", number);
+  if (colour >= 0) {
+    baum_i_putf(out,
+                "<svg viewBox=\"-8 -8 16 16\" aria-hidden=\"true\" class=\"line c%d\">"
+                "<use href=\"#k%d\"/></svg>",
+                colour, colour);
+  }
+  baum_i_put_html(out, m->name);
+  baum_i_putf(out, "%s</th>", baum_i_way(m));
+  put_number_cell(out, m->rows, DIGITS);
+  put_number_cell(out, m->usable, DIGITS);
+  put_number_cell(out, m->least_error, 2);
+  put_number_cell(out, m->slope, 2);
+  put_number_cell(out, m->work_per_digit, DIGITS);
+  put_number_cell(out, m->cpu_per_digit, DIGITS);
+  put_number_cell(out, m->growth, 2);
+  baum_i_put(out, "</tr>\n");
+}
 
 void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlights *highlights,
                              baum_i_buffer *out)
@@ -80,25 +103,7 @@ void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlight
               false);
   baum_i_put(out, "</tr></thead>\n<tbody>\n");
   for (int k = 0; k < survey->method_count; k++) {
-    const baum_study_method *m = &survey->methods[k];
-    int colour = baum_i_highlight_of(highlights, k);
-    baum_i_putf(out, "<tr data-m=\"%d\"><th scope=\"row\">", k);
-    if (colour >= 0) {
-      baum_i_putf(out,
-                  "<svg viewBox=\"-8 -8 16 16\" aria-hidden=\"true\" class=\"line c%d\">"
-                  "<use href=\"#k%d\"/></svg>",
-                  colour, colour);
-    }
-    baum_i_put_html(out, m->name);
-    baum_i_putf(out, "%s</th>", baum_i_way(m));
-    put_number_cell(out, m->rows, DIGITS);
-    put_number_cell(out, m->usable, DIGITS);
-    put_number_cell(out, m->least_error, 2);
-    put_number_cell(out, m->slope, 2);
-    put_number_cell(out, m->work_per_digit, DIGITS);
-    put_number_cell(out, m->cpu_per_digit, DIGITS);
-    put_number_cell(out, m->growth, 2);
-    baum_i_put(out, "</tr>\n");
+    put_method(&survey->methods[k], k, baum_i_highlight_of(highlights, k), out);
   }
   baum_i_put(out, "</tbody></table></div>\n</section>\n");
 }
