@@ -58,6 +58,15 @@ if(BAUM_SANITIZE)
   add_link_options(${sanitize})
 endif()
 
+# A fuzzer sees which branches its inputs take.
+if(BAUM_FUZZ)
+  if(NOT CMAKE_C_COMPILER_ID MATCHES Clang)
+    message(FATAL_ERROR "BAUM_FUZZ needs clang and its libFuzzer, not ${CMAKE_C_COMPILER}")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
+  add_link_options(-fsanitize=fuzzer-no-link)
+endif()
+
 function(baum_compile_options target)
   set_target_properties(
     ${target}

@@ -4,15 +4,17 @@
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
 #   format build test asan minimal install python tidy
-#   coverage valgrind thread analyzer sweeps browser   longer or rarer, by name only
+#   coverage valgrind thread analyzer sweeps fuzz random browser   longer or rarer, by name only
 # BAUM_COVERAGE=90 is the least line coverage of src in percent.
+# BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format build test asan minimal install python tidy"
-named="coverage valgrind thread analyzer sweeps browser"
+named="coverage valgrind thread analyzer sweeps fuzz random browser"
 prefix=$PWD/build/install-prefix
+fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
 stage_format() {
   find include src examples tests -name '*.[ch]' | sort |
@@ -140,6 +142,31 @@ stage_browser() {
   build_dev
   BAUM_LIBRARY=$PWD/build/dev/libbaum.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1 \
     "$venv/bin/python" tests/browser/check_page.py build/browser
+}
+
+# A finding stays in build/fuzz as crash-*: mend it, and add it to tests/fuzz/corpus.
+stage_fuzz() {
+  need_venv
+  need_packages libclang-rt-14-dev
+  quietly cmake --preset asan -B build/fuzz -DBAUM_FUZZ=ON -DCMAKE_C_COMPILER=clang -DBAUM_EXAMPLES=OFF \
+    "-DPython3_EXECUTABLE=$PWD/$venv/bin/python"
+  quietly cmake --build build/fuzz --target fuzzers
+  for program in build/fuzz/tests/fuzz/fuzz_*; do
+    target=${program##*/fuzz_}
+    mkdir -p "build/fuzz/corpus/$target"
+    echo "$target, $fuzz_seconds s"
+    ASAN_OPTIONS=allocator_may_return_null=1:max_allocation_size_mb=512 UBSAN_OPTIONS=print_stacktrace=1 \
+      quietly "$program" "-max_total_time=$fuzz_seconds" -max_len=600 -timeout=20 -rss_limit_mb=4000 \
+      -malloc_limit_mb=100000 -artifact_prefix=build/fuzz/ "build/fuzz/corpus/$target" \
+      "tests/fuzz/corpus/$target"
+    tail -n 1 build/last.log
+  done
+}
+
+stage_random() {
+  need_venv
+  build release random -DBAUM_TESTS=ON
+  build/random/tests/bench_random 10000
 }
 
 stage_analyzer() {

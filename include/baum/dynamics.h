@@ -180,7 +180,8 @@ BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t
 
 /** Project onto the constraints: q by the least change in the metric of M, then v likewise.
  *  @param[in,out] q,v  (nq), (nv) near the constraints; unchanged on failure
- *  @return             also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
+ *  @return             also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
+ *                      BAUM_ERR_INCONSISTENT (redundant rows that the others do not meet)
  */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
                                             double *v);

@@ -29,19 +29,11 @@ static baum_status fail_singular(const baum_workspace *w)
     w->point.t, label);
 }
 
-static baum_status fail_not_finite(baum_workspace *w)
-{
-  w->point.retry = true;
-  return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                     "t = %.9g s: the equations of motion have a coefficient that is not finite",
-                     w->point.t);
-}
-
 static baum_status translate(baum_workspace *w, baum_status status)
 {
   switch ((int)status) {
   case BAUM_ERR_SINGULAR: return fail_singular(w);
-  case BAUM_ERR_NOT_FINITE: return fail_not_finite(w);
+  case BAUM_ERR_NOT_FINITE: w->point.retry = true; return baum_i_fail_not_finite(w);
   default: return status;
   }
 }

@@ -86,9 +86,11 @@ static void find_shift(baum_workspace *w)
 
 static baum_status translate(const assembly *s, baum_status status)
 {
-  if (status == BAUM_ERR_SINGULAR || status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail(status, "t = %.9g s: assembly: the equations are %s", s->t,
-                       status == BAUM_ERR_SINGULAR ? "singular" : "not finite");
+  if (status == BAUM_ERR_SINGULAR) {
+    return baum_i_fail(status, "t = %.9g s: assembly: the equations are singular", s->t);
+  }
+  if (status == BAUM_ERR_NOT_FINITE) {
+    return baum_i_fail_not_finite(s->w);
   }
   return status;
 }

@@ -31,9 +31,7 @@ static baum_status translate(const baum_workspace *w, baum_status status)
   switch ((int)status) {
   case BAUM_ERR_SINGULAR:
     return baum_i_fail(status, "t = %.9g s: the constraints are singular here", w->point.t);
-  case BAUM_ERR_NOT_FINITE:
-    return baum_i_fail(status, "t = %.9g s: the equations have a coefficient that is not finite",
-                       w->point.t);
+  case BAUM_ERR_NOT_FINITE: return baum_i_fail_not_finite(w);
   default: return status;
   }
 }

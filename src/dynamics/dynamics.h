@@ -196,6 +196,19 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         double t, const double *y, const double *dy,
                                         double *values);
 
+/* ---- finite.c ---- */
+
+/* BAUM_ERR_NOT_FINITE, which names the joint or the body, where a number is not finite: of rows (nc), of velocities
+ * (nv), of M, of J. `what` is what the numbers are. */
+baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
+baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
+                                    const double *values);
+baum_status baum_i_check_mass(const baum_workspace *w);
+baum_status baum_i_check_jacobian(const baum_workspace *w);
+
+/* BAUM_ERR_NOT_FINITE: names whose number in M, J, force or rhs is not finite. */
+baum_status baum_i_fail_not_finite(const baum_workspace *w);
+
 /* ---- project.c, assemble.c, redundancy.c ---- */
 
 /* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
@@ -204,6 +217,11 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 /* v alone; of bodies that cannot move too. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
+
+/* Whether rows that were left out as redundant are met by a state that has been projected: also BAUM_ERR_INCONSISTENT. Runs
+ * watch them by themselves. speed: scaled size of the velocities before. */
+baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
+                                  const double *v, double speed);
 
 /* normal_part.c: the part P x of x (nv) that the constraints take away, into out (nv); P is that of the last
  * acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,

@@ -109,6 +109,9 @@ baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double
   baum_i_point_set(&workspace->point, t, q, NULL);
   status = baum_i_mechanism_phi(&workspace->point, workspace->phi);
   if (status == BAUM_OK) {
+    status = baum_i_check_rows(workspace, "Phi", workspace->phi);
+  }
+  if (status == BAUM_OK) {
     memcpy(phi, workspace->phi, (size_t)workspace->mechanism->nc * sizeof *phi);
   }
   return status;
@@ -123,6 +126,9 @@ baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const d
   }
   baum_i_point_set(&workspace->point, t, q, NULL);
   status = baum_i_mechanism_jacobian(&workspace->point, workspace->jacobian);
+  if (status == BAUM_OK) {
+    status = baum_i_check_jacobian(workspace);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -149,6 +155,9 @@ baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double 
   baum_i_point_set(&workspace->point, t, q, NULL);
   status = baum_i_mechanism_nu(&workspace->point, workspace->nu);
   if (status == BAUM_OK) {
+    status = baum_i_check_rows(workspace, "nu", workspace->nu);
+  }
+  if (status == BAUM_OK) {
     memcpy(nu, workspace->nu, (size_t)workspace->mechanism->nc * sizeof *nu);
   }
   return status;
@@ -162,6 +171,9 @@ baum_status baum_workspace_mass(baum_workspace *workspace, double t, const doubl
   }
   baum_i_point_set(&workspace->point, t, q, NULL);
   status = baum_i_evaluate_mass(workspace);
+  if (status == BAUM_OK) {
+    status = baum_i_check_mass(workspace);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -189,6 +201,9 @@ baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const doub
   baum_i_point_set(&workspace->point, t, q, v);
   status = baum_i_mechanism_gamma(&workspace->point, workspace->gamma);
   if (status == BAUM_OK) {
+    status = baum_i_check_rows(workspace, "gamma", workspace->gamma);
+  }
+  if (status == BAUM_OK) {
     memcpy(gamma, workspace->gamma, (size_t)workspace->mechanism->nc * sizeof *gamma);
   }
   return status;
@@ -204,6 +219,9 @@ baum_status baum_workspace_force(baum_workspace *workspace, double t, const doub
   baum_i_point_set(&workspace->point, t, q, v);
   status = baum_i_mechanism_force(&workspace->point, workspace->force);
   if (status == BAUM_OK) {
+    status = baum_i_check_velocities(workspace, "force", workspace->force);
+  }
+  if (status == BAUM_OK) {
     memcpy(force, workspace->force, (size_t)workspace->mechanism->nv * sizeof *force);
   }
   return status;
@@ -216,6 +234,11 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
   baum_status status = check_state("baum_workspace_energy", workspace, t, q, v, found);
   if (status == BAUM_OK) {
     status = baum_i_energy(workspace, t, q, v, &found[0], &found[1]);
+  }
+  if (status == BAUM_OK && !(isfinite(found[0]) && isfinite(found[1]))) {
+    status = baum_i_fail(BAUM_ERR_NOT_FINITE,
+                         "t = %.9g s: the kinetic energy is %g J, the potential energy %g J", t,
+                         found[0], found[1]);
   }
   if (status == BAUM_OK && kinetic) {
     *kinetic = found[0];
@@ -444,6 +467,10 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   memcpy(copy, q, nv * sizeof *q);
   memcpy(copy + nv, v, nv * sizeof *v);
   status = baum_i_project(workspace, t, copy, copy + nv);
+  if (status == BAUM_OK) {
+    status = baum_i_check_left_out(workspace, t, copy, copy + nv,
+                                   baum_i_scaled_size(workspace->mechanism, v));
+  }
   if (status == BAUM_OK) {
     memcpy(q, copy, nv * sizeof *q);
     memcpy(v, copy + nv, nv * sizeof *v);

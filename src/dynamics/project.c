@@ -35,7 +35,7 @@ static baum_status least_change(baum_workspace *w)
                        w->point.t);
   }
   if (status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail(status, "t = %.9g s: projection: a constraint is not finite", w->point.t);
+    return baum_i_fail_not_finite(w);
   }
   return status;
 }
@@ -156,5 +156,42 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
     status = project_velocities(workspace, t, q, v);
   }
   baum_i_leave_motion(workspace, whole);
+  return status;
+}
+
+/* ---- rows that are left out ---- */
+
+/* Violations, as displacements and of the velocities, that rows left out may be left with: more than rounding makes of
+ * those that depend on the others, less than another branch does. */
+static const double NEGLIGIBLE = 1e-6;
+
+static baum_status fail_left_out(const baum_workspace *w, int row)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
+  return baum_i_fail(
+    BAUM_ERR_INCONSISTENT,
+    "t = %.9g s: projection: a row of %s that was left out as redundant is violated by "
+    "%.3g, its rate by %.3g, where the others are met: constraints contradict each "
+    "other, or the pose is on another branch",
+    w->point.t, label, w->phi[row], w->phi_rate[row]);
+}
+
+baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,
+                                  double speed)
+{
+  if (w->redundancy.count == 0) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_violation(w, t, q, v);
+  baum_i_row_displacements(w, w->work_c);
+  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
+    double distance = w->work_c[i];
+    bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance ||
+                  fabs(w->phi_rate[i]) > NEGLIGIBLE * (speed * distance + fabs(w->nu[i]));
+    if (w->redundancy.dropped[i] && is_off) {
+      status = fail_left_out(w, i);
+    }
+  }
   return status;
 }

@@ -59,12 +59,12 @@ static void find_column_scale(const search *s)
   }
 }
 
-static baum_status rank_to(const search *s, double t, double tolerance, int *rank)
+static baum_status rank_to(const search *s, double tolerance, int *rank)
 {
   baum_status status = baum_i_jacobian_rank(&s->w->structure, s->w->jacobian, s->column_scale,
                                             tolerance, rank, s->independent);
   if (status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail(status, "t = %.9g s: the constraint Jacobian is not finite", t);
+    return baum_i_fail_not_finite(s->w);
   }
   return status;
 }
@@ -77,10 +77,10 @@ static baum_status rank_at(const search *s, double t, const double *q, pose_rank
     return status;
   }
   find_column_scale(s);
-  status = rank_to(s, t, CLEAR, &rank->clear);
+  status = rank_to(s, CLEAR, &rank->clear);
   rank->all = rank->clear;
   return status == BAUM_OK && rank->clear < s->w->mechanism->nc
-           ? rank_to(s, t, RANK_TOLERANCE, &rank->all)
+           ? rank_to(s, RANK_TOLERANCE, &rank->all)
            : status;
 }
 

@@ -100,10 +100,9 @@ baum_status baum_i_block_make_targets(baum_i_block_builder *u)
   const baum_i_elimination *order = &b->order;
   baum_status status = BAUM_OK;
   for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
-    const int32_t *later = order->later + order->start[k];
-    int count = order->start[k + 1] - order->start[k];
-    for (int f = 1; f < count; f++) {
-      for (int e = 0; e < f && status == BAUM_OK; e++) {
+    const int32_t *later = order->later;
+    for (int f = order->start[k] + 1; f < order->start[k + 1]; f++) {
+      for (int e = order->start[k]; e < f && status == BAUM_OK; e++) {
         status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));
       }
     }

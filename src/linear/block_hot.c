@@ -227,12 +227,14 @@ static baum_i_pivots eliminate(baum_i_block *b)
     ptrdiff_t count = start[k + 1] - start[k];
     if (count == 1) {
       (void)eliminate_one(&t, x, &nodes[*later]);
-    } else {
+      x += 4;
+      later++;
+    } else if (count > 1) {
       eliminate_many(&t, x, later, count, target, nodes, off);
+      x += 4 * count;
+      later += count;
       target += count * (count - 1) / 2;
     }
-    x += 4 * count;
-    later += count;
   }
   if (margin > 0.0) {
     return BAUM_I_PIVOTS_GOOD;

@@ -166,9 +166,9 @@ static void set_node(const baum_i_block *b, const baum_i_full_node *full,
 static void set_all(baum_i_block *b, const baum_i_block_rows *rows)
 {
   const double *jacobian = rows->jacobian;
-  const baum_i_side_entry *end = b->entries + b->entry_count;
   double *side = b->side;
-  for (const baum_i_side_entry *entry = b->entries; entry < end; entry++) {
+  for (ptrdiff_t k = 0; k < b->entry_count; k++) {
+    const baum_i_side_entry *entry = &b->entries[k];
     double second = entry->from[1] < 0 ? 0.0 : jacobian[entry->from[1]];
     baum_i_store(side + entry->to, (baum_i_pair){jacobian[entry->from[0]], second});
   }

@@ -137,8 +137,8 @@ static baum_status add_pin(baum_i_block_builder *u, int row, const baum_i_block_
 static baum_status find_side(baum_i_block_builder *u, int32_t triple, int32_t *number)
 {
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
-  const baum_i_raw_side *sides = (baum_i_raw_side *)u->sides.items + node->first_side;
-  for (int i = 0; i < node->side_count; i++) {
+  const baum_i_raw_side *sides = u->sides.items;
+  for (int i = node->first_side; i < node->first_side + node->side_count; i++) {
     if (sides[i].triple == triple) {
       *number = sides[i].number;
       return BAUM_OK;

@@ -282,25 +282,33 @@ static bool is_at_noise(const baum_i_kkt *kkt)
   return is_careful && baum_i_residual_is_noise(kkt->n, kkt->scale, kkt->residual, kkt->size);
 }
 
-/* A matrix without full rank was solved by least squares:
- * are the rows it could not meet nearly met? */
+/* A matrix without full rank was solved by least squares. */
 static bool is_least_squares(const baum_i_kkt *kkt)
 {
-  return present_rcond(kkt) == 0.0 &&
-         baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
+  return present_rcond(kkt) == 0.0;
+}
+
+/* Are the rows it could not meet nearly met? Nothing else counts there: where they contradict each other unknowns may
+ * be so large that what is left of the rows is rounding of these. */
+static bool is_nearly_met(const baum_i_kkt *kkt)
+{
+  return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);
 }
 
 /* BAUM_ERR_SINGULAR if the residual stays large. */
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
   baum_status status = solve_once(kkt);
-  for (int k = 0; status == BAUM_OK && !is_at_rounding(kkt); k++) {
-    if (k == MOST_REFINEMENTS) {
-      return is_at_noise(kkt) || is_least_squares(kkt) ? BAUM_OK : BAUM_ERR_SINGULAR;
-    }
+  bool done = is_at_rounding(kkt);
+  for (int k = 0; k < MOST_REFINEMENTS && status == BAUM_OK && !done; k++) {
     status = refine(kkt);
+    done = is_at_rounding(kkt);
   }
-  return status;
+  if (status != BAUM_OK) {
+    return status;
+  }
+  done = is_least_squares(kkt) ? is_nearly_met(kkt) : done || is_at_noise(kkt);
+  return done ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
 static baum_status solve_climbing(baum_i_kkt *kkt)

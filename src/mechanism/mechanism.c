@@ -262,6 +262,15 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row)
   return low;
 }
 
+const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column)
+{
+  int k = mechanism->body_count;
+  while (mechanism->bodies[k]->v > column) {
+    k--;
+  }
+  return mechanism->bodies[k];
+}
+
 /* ---- names ---- */
 
 const char *baum_i_label(const baum_i_element *element, const char *family,

@@ -417,8 +417,9 @@ baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
 /* Check that a call got a frozen mechanism: BAUM_OK, BAUM_ERR_ARGUMENT (NULL), BAUM_ERR_STATE. */
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
 
-/* Joint that owns a row; frozen only. */
+/* Joint that owns a row, and body that owns a velocity; frozen only. */
 int baum_i_row_joint(const baum_mechanism *mechanism, int row);
+const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
 /* `joint 2 "B"` into text; returns text. Number from 1. */

@@ -544,7 +544,7 @@ void baum_i_account_forget(baum_i_account *account)
 
 void baum_i_account_saved(baum_i_account *account, baum_i_saved *list)
 {
-  BAUM_I_SAVED_ADD(list, "account broken", account->broken);
+  BAUM_I_SAVED_ADD_FLAG(list, "account broken", account->broken);
   BAUM_I_SAVED_ADD(list, "account before", account->before);
   BAUM_I_SAVED_ADD(list, "account last", account->last);
   BAUM_I_SAVED_ADD(list, "account read", account->read);
@@ -556,7 +556,7 @@ void baum_i_account_saved(baum_i_account *account, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "account alpha", account->problem.alpha);
   BAUM_I_SAVED_ADD(list, "account beta", account->problem.beta);
   BAUM_I_SAVED_ADD(list, "account rate", account->problem.rate);
-  BAUM_I_SAVED_ADD(list, "account evaluations", account->workspace->evaluations);
+  BAUM_I_SAVED_ADD_COUNT(list, "account evaluations", account->workspace->evaluations);
 }
 
 /* ---- public ---- */

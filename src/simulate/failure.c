@@ -82,12 +82,10 @@ static void say_body(const baum_workspace *w, char *text, size_t size)
   char label[BAUM_I_LABEL_SIZE];
   double largest = 0.0;
   int column = find_largest(w->a, m->scale, m->nv, false, &largest);
-  for (int k = 1; k <= m->body_count; k++) {
-    const baum_i_body *body = m->bodies[k];
-    if (column >= body->v && column < body->v + body->nv) {
-      (void)baum_i_label(&body->element, "body", label);
-      baum_i_append(text, size, ", %s accelerates most", label);
-    }
+  if (column >= 0) {
+    const baum_i_body *body = baum_i_velocity_body(m, column);
+    (void)baum_i_label(&body->element, "body", label);
+    baum_i_append(text, size, ", %s accelerates most", label);
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "base/digest.h"
 #include "mechanism/fingerprint.h"
+#include "mechanism/joints/driven.h"
 #include "simulate/account.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
@@ -132,6 +133,7 @@ static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED
   case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
   case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
   case BAUM_I_SAVED_CHOICE:
+  case BAUM_I_SAVED_BOUNDED:
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_JUMPS:
   default: return part->place;
@@ -291,6 +293,30 @@ static baum_status check_integer(const baum_i_saved_part *part, const unsigned c
                 part->name, (long long)there, (long long)part->integer);
 }
 
+/* A bool, an int32_t or an int64_t. */
+static int64_t whole_number(const baum_i_saved_part *part, const unsigned char *at)
+{
+  int32_t shorter = at[0];
+  int64_t longer = 0;
+  if (part->size == sizeof longer) {
+    memcpy(&longer, at, sizeof longer);
+    return longer;
+  }
+  if (part->size == sizeof shorter) {
+    memcpy(&shorter, at, sizeof shorter);
+  }
+  return shorter;
+}
+
+static baum_status check_bounds(const baum_i_saved_part *part, const unsigned char *at)
+{
+  int64_t there = whole_number(part, at);
+  if (there >= part->least && there <= part->most) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer is damaged: %s is %lld there", part->name, (long long)there);
+}
+
 static baum_status check_text(const baum_i_saved_part *part, const unsigned char *at)
 {
   char there[BAUM_I_SAVED_TEXT];
@@ -315,6 +341,7 @@ static bool has_length(const baum_i_saved_part *part, size_t length)
   case BAUM_I_SAVED_TEXT_OF:
   case BAUM_I_SAVED_CHOICE:
   case BAUM_I_SAVED_STATE:
+  case BAUM_I_SAVED_BOUNDED:
   default: return length == part->size;
   }
 }
@@ -346,6 +373,7 @@ static baum_status check_part(const baum_i_saved_part *part, const unsigned char
   case BAUM_I_SAVED_NUMBER: return check_number(part, at);
   case BAUM_I_SAVED_INTEGER: return check_integer(part, at);
   case BAUM_I_SAVED_TEXT_OF: return check_text(part, at);
+  case BAUM_I_SAVED_BOUNDED: return check_bounds(part, at);
   case BAUM_I_SAVED_CHOICE: return check_choice(part, at);
   case BAUM_I_SAVED_JUMPS: return check_jumps(part, at, length);
   case BAUM_I_SAVED_STATE:
@@ -381,6 +409,37 @@ static baum_status check_parts(reader *r, const baum_i_saved *list)
   return next == end ? BAUM_OK : refuse("the buffer does not fit: there is something behind it");
 }
 
+static double number_at(const unsigned char *bytes, int k)
+{
+  double number = 0.0;
+  memcpy(&number, bytes + (size_t)k * sizeof number, sizeof number);
+  return number;
+}
+
+/* A driver that has no other motion than its polynomial cannot be without it. */
+static baum_status check_laws(const baum_mechanism *m, const unsigned char *numbers)
+{
+  for (int k = 0; k < m->joint_count; k++) {
+    int at = m->joints[k]->element.parameter + BAUM_I_DRIVER_POLYNOMIAL;
+    if (m->joints[k]->type->drives && m->parameters[at] != 0.0 && number_at(numbers, at) == 0.0) {
+      return refuse("the buffer is damaged: it has no law for joint %d", k + 1);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_all_laws(const reader *r, const baum_mechanism *m,
+                                  const baum_i_saved *list)
+{
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < list->count && status == BAUM_OK; k++) {
+    if (list->parts[k].kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
+      status = check_laws(m, r->at[k]);
+    }
+  }
+  return status;
+}
+
 static baum_status check(reader *r, const baum_simulation *run, const baum_i_saved *list)
 {
   baum_status status = check_header(r);
@@ -398,14 +457,15 @@ static baum_status check(reader *r, const baum_simulation *run, const baum_i_sav
     status = refuse("the buffer does not fit: it has other parts; save with the library that "
                     "restores");
   }
-  return status;
+  return status == BAUM_OK ? check_all_laws(r, run->workspace->mechanism, list) : status;
 }
 
 /* ---- put back ---- */
 
 static bool is_put_back(const baum_i_saved_part *part)
 {
-  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_SOME;
+  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_BOUNDED ||
+         part->kind == BAUM_I_SAVED_SOME;
 }
 
 /* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
@@ -443,9 +503,9 @@ static void put_jumps_back(baum_i_schedule *schedule, const unsigned char *at, s
 /* Ids of another process have other tags. */
 static void own_id(const baum_simulation *run, baum_joint_id *id)
 {
-  if (id->index1 > 0) {
-    *id = baum_i_joint_id(run->workspace->mechanism, id->index1 - 1);
-  }
+  const baum_mechanism *m = run->workspace->mechanism;
+  bool is_joint = id->index1 > 0 && id->index1 <= m->joint_count;
+  *id = baum_i_joint_id(m, is_joint ? id->index1 - 1 : -1);
 }
 
 static void own_ids(baum_simulation *run)
@@ -454,6 +514,13 @@ static void own_ids(baum_simulation *run)
   own_id(run, &run->counters.max_phi_rate_joint);
   for (int k = 0; run->passages && k < BAUM_I_PASSAGES; k++) {
     own_id(run, &run->passages->kept[k].joint);
+  }
+}
+
+static void end_warnings(baum_simulation *run)
+{
+  for (int k = 0; k < BAUM_I_WARNINGS; k++) {
+    run->warnings[k][BAUM_I_WARNING_SIZE - 1] = '\0';
   }
 }
 
@@ -470,6 +537,7 @@ static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *
     }
   }
   own_ids(run);
+  end_warnings(run);
   baum_i_run_count_from_here(run);
   baum_i_run_copy(run, &run->state, &run->ahead);
   forget(run);

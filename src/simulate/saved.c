@@ -28,6 +28,16 @@ void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t 
   part->size = size;
 }
 
+void baum_i_saved_add_bounded(baum_i_saved *list, const char *name, void *place, size_t size,
+                              int64_t least, int64_t most)
+{
+  baum_i_saved_part *part = add(list, name, BAUM_I_SAVED_BOUNDED);
+  part->place = place;
+  part->size = size;
+  part->least = least;
+  part->most = most;
+}
+
 void baum_i_saved_add_some(baum_i_saved *list, const char *name, void *place, size_t unit,
                            int64_t count, int64_t most)
 {
@@ -142,29 +152,59 @@ static void list_choices(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "alpha", p->alpha);
   BAUM_I_SAVED_ADD(list, "beta", p->beta);
   BAUM_I_SAVED_ADD(list, "amplification", run->gains.amplification);
-  BAUM_I_SAVED_ADD(list, "metric chosen", w->metric_ready);
+  BAUM_I_SAVED_ADD_FLAG(list, "metric chosen", w->metric_ready);
   add_array(list, "metric", w->metric, w->mechanism->nv);
   if (w->immobile) {
-    BAUM_I_SAVED_ADD(list, "immobile", w->immobile->rests);
+    BAUM_I_SAVED_ADD_FLAG(list, "immobile", w->immobile->rests);
     add_array(list, "immobile position", w->immobile->position, w->immobile->count);
     add_array(list, "immobile phi", w->immobile->phi, w->immobile->row_count);
   }
 }
 
+static void list_counters(baum_counters *c, baum_i_saved *list)
+{
+  BAUM_I_SAVED_ADD_COUNT(list, "steps", c->steps);
+  BAUM_I_SAVED_ADD_COUNT(list, "rejected", c->rejected);
+  BAUM_I_SAVED_ADD_COUNT(list, "short steps", c->short_steps);
+  BAUM_I_SAVED_ADD_COUNT(list, "evaluations in all", c->evaluations);
+  BAUM_I_SAVED_ADD_COUNT(list, "factorizations", c->factorizations);
+  BAUM_I_SAVED_ADD_COUNT(list, "full factorizations", c->full_factorizations);
+  BAUM_I_SAVED_ADD_COUNT(list, "iterations", c->nonlinear_iterations);
+  BAUM_I_SAVED_ADD_COUNT(list, "restarts", c->restarts);
+  BAUM_I_SAVED_ADD_COUNT(list, "near singular in all", c->near_singular);
+  BAUM_I_SAVED_ADD_COUNT(list, "number of warnings", c->warnings);
+  BAUM_I_SAVED_ADD(list, "wall", c->wall);
+  BAUM_I_SAVED_ADD(list, "largest phi", c->max_phi);
+  BAUM_I_SAVED_ADD(list, "largest rate", c->max_phi_rate);
+  BAUM_I_SAVED_ADD(list, "joint of largest phi", c->max_phi_joint);
+  BAUM_I_SAVED_ADD(list, "joint of largest rate", c->max_phi_rate_joint);
+  BAUM_I_SAVED_ADD(list, "predicted phi", c->predicted_phi);
+  BAUM_I_SAVED_ADD(list, "predicted rate", c->predicted_phi_rate);
+  BAUM_I_SAVED_ADD(list, "change of energy", c->energy_change);
+  BAUM_I_SAVED_ADD(list, "change at the start", c->start_change);
+  BAUM_I_SAVED_ADD_COUNT(list, "number of intervals", c->near_singular_intervals);
+  BAUM_I_SAVED_ADD_COUNT(list, "branch warnings", c->branch_warnings);
+  BAUM_I_SAVED_ADD_COUNT(list, "forced steps", c->forced_steps);
+}
+
 static void list_monitors(baum_simulation *run, baum_i_saved *list)
 {
   baum_workspace *w = run->workspace;
-  BAUM_I_SAVED_ADD(list, "counters", run->counters);
-  BAUM_I_SAVED_ADD(list, "evaluations", w->evaluations);
-  BAUM_I_SAVED_ADD(list, "near singular", w->near_singular);
+  list_counters(&run->counters, list);
+  BAUM_I_SAVED_ADD_COUNT(list, "evaluations", w->evaluations);
+  BAUM_I_SAVED_ADD_COUNT(list, "near singular", w->near_singular);
   BAUM_I_SAVED_ADD(list, "start energy", run->start_energy);
   BAUM_I_SAVED_ADD(list, "largest gamma", run->largest_gamma);
-  BAUM_I_SAVED_ADD(list, "near singular seen", run->near_singular_seen);
-  BAUM_I_SAVED_ADD(list, "redundant seen", run->redundant_seen);
-  BAUM_I_SAVED_ADD(list, "large seen", run->large_seen);
+  BAUM_I_SAVED_ADD_COUNT(list, "near singular seen", run->near_singular_seen);
+  BAUM_I_SAVED_ADD_FLAG(list, "redundant seen", run->redundant_seen);
+  BAUM_I_SAVED_ADD_FLAG(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
-  BAUM_I_SAVED_ADD(list, "resolution", run->resolution);
-  BAUM_I_SAVED_ADD(list, "signalled", run->signalled);
+  BAUM_I_SAVED_ADD(list, "accelerations", run->resolution.sizes);
+  BAUM_I_SAVED_ADD(list, "changes of accelerations", run->resolution.changes);
+  BAUM_I_SAVED_ADD(list, "way", run->resolution.way);
+  BAUM_I_SAVED_ADD_FLAG(list, "acceleration follows", run->resolution.follows);
+  BAUM_I_SAVED_ADD_FLAG(list, "coarse steps seen", run->resolution.coarse);
+  BAUM_I_SAVED_ADD_COUNT(list, "signalled", run->signalled);
   baum_i_saved_add_some(list, "warnings", run->warnings, BAUM_I_WARNING_SIZE,
                         run->counters.warnings, BAUM_I_WARNINGS);
 }
@@ -182,15 +222,21 @@ static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots,
 static void list_passages(baum_simulation *run, baum_i_saved *list)
 {
   baum_i_passages *p = run->passages;
+  int joints = run->workspace->mechanism->joint_count;
   BAUM_I_SAVED_ADD(list, "usual pivot", p->usual);
-  BAUM_I_SAVED_ADD(list, "recent count", p->recent_count);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "recent count", p->recent_count, 0, BAUM_I_RECENT);
   list_knots(list, "recent states", p->recent, BAUM_I_RECENT, p->nv);
-  BAUM_I_SAVED_ADD(list, "clear count", p->clear_count);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "clear count", p->clear_count, 0, BAUM_I_HERMITE_MOST);
   list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, p->nv);
-  BAUM_I_SAVED_ADD(list, "state not looked at", p->unseen);
-  BAUM_I_SAVED_ADD(list, "joint noted", p->joint_noted);
-  BAUM_I_SAVED_ADD(list, "passage open", p->open);
-  BAUM_I_SAVED_ADD(list, "passage", p->present);
+  BAUM_I_SAVED_ADD_FLAG(list, "state not looked at", p->unseen);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "joint noted", p->joint_noted, -1, joints - 1);
+  BAUM_I_SAVED_ADD_FLAG(list, "passage open", p->open);
+  BAUM_I_SAVED_ADD(list, "passage from", p->present.from);
+  BAUM_I_SAVED_ADD(list, "passage at", p->present.at);
+  BAUM_I_SAVED_ADD(list, "passage smallest", p->present.smallest);
+  BAUM_I_SAVED_ADD_FLAG(list, "passage gap", p->present.gap);
+  BAUM_I_SAVED_ADD(list, "passage largest turn", p->present.largest_turn);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "passage joint", p->present.joint, -1, joints - 1);
   baum_i_saved_add_some(list, "near-singular intervals", p->kept, sizeof *p->kept,
                         run->counters.near_singular_intervals, BAUM_I_PASSAGES);
 }
@@ -217,7 +263,7 @@ static void list_events(baum_i_events *events, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "events looked at", events->t);
   BAUM_I_SAVED_ADD(list, "events begun", events->begin);
   BAUM_I_SAVED_ADD(list, "events from", events->from);
-  BAUM_I_SAVED_ADD(list, "events recorded", events->recorded);
+  BAUM_I_SAVED_ADD_COUNT(list, "events recorded", events->recorded);
   baum_i_saved_add_some(list, "records of events", events->records, sizeof *events->records,
                         events->recorded, BAUM_I_EVENT_RECORDS);
 }

@@ -10,7 +10,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 4, BAUM_I_SAVED_PARTS = 128, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 5, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */
@@ -20,6 +20,7 @@ typedef enum baum_i_saved_kind {
   BAUM_I_SAVED_CHOICE,  /* bytes */
   /* is put back: */
   BAUM_I_SAVED_STATE,   /* bytes */
+  BAUM_I_SAVED_BOUNDED, /* a bool, int32_t or int64_t, which must be within bounds */
   BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
   BAUM_I_SAVED_JUMPS,   /* of the run's inputs, as many as there are */
   BAUM_I_SAVED_SOME     /* as many of a list as there are */
@@ -34,6 +35,8 @@ typedef struct baum_i_saved_part {
   size_t unit; /* of SOME, one of the list */
   double number;
   int64_t integer; /* of JUMPS, inputs that there are */
+  int64_t least;   /* of BOUNDED */
+  int64_t most;
 } baum_i_saved_part;
 
 struct baum_i_saved {
@@ -43,6 +46,10 @@ struct baum_i_saved {
 
 /* Bytes that are put back. */
 void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t size);
+
+/* Likewise a whole number of 1, 4 or 8 bytes that is used as one: a count, an index, a flag. */
+void baum_i_saved_add_bounded(baum_i_saved *list, const char *name, void *place, size_t size,
+                              int64_t least, int64_t most);
 
 /* Likewise the first `count` of a list that has room for `most`, or all of these where there were more. */
 void baum_i_saved_add_some(baum_i_saved *list, const char *name, void *place, size_t unit,
@@ -54,6 +61,13 @@ void baum_i_saved_compare(baum_i_saved *list, const char *name, int64_t value);
 /* For one object. */
 #define BAUM_I_SAVED_ADD(list, name, object) \
   baum_i_saved_add((list), (name), &(object), sizeof(object))
+
+#define BAUM_I_SAVED_ADD_BOUNDED(list, name, object, least, most) \
+  baum_i_saved_add_bounded((list), (name), &(object), sizeof(object), (least), (most))
+#define BAUM_I_SAVED_ADD_FLAG(list, name, object) BAUM_I_SAVED_ADD_BOUNDED(list, name, object, 0, 1)
+/* One that may go on to count for ever. */
+#define BAUM_I_SAVED_ADD_COUNT(list, name, object) \
+  BAUM_I_SAVED_ADD_BOUNDED(list, name, object, 0, INT64_MAX / 2)
 
 /* All of a run. */
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);

@@ -13,7 +13,7 @@
 
 #include "dynamics/block_path.h"
 #include "quad_saddle.h"
-#include "random_mechanism.h"
+#include "random_judge.h"
 
 /* Errors are relative to the largest element. Chance gives a few poses in a thousand whose condition costs
  * a handful of digits; there the solver of the whole system may lose as many. */
@@ -317,6 +317,26 @@ static void loaded_light_bodies_keep_all_digits(void **state)
   }
 }
 
+/* ---- random kinds ---- */
+
+/* bench_random has more of them. */
+static void accelerations_are_met_or_rightly_refused(void **state)
+{
+  pair *p = *state;
+  enum { MECHANISMS = 400 };
+  random_tally tally = {0};
+  for (uint64_t seed = 0; seed < MECHANISMS; seed++) {
+    random_judge(p->random, seed, &tally);
+  }
+  assert_int_equal(tally.counts[RANDOM_WRONG], 0);
+  assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
+  /* at singular poses: what is left out there is what depends on others next to them */
+  assert_true(tally.counts[RANDOM_CONFLICT] < MECHANISMS / 100);
+  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* of three poses each */
+  assert_true(tally.counts[RANDOM_REFUSED] > 0);
+  assert_true(tally.dependent > MECHANISMS / 10);
+}
+
 static int set_up(void **state)
 {
   pair *p = calloc(1, sizeof *p);
@@ -339,6 +359,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test_setup_teardown(blocks_agree_with_the_whole_system, set_up, tear_down),
+    cmocka_unit_test_setup_teardown(accelerations_are_met_or_rightly_refused, set_up, tear_down),
     cmocka_unit_test_setup_teardown(failed_evaluations_leave_no_trace, set_up, tear_down),
     cmocka_unit_test(loaded_light_bodies_keep_all_digits),
   };

@@ -5,11 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#ifdef __SIZEOF_FLOAT128__
-__extension__ typedef __float128 wide;
-#else
-typedef long double wide;
-#endif
+#include "quad.h"
 
 /* ---- the system: a list of entries ---- */
 
@@ -171,11 +167,6 @@ static band make_band(quad_system *s)
   return m;
 }
 
-static wide size_of(wide x)
-{
-  return x < 0 ? -x : x;
-}
-
 static int least(int a, int b)
 {
   return a < b ? a : b;
@@ -192,7 +183,7 @@ static void bring_up_pivot(const band *m, int k)
 {
   int best = k;
   for (int i = k + 1; i <= least(k + m->half, m->n - 1); i++) {
-    if (size_of(*at(m, i, k)) > size_of(*at(m, best, k))) {
+    if (wide_size(*at(m, i, k)) > wide_size(*at(m, best, k))) {
       best = i;
     }
   }

@@ -1,0 +1,97 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Whose number is not finite: masses, forces and coordinates that are large enough overflow, though each of them is
+ * a number that a definition may have.
+ */
+#include <math.h>
+
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+
+/* -1: all are finite. */
+static int first_not_finite(const double *values, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(values[i])) {
+      return i;
+    }
+  }
+  return -1;
+}
+
+static baum_status fail(const baum_workspace *w, const char *what, const char *label, double value)
+{
+  return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: the %s of %s is %g", w->point.t, what, label,
+                     value);
+}
+
+static baum_status fail_row(const baum_workspace *w, const char *what, int row, double value)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  const baum_mechanism *m = w->mechanism;
+  return fail(w, what, baum_i_joint_label(m, baum_i_row_joint(m, row), label), value);
+}
+
+static baum_status fail_velocity(const baum_workspace *w, const char *what, int column,
+                                 double value)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  const baum_i_body *body = baum_i_velocity_body(w->mechanism, column);
+  return fail(w, what, baum_i_label(&body->element, "body", label), value);
+}
+
+baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values)
+{
+  int i = first_not_finite(values, w->mechanism->nc);
+  return i < 0 ? BAUM_OK : fail_row(w, what, i, values[i]);
+}
+
+baum_status baum_i_check_velocities(const baum_workspace *w, const char *what, const double *values)
+{
+  int i = first_not_finite(values, w->mechanism->nv);
+  return i < 0 ? BAUM_OK : fail_velocity(w, what, i, values[i]);
+}
+
+baum_status baum_i_check_mass(const baum_workspace *w)
+{
+  for (int k = 0; k < w->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
+    const double *values = w->mass + block->value;
+    int i = first_not_finite(values, block->size * block->size);
+    if (i >= 0) {
+      return fail_velocity(w, "mass", block->first, values[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_check_jacobian(const baum_workspace *w)
+{
+  for (int k = 0; k < w->structure.row_block_count; k++) {
+    const baum_i_row_block *block = &w->structure.row_blocks[k];
+    const double *values = w->jacobian + block->value;
+    int i = first_not_finite(values, block->rows * block->cols);
+    if (i >= 0) {
+      return fail_row(w, "Jacobian", block->row, values[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_fail_not_finite(const baum_workspace *w)
+{
+  baum_status status = baum_i_check_mass(w);
+  if (status == BAUM_OK) {
+    status = baum_i_check_jacobian(w);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_velocities(w, "force", w->force);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_rows(w, "right side", w->rhs);
+  }
+  return status != BAUM_OK
+           ? status
+           : baum_i_fail(BAUM_ERR_NOT_FINITE,
+                         "t = %.9g s: numbers of the equations are too large for double precision",
+                         w->point.t);
+}

@@ -1,0 +1,34 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The inputs of a fuzzer once more, without it: replay FILE... */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "parts/bytes.h"
+
+static unsigned char *read_file(const char *path, size_t *size)
+{
+  enum { MOST = 1 << 20 };
+  FILE *file = fopen(path, "rb");
+  unsigned char *bytes = malloc(MOST);
+  if (!file || !bytes) {
+    (void)fprintf(stderr, "%s cannot be read\n", path);
+    exit(EXIT_FAILURE);
+  }
+  *size = fread(bytes, 1, MOST, file);
+  (void)fclose(file);
+  return bytes;
+}
+
+int main(int count, char **paths)
+{
+  for (int k = 1; k < count; k++) {
+    size_t size = 0;
+    unsigned char *bytes = read_file(paths[k], &size);
+    /* the last to be named is the one that fails */
+    (void)printf("%s\n", paths[k]);
+    (void)fflush(stdout);
+    (void)LLVMFuzzerTestOneInput(bytes, size);
+    free(bytes);
+  }
+  return count > 1 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

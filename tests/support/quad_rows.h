@@ -1,0 +1,30 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Accelerations in quadruple precision where rows may depend on each other, and how far from it they are, from M, J, g and
+ * gamma in double precision as they are. With M = L L^T, y = L^T a and the rows of J L^-T scaled to length 1, the
+ * constraints are W^T y = c, and of all such y the one nearest to L^-1 g is wanted: by a QR factorization of W with
+ * pivoting. No part of the library solves anything here.
+ */
+#ifndef BAUM_TEST_QUAD_ROWS_H
+#define BAUM_TEST_QUAD_ROWS_H
+
+#include <stdbool.h>
+
+#include <baum/dynamics.h>
+
+typedef struct quad_rows {
+  int rank; /* rows that are at least QUAD_DEPENDENT apart from those before them */
+  double
+    distance; /* smallest singular value of W; with dependent rows, how far the first is from the others */
+  double kept;     /* smallest singular value of the rows of the rank */
+  double conflict; /* largest |W^T y - c| of dependent rows, of |c|, |y| and |L^-1 g| */
+  double size;     /* largest |a| or |M^-1 g| */
+} quad_rows;
+
+static const double QUAD_DEPENDENT = 1e-10;
+
+/* Through the public functions of a workspace; a is (nv). false: they fail, M is not positive definite, or there is no
+ * memory. */
+bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
+                          const double *v, double *a, quad_rows *out);
+
+#endif

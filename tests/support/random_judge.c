@@ -1,0 +1,159 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "random_judge.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "quad_rows.h"
+
+/* Dependent rows that contradict each other by more must be refused. */
+static const double CONTRADICTION = 1e-9;
+
+/* What is looked at. */
+typedef struct scene {
+  random_tally *tally;
+  uint64_t seed;
+  baum_workspace *w;
+  int nv;
+  int nc;
+  double t;
+  double *q; /* (nv) */
+  double *v;
+  double *a;
+  double *want;
+} scene;
+
+/* ---- kinds ---- */
+
+/* Small mostly; one in ten has some dozens of bodies. */
+static random_kind draw_kind(chance *c)
+{
+  bool large = chance_below(c, 10) == 0;
+  random_kind kind = {.bodies = 1 + chance_below(c, large ? 30 : 10)};
+  kind.joints = chance_below(c, 1 + (3 * kind.bodies) / 2);
+  kind.particles = chance_below(c, 3) == 0 ? chance_below(c, 60) : 0;
+  kind.coordinates = chance_below(c, 3) == 0 ? chance_below(c, 40) : 0;
+  kind.pins = chance_below(c, 101);
+  kind.constant = chance_below(c, 2) == 0;
+  kind.hub = chance_below(c, 10) == 0;
+  kind.span = chance_decade(c, 1.0, chance_below(c, 4) == 0 ? 1e6 : 10.0);
+  kind.loads = chance_below(c, 5);
+  return kind;
+}
+
+/* ---- verdicts ---- */
+
+static double error_of(const scene *s, const quad_rows *rows)
+{
+  double most = 0.0;
+  for (int i = 0; i < s->nv; i++) {
+    double apart = fabs(s->a[i] - s->want[i]);
+    most = apart <= most ? most : apart; /* NaN stays */
+  }
+  return rows->size > 0.0 ? most / rows->size : most;
+}
+
+static random_verdict verdict_on(scene *s, baum_status status, const quad_rows *rows)
+{
+  bool dependent = rows->rank < s->nc;
+  if (status != BAUM_OK) {
+    return dependent || rows->distance < QUAD_DEPENDENT ? RANDOM_REFUSED : RANDOM_FALSE_ALARM;
+  }
+  if (dependent && rows->conflict > CONTRADICTION) {
+    return RANDOM_CONFLICT;
+  }
+  double error = error_of(s, rows);
+  /* which of two dependent rows is kept makes a difference where they differ */
+  double choice = dependent ? rows->conflict / rows->kept : 0.0;
+  if (!(error <= RANDOM_ERROR + choice)) {
+    return RANDOM_WRONG;
+  }
+  s->tally->dependent += dependent ? 1 : 0;
+  if (error > s->tally->worst) {
+    s->tally->worst = error;
+    s->tally->worst_seed = s->seed;
+  }
+  return RANDOM_MET;
+}
+
+static void look(scene *s, const char *what)
+{
+  quad_rows rows;
+  baum_status status = baum_workspace_acceleration(s->w, s->t, s->q, s->v, 0.0, 0.0, s->a, NULL);
+  if (!quad_rows_accelerate(s->w, s->nv, s->nc, s->t, s->q, s->v, s->want, &rows)) {
+    (void)printf("seed %llu: no oracle: %s\n", (unsigned long long)s->seed, baum_message());
+    s->tally->counts[RANDOM_WRONG]++;
+    return;
+  }
+  random_verdict verdict = verdict_on(s, status, &rows);
+  s->tally->poses++;
+  s->tally->counts[verdict]++;
+  if (verdict != RANDOM_MET && verdict != RANDOM_REFUSED) {
+    (void)printf(
+      "seed %llu, %s pose, %d coordinates, %d rows of rank %d, distance %.2g, conflict %.2g: %s, "
+      "error %.2g\n",
+      (unsigned long long)s->seed, what, s->nv, s->nc, rows.rank, rows.distance, rows.conflict,
+      status == BAUM_OK ? "accelerated" : baum_message(),
+      status == BAUM_OK ? error_of(s, &rows) : (double)NAN);
+  }
+}
+
+/* ---- poses ---- */
+
+static void move_a_bit(scene *s, chance *c, double away)
+{
+  for (int i = 0; i < s->nv; i++) {
+    s->q[i] += chance_number(c, -away, away);
+    s->v[i] = chance_number(c, -3.0, 3.0);
+  }
+}
+
+/* On the constraints again, where there is a way. */
+static void look_on_constraints(scene *s, const char *what)
+{
+  if (baum_workspace_project(s->w, s->t, s->q, s->v) == BAUM_OK) {
+    look(s, what);
+  }
+}
+
+static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
+{
+  baum_mobility mobility = {.redundant_rows = 0};
+  (void)baum_workspace_drawn(s->w, s->q, NULL);
+  move_a_bit(s, c, 0.0);
+  look_on_constraints(s, "drawn");
+  move_a_bit(s, c, 0.2);
+  look_on_constraints(s, "moved");
+  /* redundant rows are left out, and beside the constraints they need not depend on each other */
+  (void)baum_mechanism_mobility(m, &mobility, sizeof mobility);
+  if (mobility.redundant_rows == 0) {
+    move_a_bit(s, c, 1.0);
+    look(s, "free");
+  }
+}
+
+void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally)
+{
+  chance c = chance_of(seed);
+  random_kind kind = draw_kind(&c);
+  scene s = {.tally = tally, .seed = seed, .t = chance_number(&c, 0.0, 1.0)};
+  random_mechanism_make(room, seed, &kind);
+  assert_int_equal(baum_mechanism_sizes(room->mechanism, NULL, &s.nv, &s.nc), BAUM_OK);
+  assert_int_equal(baum_workspace_create(room->mechanism, &s.w), BAUM_OK);
+  s.q = calloc(4 * (size_t)s.nv, sizeof *s.q);
+  assert_non_null(s.q);
+  s.v = s.q + s.nv;
+  s.a = s.v + s.nv;
+  s.want = s.a + s.nv;
+  look_at_all(&s, room->mechanism, &c);
+  tally->mechanisms++;
+  free(s.q);
+  baum_workspace_destroy(s.w);
+  random_mechanism_destroy(room);
+}

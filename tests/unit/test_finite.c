@@ -1,0 +1,90 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Numbers that overflow are told of where they arise, with the joint or the body, and never handed out with success. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/baum.h>
+
+#include "sentence.h"
+
+/* A rigid body "big" on a rod "rod" of some length from the origin, and a wheel without a joint. */
+typedef struct scene {
+  baum_mechanism *mechanism;
+  baum_workspace *workspace;
+  double q[6];
+  double v[6];
+  double out[36];
+} scene;
+
+static scene open_scene(double mass, double length)
+{
+  scene s = {.mechanism = NULL};
+  baum_planar_body_def wheel = baum_planar_body_def_default();
+  baum_planar_body_def big = baum_planar_body_def_default();
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  wheel.name = "wheel";
+  big.name = "big";
+  big.mass = mass;
+  big.position[0] = length;
+  assert_int_equal(baum_mechanism_create(&s.mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &wheel, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(s.mechanism, &big, &rod.body_b), BAUM_OK);
+  rod.name = "rod";
+  rod.body_a = BAUM_GROUND;
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  assert_int_equal(baum_mechanism_add_planar_distance(s.mechanism, &rod, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(s.mechanism), BAUM_OK);
+  assert_int_equal(baum_workspace_create(s.mechanism, &s.workspace), BAUM_OK);
+  assert_int_equal(baum_workspace_drawn(s.workspace, s.q, NULL), BAUM_OK);
+  return s;
+}
+
+static void close_scene(scene *s)
+{
+  baum_workspace_destroy(s->workspace);
+  baum_mechanism_destroy(s->mechanism);
+}
+
+/* Weight and kinetic energy of a body of the largest mass there is. */
+static void forces_and_energies_that_overflow_are_refused(void **state)
+{
+  (void)state;
+  scene s = open_scene(DBL_MAX, 1.0);
+  s.v[3] = 3.0;
+  ASSERT_SAYS(baum_workspace_force(s.workspace, 0.5, s.q, s.v, s.out), BAUM_ERR_NOT_FINITE,
+              "t = 0.5 s|the force of body 2 \"big\" is -inf");
+  ASSERT_SAYS(baum_workspace_energy(s.workspace, 0.0, s.q, s.v, s.out, NULL), BAUM_ERR_NOT_FINITE,
+              "kinetic energy is inf J");
+  ASSERT_SAYS(baum_workspace_acceleration(s.workspace, 0.0, s.q, s.v, 0.0, 0.0, s.out, NULL),
+              BAUM_ERR_NOT_FINITE, "the force of body 2 \"big\" is -inf");
+  close_scene(&s);
+}
+
+/* Speeds whose squares overflow. */
+static void gamma_that_overflows_is_refused(void **state)
+{
+  (void)state;
+  scene s = open_scene(1.0, 1.0);
+  s.v[4] = 1e200;
+  ASSERT_SAYS(baum_workspace_gamma(s.workspace, 0.0, s.q, s.v, s.out), BAUM_ERR_NOT_FINITE,
+              "the gamma of joint 1 \"rod\" is -inf");
+  ASSERT_SAYS(baum_workspace_acceleration(s.workspace, 0.0, s.q, s.v, 0.0, 0.0, s.out, NULL),
+              BAUM_ERR_NOT_FINITE, "the right side of joint 1 \"rod\" is -inf");
+  close_scene(&s);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(forces_and_energies_that_overflow_are_refused),
+    cmocka_unit_test(gamma_that_overflows_is_refused),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
