@@ -64,7 +64,9 @@ typedef struct baum_study_options {
   int32_t threads;    /**< [-] >= 1, for errors; times are always taken one by one. Default: 1. */
   int32_t repeats;    /**< [-] >= 1, most runs for the time of a row; fewer where they are long.
                             Default: 5. */
-  double row_limit; /**< [s] > 0 of CPU time, longest run of a row; may be infinite. Default: 10. */
+  double
+    row_limit; /**< [s] > 0 of CPU time, longest run of a row; may be infinite. The reference may
+                            take a minute, or five times that. Default: 10. */
   double time_budget;  /**< [s] > 0 of wall time, of one baum_study_run(); may be infinite. Default:
                             infinity. */
   bool energy_account; /**< Take the works of the stabilization, at the price of

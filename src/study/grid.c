@@ -165,7 +165,7 @@ static baum_status add_integrator(const grid *g, const baum_integrator *integrat
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   if (integrator->without_freedom) {
-    return add_gains(g, o);
+    return g->wanted->formulation == BAUM_FORMULATION_DEFAULT ? add_gains(g, o) : BAUM_OK;
   }
   baum_status status = BAUM_OK;
   for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {

@@ -42,18 +42,17 @@ static int look(const baum_simulation *simulation, double t, void *user)
 }
 
 /* Those of the row, with what is the study's. */
-static baum_simulation_options complete(const baum_study *study,
-                                        const baum_simulation_options *options, baum_i_watch *watch,
-                                        bool with_samples)
+static baum_simulation_options complete(const baum_i_task *task, baum_i_watch *watch)
 {
-  baum_simulation_options o = *options;
+  const baum_study *study = task->study;
+  baum_simulation_options o = *task->options;
   o.start_time = study->t0;
   o.check_derivatives = false;
   o.progress = look;
   o.progress_interval = LOOK;
   o.user = watch;
   o.energy_account =
-    with_samples && study->options.energy_account && !o.integrator->without_freedom;
+    task->with_account && study->options.energy_account && !o.integrator->without_freedom;
   return o;
 }
 
@@ -74,7 +73,9 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
   baum_status status =
     baum_simulation_sample(run, course->times, course->n, channels, count, rows, NULL);
   baum_i_free(channels);
-  return status;
+  bool goes_on = status >= BAUM_OK && status != BAUM_STOP_CANCELLED && !course->q;
+  baum_status rest = goes_on ? baum_simulation_advance_to(run, study->t1) : BAUM_OK;
+  return rest == BAUM_OK ? status : rest;
 }
 
 /* Kinematics solves poses at the times asked for: these are its cost. */
@@ -89,7 +90,7 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
       return status;
     }
   }
-  return status < BAUM_OK ? status : baum_simulation_advance_to(run, course->times[course->n - 1]);
+  return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
 static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome *out)
@@ -112,7 +113,7 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *
 {
   const baum_study *study = task->study;
   *out = (baum_i_outcome){0};
-  baum_simulation_options o = complete(study, task->options, watch, rows != NULL);
+  baum_simulation_options o = complete(task, watch);
   baum_simulation *run = NULL;
   watch->timed_out = false;
   watch->begin = baum_i_thread_seconds();

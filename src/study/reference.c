@@ -104,7 +104,7 @@ static baum_status join(baum_study *study, const baum_simulation_options *o, bau
                         double *rows, found *out)
 {
   baum_i_outcome outcome;
-  const baum_i_task task = {study, o, &study->reference.course};
+  const baum_i_task task = {study, o, &study->reference.course, false};
   baum_i_study_run_one(&task, watch, rows, &outcome);
   if (outcome.status == BAUM_ERR_MEMORY || baum_i_watch_stops(watch)) {
     return outcome.status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : BAUM_STOP_CANCELLED;

@@ -91,7 +91,7 @@ static baum_status make_one(const baum_study *study, double nudge, baum_i_watch 
   baum_i_outcome outcome = {.status = set_start(study, nudge, course)};
   if (outcome.status == BAUM_OK) {
     const baum_simulation_options o = reference_options(study);
-    const baum_i_task task = {study, &o, course};
+    const baum_i_task task = {study, &o, course, false};
     baum_i_study_run_one(&task, watch, course->rows, &outcome);
   }
   if (outcome.status == BAUM_ERR_MEMORY) {
@@ -145,7 +145,7 @@ baum_status baum_i_study_rehearse(const baum_study *study, const baum_i_row *row
     if (!course->rows) {
       continue;
     }
-    const baum_i_task task = {study, &row->options, course};
+    const baum_i_task task = {study, &row->options, course, false};
     baum_i_outcome outcome;
     baum_i_study_run_one(&task, watch, samples, &outcome);
     if (outcome.status == BAUM_ERR_MEMORY) {

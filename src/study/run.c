@@ -188,7 +188,7 @@ static void measure_row(crew *c, baum_i_row *row, double *samples)
   baum_i_lock_give(&c->lock);
   baum_i_outcome outcome = {0};
   if (!passed) {
-    const baum_i_task task = {c->study, &row->options, &c->study->reference.course};
+    const baum_i_task task = {c->study, &row->options, &c->study->reference.course, true};
     baum_i_study_run_one(&task, &watch, samples, &outcome);
   }
   bool stopped = outcome.status == BAUM_STOP_CANCELLED && !watch.timed_out;
@@ -360,7 +360,7 @@ static void take_times(const baum_i_outcome *first, const double least[2], int r
 static baum_status time_row(crew *c, baum_i_row *row)
 {
   baum_i_watch watch = watch_of(c, (double)INFINITY);
-  const baum_i_task task = {c->study, &row->options, &c->study->reference.course};
+  const baum_i_task task = {c->study, &row->options, &c->study->reference.course, false};
   baum_i_outcome first = {0};
   double least[2] = {(double)INFINITY, (double)INFINITY};
   double sum = 0.0;

@@ -176,9 +176,11 @@ typedef struct baum_i_task {
   const baum_study *study;
   const baum_simulation_options *options;
   const baum_i_course *course;
+  bool with_account; /* of energy, if the study has it */
 } baum_i_task;
 
-/* Run through the samples of the course; rows (n x width) NULL: to the last one alone. */
+/* Run through the samples of the course, and from the start as drawn on to the end of the span; rows (n x width) NULL: no
+ * samples are taken. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
                           baum_i_outcome *out);
 
