@@ -42,10 +42,8 @@ baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, cons
   const baum_i_problem *problem = newton->klu.sundials->problem;
   const baum_workspace *w = problem->workspace;
   const baum_mechanism *m = w->mechanism;
-  bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
-  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1,
-                        .alpha = gains ? problem->direction * problem->alpha : 0.0,
-                        .beta = gains ? problem->beta : 0.0};
+  baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
+  baum_i_problem_gains(problem, &dae.alpha, &dae.beta);
   baum_status status = baum_i_problem_acceleration(problem, t, y, y + m->nq);
   if (status != BAUM_OK) {
     return status;

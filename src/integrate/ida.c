@@ -172,13 +172,11 @@ static baum_residual residual_of(baum_formulation formulation)
 static void begin(ida_run *run, const baum_i_problem *problem, double t)
 {
   baum_i_sundials_begin(&run->sundials, problem, t);
-  bool gains = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
   run->sundials.origin = t;
   run->dae.index = residual_of(problem->formulation);
   run->newton.sundials = &run->sundials;
   run->newton.index = run->dae.index;
-  run->dae.alpha = gains ? problem->direction * problem->alpha : 0.0;
-  run->dae.beta = gains ? problem->beta : 0.0;
+  baum_i_problem_gains(problem, &run->dae.alpha, &run->dae.beta);
 }
 
 static baum_status fail(const ida_run *run, int flag)

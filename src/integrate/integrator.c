@@ -73,20 +73,29 @@ const char *baum_formulation_name(baum_formulation formulation)
 
 /* ---- what integrators work with ---- */
 
+void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *beta)
+{
+  bool stabilized = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
+  *alpha = stabilized ? problem->direction * problem->alpha : 0.0;
+  *beta = stabilized ? problem->beta : 0.0;
+}
+
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v)
 {
-  bool stabilized = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
-  double alpha = stabilized ? problem->direction * problem->alpha : 0.0;
-  return baum_i_acceleration(problem->workspace, t, q, v, alpha, stabilized ? problem->beta : 0.0);
+  double alpha;
+  double beta;
+  baum_i_problem_gains(problem, &alpha, &beta);
+  return baum_i_acceleration(problem->workspace, t, q, v, alpha, beta);
 }
 
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v)
 {
-  bool stabilized = problem->formulation == BAUM_FORMULATION_BAUMGARTE;
-  double alpha = stabilized ? problem->direction * problem->alpha : 0.0;
-  return baum_i_motion(problem->workspace, t, q, v, alpha, stabilized ? problem->beta : 0.0);
+  double alpha;
+  double beta;
+  baum_i_problem_gains(problem, &alpha, &beta);
+  return baum_i_motion(problem->workspace, t, q, v, alpha, beta);
 }
 
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem)

@@ -50,7 +50,7 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  int order;                            /* 0: variable */
+  int order;             /* 0: variable */
   double error_constant; /* C: a fixed step of h leaves about C (w h)^order of a motion of rate w */
   const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
@@ -93,6 +93,9 @@ struct baum_integrator {
   void (*forget)(void *self);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
+
+/* alpha with the sign of the direction, and beta [1/s]: 0 where the formulation has no gains. */
+void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *beta);
 
 /* a and lambda at a state as the formulation says, into workspace->a, ->lambda. */
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
