@@ -210,7 +210,8 @@ static void see_last(baum_simulation *run)
 }
 
 static const char *const BRANCHES[] = {
-  [BAUM_BRANCH_CONTINUED] = "the motion goes on smoothly behind it",
+  [BAUM_BRANCH_CONTINUED] = "the motion goes on smoothly behind it, which is right where branches "
+                            "cross, but not where they only come within rounding of each other",
   [BAUM_BRANCH_LEFT] =
     "the motion behind it is on another branch; prefer projection, with rk8 or a "
     "step that does not end there",

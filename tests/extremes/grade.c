@@ -257,20 +257,37 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* Warnings that leave the motion in doubt; others say what is true however right it is. */
+/* Warnings that leave the motion in doubt. Others say what is true however right it is; where it is wrong, that of a
+ * passage is a warning all the same, for it names what the motion depends on. */
+static const char PASSAGE[] = "the motion goes on smoothly behind it";
+
+static bool says(const trial *t, int64_t k, const char *what)
+{
+  char text[400];
+  (void)baum_simulation_warning(t->run, k, text, sizeof text);
+  return strstr(text, what) != NULL;
+}
+
 static bool doubts_motion(const trial *t)
 {
   static const char *const OTHERS[] = {"multipliers and reactions of these joints are not unique",
-                                       "the motion goes on smoothly behind it",
-                                       "marginal: some violations stay"};
+                                       PASSAGE, "marginal: some violations stay"};
   for (int64_t k = 0; k < t->warnings; k++) {
-    char text[400];
-    (void)baum_simulation_warning(t->run, k, text, sizeof text);
     bool other = false;
     for (size_t i = 0; i < sizeof OTHERS / sizeof OTHERS[0]; i++) {
-      other |= strstr(text, OTHERS[i]) != NULL;
+      other |= says(t, k, OTHERS[i]);
     }
     if (!other) {
+      return true;
+    }
+  }
+  return false;
+}
+
+static bool tells_passage(const trial *t)
+{
+  for (int64_t k = 0; k < t->warnings; k++) {
+    if (says(t, k, PASSAGE)) {
       return true;
     }
   }
@@ -288,7 +305,10 @@ static outcome judge(const trial *t, const grade *g)
   if (doubts_motion(t)) {
     return WARNED;
   }
-  return g->error <= g->promise ? MET : WRONG;
+  if (g->error <= g->promise) {
+    return MET;
+  }
+  return tells_passage(t) ? WARNED : WRONG;
 }
 
 /* Below this distance a pose is singular for doubles. */
@@ -343,7 +363,9 @@ grade cell_grade(const cell *c)
     measure(c, &t, time, &out);
   }
   out.outcome = judge(&t, &out);
-  out.false_alarm = (out.outcome == WARNED && out.error <= out.promise) ||
+  /* Which way a motion goes from a singular pose is open, however well one of them has been followed. */
+  bool open = c->scene.gap <= SINGULAR;
+  out.false_alarm = (out.outcome == WARNED && out.error <= out.promise && !open) ||
                     (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));
   end_trial(&t);
   out.all_seconds = seconds() - begin;

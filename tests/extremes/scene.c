@@ -92,6 +92,9 @@ static curve level(curve p)
 static turn rod_of_crank(const scene *s, long double x)
 {
   long double rod = s->rod;
+  if (rod == CRANK) {
+    return (turn){-x, -1, 0}; /* smoothly through where both fall on each other */
+  }
   turn a = {.at = -asinl(CRANK * sinl(x) / rod)};
   long double c = cosl(a.at);
   a.d = -CRANK * cosl(x) / (rod * c);
@@ -122,10 +125,18 @@ static void close_four_bar(long double x, turn *a, turn *b)
   b->dd = (-sa * g - ca * f) / det;
 }
 
+/* Cranks and couplers in turn. */
+static curve pose_in_windows(int body, turn first)
+{
+  curve left = {{(long double)(body / 2)}, {0}, {0}};
+  curve tip = along(left, first, CRANK);
+  tip.at[0] += 0.5L;
+  return body % 2 ? level(tip) : along(left, first, CRANK / 2);
+}
+
 static curve pose_of(const scene *s, int body, long double x)
 {
   const curve origin = {0};
-  curve left = origin;
   turn first = {x, 1, 0};
   curve tip = along(origin, first, CRANK);
   turn a = {0};
@@ -139,10 +150,7 @@ static curve pose_of(const scene *s, int body, long double x)
       return along((curve){{GROUND}, {0}, {0}}, b, ROCKER / 2);
     }
     break;
-  case SCENE_WINDOWS:
-    left.at[0] = (long double)(body / 2);
-    tip.at[0] += left.at[0] + 0.5L;
-    return body % 2 ? level(tip) : along(left, first, CRANK / 2);
+  case SCENE_WINDOWS: return pose_in_windows(body, first);
   case SCENE_CHAIN: return along(origin, first, (body + 0.5L) / s->count);
   case SCENE_PENDULUM:
   case SCENE_KINDS:

@@ -34,7 +34,7 @@ static void closed_form(double t, double q[2])
     c[k + 1] = (a[k] - b[k]) / 2;
   }
   long double quarter = half_pi / a[MEANS];
-  long double u = fmodl(sqrtl(9.81L) * t + quarter, 4 * quarter);
+  long double u = fmodl(sqrtl(9.81L) * (long double)t + quarter, 4 * quarter);
   long double phi = ldexpl(a[MEANS] * u, MEANS);
   for (int k = MEANS; k > 0; k--) {
     phi = (phi + asinl(c[k] / a[k] * sinl(phi))) / 2;
