@@ -2,8 +2,8 @@
 /* Rows by method, and what one more digit costs with it.
  *
  * Errors of a method fall as a power of its step or rtol, error = C h^p, until they meet the reference or rounding; cost
- * rises as a power of it. Lines are fitted to the logarithms of the rows between: from the coarsest whose error is below
- * COARSE to the finest that is above FLOOR times the least.
+ * rises as a power of it. Lines are fitted to the logarithms of the rows before: from the coarsest on, that of the least error
+ * and those whose error is at least FLOOR times that.
  */
 #include <math.h>
 #include <stdlib.h>
