@@ -82,13 +82,15 @@ static void what_is_too_fast_falls_by_rho_in_a_step(void **state)
   check(baum_simulation_step(run, 100));
   double before = baum_simulation_q(run)[0];
   check(baum_simulation_step(run, 1));
-  ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 0.02, 0.0);
+  /* terms of 1 / 100^2, and what the roots are off by */
+  ASSERT_NEAR(baum_simulation_q(run)[0] / before, -0.8 * (1.0 + 2.0 / 100.0), 2e-3, 0.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(mechanism);
 }
 
-/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost; the spring's slow motion is exact to order 2:
- * x = exp(-w t / (2 d)) for d far above 1. */
+/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost. The spring's slow motion,
+ * x = exp(-w t / (2 d)) for d far above 1, is followed closely. What stays is the error of the first steps, which do not
+ * resolve how the damper leads from rest to the slow motion: a part of (w h)^2 = 1e-2, measured 3e-4. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
