@@ -11,6 +11,7 @@
 
 #include <baum/baum.h>
 
+#include "check.h"
 #include "models.h"
 
 enum { STEPS = 10000 }; /* between two looks at the pace */
@@ -95,9 +96,7 @@ static void short_steps_that_lead_on_are_taken(void **state)
 static void a_run_next_to_a_singular_pose_ends(void **state)
 {
   (void)state;
-  if (!baum_has("sundials")) {
-    skip();
-  }
+  need_sundials();
   const baum_integrator *const integrators[] = {baum_ida(), baum_cvode_adams(), baum_cvode_bdf()};
   const model_parallelogram_data data = {
     .which = MODEL_THREE_CRANKS, .angle = 1e-8, .units = &MODEL_MILLI};

@@ -6,15 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "check.h"
 #include "reference.h"
-
-/* A build without SUNDIALS has no variable-step integrators. */
-static inline void need_sundials(void)
-{
-  if (!BAUM_HAVE_SUNDIALS) {
-    skip();
-  }
-}
 
 /* Adams, BAUMGARTE with gains by the rule `auto`. */
 static inline baum_simulation_options adams_options(void)

@@ -87,12 +87,4 @@ static inline void watch_phi(const watched_run *watched, double phi[PHYSICS_NC])
                            baum_simulation_q(watched->run), phi));
 }
 
-/* A build without SUNDIALS has no variable-step integrators. */
-static inline void need_sundials(void)
-{
-  if (!BAUM_HAVE_SUNDIALS) {
-    skip();
-  }
-}
-
 #endif

@@ -12,15 +12,9 @@
 #include <baum/baum.h>
 
 #include "assert_near.h"
+#include "check.h"
 #include "integrator_run.h"
 #include "models.h"
-
-static void need_sundials(void)
-{
-  if (!baum_has("sundials")) {
-    skip();
-  }
-}
 
 /* ---- accuracy ---- */
 
