@@ -28,6 +28,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "integrate/rk_pose.h"
 #include "integrate/step_control.h"
 
 /* An evaluation that failed in a try, for which a smaller step was taken. */
@@ -53,32 +54,12 @@ typedef struct adaptive_run {
   bool unfinished; /* a start or step that failed must be begun anew */
   int64_t rejected;
   int64_t forced;
-  double gap;  /* middle of the widest gap between stages, of the step */
-  double pose; /* [s] from the start of the step to a singular pose ahead; INFINITY: none is near */
-  double pivot;     /* at the start of the step, of the usual one */
-  double pivot_end; /* at its end */
-  double usual;     /* largest pivot so far */
+  baum_i_rk_pose pose;
   failure last;
 } adaptive_run;
 
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
-
-/* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
-static const double SHORT = 0.0002;
-static const double STEP_OVER = 0.05;
-/* [rad] Error of such a step, of the scales, above which it is refused all the same. */
-static const double LARGEST_FORCED = 0.01;
-/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it with 40 windows, where it
- * was up to 3e-11. */
-static const double ROUNDING = 1e-10;
-
-/* Pivots, of the usual one: below the first a singular pose ahead is looked for, and from above it no step ends below the
- * second, where rounding over p is large. */
-static const double PIVOT_AHEAD = 0.2;
-static const double PIVOT_POOR = 1e-3;
-/* [rad] over which pivots are compared to find the pose. */
-static const double LOOK = 1e-4;
 
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
@@ -183,14 +164,6 @@ static double first_step(const adaptive_run *run, const baum_i_problem *problem)
   return pow(fmin(tolerance, 1.0), 1.0 / run->pair->error_order) / rate;
 }
 
-/* Of the last evaluation. */
-static double see_pivot(adaptive_run *run, const baum_i_problem *problem)
-{
-  double pivot = baum_i_smallest_pivot(problem->workspace);
-  run->usual = fmax(run->usual, pivot);
-  return pivot / run->usual;
-}
-
 baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem,
                                        const baum_i_state *state)
 {
@@ -207,8 +180,7 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
     remember(run, status);
     return fail_with_evaluation(run, 0.0);
   }
-  run->usual = 0.0; /* no step before counts */
-  run->pivot = see_pivot(run, problem);
+  baum_i_rk_pose_begin(&run->pose, &run->rk, problem, run->t);
   baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
   run->unfinished = false;
   return BAUM_OK;
@@ -221,15 +193,15 @@ void baum_i_rk_adaptive_forget(void *self)
 }
 
 /* The end of the last step is the start of the next. */
-static void go_on(adaptive_run *run)
+static void go_on(adaptive_run *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
   size_t bytes = (size_t)rk->size * sizeof *rk->start;
   run->t = run->t_end;
-  run->pivot = run->pivot_end;
   memcpy(rk->start, run->end, bytes);
   memcpy(rk->rates, baum_i_rk_rate(rk, rk->table->stages), bytes);
   run->has_step = false;
+  baum_i_rk_pose_go_on(&run->pose, rk, problem, run->control.step);
 }
 
 static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
@@ -239,11 +211,14 @@ static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
   if (run->unfinished) {
     status = baum_i_rk_adaptive_restart(run, problem, state);
   } else if (run->has_step) {
-    go_on(run);
+    go_on(run, problem);
   }
   if (status == BAUM_OK) {
     weigh(run, problem);
     status = check_tolerances(run, problem);
+  }
+  if (status == BAUM_OK && baum_i_rk_pose_is_held(&run->pose)) {
+    status = fail_short(run, problem, run->control.step);
   }
   return status;
 }
@@ -301,49 +276,9 @@ static void accept(adaptive_run *run, double error, baum_i_state *state)
   memcpy(state->v, run->end + run->rk.nv, bytes);
 }
 
-/* Near a singular pose errors grow however small the step is, and small steps would end up in it. So where even this
- * length is too long there, the step goes over the pose, whatever its error. 0 elsewhere. */
-static double least_length(const adaptive_run *run, const baum_i_problem *problem)
+/* From where the step begins by about this length. */
+static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double length)
 {
-  if (run->pivot >= BAUM_I_NEAR_PIVOT) {
-    return 0.0;
-  }
-  const baum_i_rk *rk = &run->rk;
-  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
-  return SHORT / fmax(rate, problem->rate);
-}
-
-/* Where the root of the pivot, which falls in a straight line, would be zero. */
-static double find_pose(adaptive_run *run, const baum_i_problem *problem)
-{
-  if (!(run->pivot < PIVOT_AHEAD && run->pivot > 0.0)) {
-    return (double)INFINITY;
-  }
-  const baum_i_rk *rk = &run->rk;
-  const double one = 1.0;
-  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
-  double dt = problem->direction * LOOK / fmax(rate, problem->rate);
-  baum_i_rk_combine(rk, 1, &one, dt, rk->point);
-  baum_status status = baum_i_problem_motion(problem, run->t + dt, rk->point, rk->point + rk->nv);
-  double now = sqrt(run->pivot);
-  double then = sqrt(baum_i_smallest_pivot(problem->workspace) / run->usual);
-  return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;
-}
-
-/* Rates close to the pose are poor: it is passed between two stages, from as far as the length allows. Not before a step
- * so short that the next one could not grow to the length. */
-static double keep_clear(const adaptive_run *run, double length)
-{
-  double over = run->pose / run->gap;
-  double before = run->pose - run->gap * length;
-  return length >= over ? over : fmin(fmax(before, 0.2 * length), length);
-}
-
-/* The next length to try, from where the step begins. */
-static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double least)
-{
-  bool over = run->control.step < least;
-  double length = over ? STEP_OVER / SHORT * least : keep_clear(run, run->control.step);
   length = fmin(length, problem->max_step);
   double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
@@ -359,42 +294,27 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
 /* Error that is accepted, in units of the tolerance. */
 static double largest_error(const adaptive_run *run, const baum_i_problem *problem, bool forced)
 {
-  double error = 0.0;
-  if (forced) {
-    error = LARGEST_FORCED;
-  } else if (fabs(run->h) > run->pose) {
-    error = ROUNDING / run->pivot;
-  }
-  return fmax(1.0, error / problem->rtol);
-}
-
-/* Of a step that began where no pose was looked for. */
-static bool ends_in_pose(const adaptive_run *run)
-{
-  return run->pivot >= PIVOT_AHEAD && run->pivot_end < PIVOT_POOR;
+  return fmax(1.0, baum_i_rk_pose_error(&run->pose, run->h, forced) / problem->rtol);
 }
 
 /* Tries until one is accepted. */
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
-  double least = least_length(run, problem);
-  run->pose = find_pose(run, problem);
+  baum_i_rk_pose_look(&run->pose, &run->rk, problem, run->t);
   for (;;) {
     double error = 0.0;
-    baum_status status = choose_end(run, problem, least);
+    bool forced = false;
+    double length = baum_i_rk_pose_length(&run->pose, run->control.step, &forced);
+    baum_status status = choose_end(run, problem, length);
     if (status != BAUM_OK) {
       return status;
     }
-    bool forced = run->control.step < least;
     double most = largest_error(run, problem, forced);
     status = try_step(run, problem, most, &error);
-    if (status == BAUM_OK && error <= most) {
-      run->pivot_end = see_pivot(run, problem);
-      if (!ends_in_pose(run)) {
-        run->forced += error > 1.0;
-        accept(run, fmin(error, 1.0), state);
-        return BAUM_OK;
-      }
+    if (status == BAUM_OK && error <= most && baum_i_rk_pose_may_end(&run->pose, problem)) {
+      run->forced += error > 1.0;
+      accept(run, fmin(error, 1.0), state);
+      return BAUM_OK;
     }
     if (status != BAUM_OK) {
       remember(run, status);
@@ -404,7 +324,9 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     }
     bool known = status == BAUM_OK && error > most;
     baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
-    least = forced || status != BAUM_OK ? 0.0 : least; /* for another reason, perhaps */
+    if (forced || status != BAUM_OK) {
+      run->pose.least = 0.0; /* for another reason, perhaps */
+    }
     run->rejected++;
   }
 }
@@ -513,24 +435,6 @@ void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
   *out = (baum_i_statistics){.rejected = run->rejected, .forced = run->forced};
 }
 
-/* Stages are in no order. */
-static double widest_gap(const baum_i_rk_table *table)
-{
-  double middle = 0.5;
-  double width = 0.0;
-  for (int i = 0; i < table->stages; i++) {
-    double next = 1.0;
-    for (int k = 0; k < table->stages; k++) {
-      next = table->c[k] > table->c[i] ? fmin(next, table->c[k]) : next;
-    }
-    if (next - table->c[i] > width) {
-      width = next - table->c[i];
-      middle = 0.5 * (next + table->c[i]);
-    }
-  }
-  return middle;
-}
-
 baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,
                                       void **out)
 {
@@ -548,7 +452,7 @@ baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_p
     return status;
   }
   run->pair = pair;
-  run->gap = widest_gap(&pair->table);
+  baum_i_rk_pose_open(&run->pose, &pair->table);
   run->end = more;
   run->weights = run->end + run->rk.size;
   run->dense = run->weights + run->rk.size;

@@ -18,10 +18,11 @@
 
 #include "simulate/passage.h"
 
-static const double SMALL_JUMP = 0.02; /* polynomials over the longest steps are off by so much */
-static const double LARGE_JUMP =
-  0.3;                           /* directions of branches differ by the size of the velocity */
-static const double KNOWN = 0.1; /* largest error of a jump that is judged */
+/* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began at 0.9. Polynomials over
+ * the longest steps are off by 0.06. */
+static const double SMALL_JUMP = 0.1;
+static const double LARGE_JUMP = 0.3;
+static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
 static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
 static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing branches is 0 */
 
@@ -39,31 +40,45 @@ static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count
   return baum_i_smallest_pivot(run->workspace) / p->usual;
 }
 
-/* Golden section until the time is known to a millionth of the span; then pivots are known to its square. */
+/* And keep the least of all. */
+static double look_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
+                      double best[2])
+{
+  double pivot = pivot_at(run, knots, count, t);
+  if (pivot < best[1]) {
+    best[0] = t;
+    best[1] = pivot;
+  }
+  return pivot;
+}
+
+/* Golden section until the time is known to a millionth of the span; then pivots are known to its square. Next to the
+ * pose another solver may take over, whose pivots are larger, so that the last one need not be the least. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  const double span[2], double *at, int *joint)
 {
   static const double GOLDEN = 0.6180339887498949;
   double a = span[0];
   double b = span[1];
+  double best[2] = {a, (double)INFINITY};
   double x[2] = {b - GOLDEN * (b - a), a + GOLDEN * (b - a)};
-  double p[2] = {pivot_at(run, knots, count, x[0]), pivot_at(run, knots, count, x[1])};
+  double p[2] = {look_at(run, knots, count, x[0], best), look_at(run, knots, count, x[1], best)};
   for (int k = 0; k < 30; k++) {
     if (p[0] < p[1]) {
       b = x[1];
       x[1] = x[0];
       p[1] = p[0];
       x[0] = b - GOLDEN * (b - a);
-      p[0] = pivot_at(run, knots, count, x[0]);
+      p[0] = look_at(run, knots, count, x[0], best);
     } else {
       a = x[0];
       x[0] = x[1];
       p[0] = p[1];
       x[1] = a + GOLDEN * (b - a);
-      p[1] = pivot_at(run, knots, count, x[1]);
+      p[1] = look_at(run, knots, count, x[1], best);
     }
   }
-  *at = p[0] < p[1] ? x[0] : x[1];
+  *at = best[0];
   double least = pivot_at(run, knots, count, *at);
   *joint = baum_i_smallest_pivot_joint(run->workspace);
   return least;

@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "integrate/rk_pose.h"
+
+#include <math.h>
+#include <string.h>
+
+/* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
+static const double SHORT = 0.0002;
+static const double STEP_OVER = 0.05;
+/* Error of such a step, of the scales, above which it is refused all the same. */
+static const double LARGEST_FORCED = 0.01;
+/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it with 40 windows, where it
+ * was up to 5e-11. */
+static const double ROUNDING = 1e-10;
+
+/* Pivots, of the usual one: below the first a singular pose ahead is looked for, and from above it no step ends below the
+ * second, where rounding over p is large. */
+static const double PIVOT_AHEAD = 0.2;
+static const double PIVOT_POOR = 1e-3;
+/* [rad] over which pivots are compared to find the pose. */
+static const double LOOK = 1e-4;
+
+/* Below this pivot a start may be singular; what is usual is then seen so many radians further on. */
+static const double PIVOT_OF_START = 1e-4;
+static const double FURTHER = 0.5;
+
+/* Near a pose so many steps in a row, each followed by one of less than so many radians, are the last. Steps that are
+ * free to grow do so sixfold; of these 1e8 would make a radian. */
+enum { HELD = 20 };
+static const double TINY = 1e-8;
+
+/* [1/s] at which the mechanism moves. */
+static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
+{
+  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  return fmax(rate, problem->rate);
+}
+
+/* Of the last evaluation. */
+static double see_pivot(baum_i_rk_pose *pose, const baum_i_problem *problem)
+{
+  double pivot = baum_i_smallest_pivot(problem->workspace);
+  pose->usual = fmax(pose->usual, pivot);
+  return pivot / pose->usual;
+}
+
+/* Stages are in no order. */
+void baum_i_rk_pose_open(baum_i_rk_pose *pose, const baum_i_rk_table *table)
+{
+  double width = 0.0;
+  for (int i = 0; i < table->stages; i++) {
+    double next = 1.0;
+    for (int k = 0; k < table->stages; k++) {
+      next = table->c[k] > table->c[i] ? fmin(next, table->c[k]) : next;
+    }
+    if (next - table->c[i] > width) {
+      width = next - table->c[i];
+      pose->gap = 0.5 * (next + table->c[i]);
+    }
+  }
+}
+
+/* A start in a singular pose has no pivots to compare with but those ahead. A pose that is not quite on the way does for
+ * that. */
+static void look_further(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                         double t)
+{
+  const double *v = rk->start + rk->nv;
+  const double *a = baum_i_rk_rate(rk, 0) + rk->nv;
+  double dt = problem->direction * FURTHER / find_rate(rk, problem);
+  for (int i = 0; i < rk->nv; i++) {
+    rk->point[i] = rk->start[i] + dt * (v[i] + 0.5 * dt * a[i]);
+  }
+  if (baum_i_problem_motion(problem, t, rk->point, v) == BAUM_OK) {
+    (void)see_pivot(pose, problem);
+  }
+}
+
+void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                          double t)
+{
+  double pivot = baum_i_smallest_pivot(problem->workspace);
+  pose->usual = pivot; /* no step before counts */
+  pose->held = 0;
+  if (pivot < PIVOT_OF_START) {
+    look_further(pose, rk, problem, t);
+  }
+  pose->pivot = pose->usual > 0.0 ? pivot / pose->usual : 0.0;
+}
+
+/* Where the root of the pivot, which falls in a straight line, would be zero. */
+static double find_ahead(const baum_i_rk_pose *pose, const baum_i_rk *rk,
+                         const baum_i_problem *problem, double t)
+{
+  if (!(pose->pivot < PIVOT_AHEAD && pose->pivot > 0.0)) {
+    return (double)INFINITY;
+  }
+  const double one = 1.0;
+  double dt = problem->direction * LOOK / find_rate(rk, problem);
+  baum_i_rk_combine(rk, 1, &one, dt, rk->point);
+  baum_status status = baum_i_problem_motion(problem, t + dt, rk->point, rk->point + rk->nv);
+  double now = sqrt(pose->pivot);
+  double then = sqrt(baum_i_smallest_pivot(problem->workspace) / pose->usual);
+  return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;
+}
+
+void baum_i_rk_pose_look(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                         double t)
+{
+  pose->ahead = find_ahead(pose, rk, problem, t);
+  pose->over = STEP_OVER / find_rate(rk, problem);
+  pose->least = 0.0;
+  if (pose->pivot < SHORT * SHORT) {
+    pose->least = pose->over; /* whatever begins here */
+  } else if (pose->pivot < BAUM_I_NEAR_PIVOT) {
+    pose->least = SHORT / find_rate(rk, problem);
+  }
+}
+
+/* The pose is passed between two stages, from as far as the length allows. Not before a step so short that the next one
+ * could not grow to the length, nor from so close that stages are no further away than it is. */
+double baum_i_rk_pose_length(const baum_i_rk_pose *pose, double length, bool *forced)
+{
+  double over = pose->ahead / pose->gap;
+  double before = pose->ahead - pose->gap * length;
+  *forced = length < pose->least;
+  if (*forced) {
+    return pose->over;
+  }
+  if (length >= over) {
+    return fmax(over, pose->least);
+  }
+  return fmin(fmax(before, 0.2 * length), length);
+}
+
+double baum_i_rk_pose_error(const baum_i_rk_pose *pose, double h, bool forced)
+{
+  if (forced) {
+    return LARGEST_FORCED;
+  }
+  return fabs(h) > pose->ahead ? fmin(ROUNDING / pose->pivot, LARGEST_FORCED) : 0.0;
+}
+
+/* One that began where no pose was looked for must not. */
+bool baum_i_rk_pose_may_end(baum_i_rk_pose *pose, const baum_i_problem *problem)
+{
+  pose->pivot_end = see_pivot(pose, problem);
+  return pose->pivot < PIVOT_AHEAD || pose->pivot_end >= PIVOT_POOR;
+}
+
+void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                          double next)
+{
+  bool tiny = next * find_rate(rk, problem) < TINY;
+  pose->held = tiny && pose->pivot_end < BAUM_I_NEAR_PIVOT ? pose->held + 1 : 0;
+  pose->pivot = pose->pivot_end;
+}
+
+bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose)
+{
+  return pose->held >= HELD;
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Singular poses in the way of a Runge-Kutta method that chooses its steps (docs/theory/singular.md).
+ *
+ * sqrt(p), with p the smallest pivot of what is usual, falls in a straight line towards such a pose. Accelerations next to
+ * it are poor, and errors there grow however small a step is. So the pose is passed between two stages, and where no step
+ * of a sensible length is good enough, one goes over it.
+ */
+#ifndef BAUM_I_INTEGRATE_RK_POSE_H
+#define BAUM_I_INTEGRATE_RK_POSE_H
+
+#include "integrate/rk.h"
+
+typedef struct baum_i_rk_pose {
+  double gap;       /* middle of the widest gap between stages, of the step */
+  double ahead;     /* [s] from the start of the step to a singular pose; INFINITY: none is near */
+  double over;      /* [s] a step over a pose */
+  double least;     /* [s] step shorter than which it is taken; 0 where no pose is near */
+  double pivot;     /* at the start of the step, of the usual one */
+  double pivot_end; /* at its end */
+  double usual;     /* largest pivot so far */
+  int held;         /* steps in a row that were held up near a pose */
+} baum_i_rk_pose;
+
+void baum_i_rk_pose_open(baum_i_rk_pose *pose, const baum_i_rk_table *table);
+
+/* At t, where the first rate has just been evaluated. */
+void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                          double t);
+
+/* Before a step from t: ahead and least. */
+void baum_i_rk_pose_look(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                         double t);
+
+/* [s] What becomes of a step of this length. forced: that step is below least. */
+double baum_i_rk_pose_length(const baum_i_rk_pose *pose, double length, bool *forced);
+
+/* Error of the scales that a step by h may have, whatever the tolerance. */
+double baum_i_rk_pose_error(const baum_i_rk_pose *pose, double h, bool forced);
+
+/* At the end of a step, evaluated just now. false: it ends in a pose and must not. */
+bool baum_i_rk_pose_may_end(baum_i_rk_pose *pose, const baum_i_problem *problem);
+
+/* After a step was accepted: its end is the start of the next, of length `next`. */
+void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                          double next);
+
+/* Is there no way on? */
+bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose);
+
+#endif
