@@ -317,9 +317,13 @@ static void add_rival(const baum_study *study, const place *best, question q, ch
   place rival;
   q.without = best->fine->options.integrator;
   if (find_best(study, &q, &rival)) {
-    baum_i_append(why, size, "; the next best integrator, %s, costs %.2g times as much",
-                  study->methods[rival.fine->out.method].name,
-                  place_cost(&rival, q.cost) / place_cost(best, q.cost));
+    double ratio = place_cost(&rival, q.cost) / place_cost(best, q.cost);
+    const char *name = study->methods[rival.fine->out.method].name;
+    baum_i_append(why, size, "; the next best integrator, %s, costs ", name);
+    if (ratio >= 1.05) {
+      baum_i_append(why, size, "%.2g times ", ratio);
+    }
+    baum_i_append(why, size, "as much");
   }
 }
 
@@ -328,7 +332,7 @@ static void explain(const place *p, const baum_simulation_options *o, char *why,
   char name[BAUM_I_NAME_SIZE];
   name_options(o, name, sizeof name);
   why[0] = '\0';
-  baum_i_append(why, size, "%s: error %.2g for a work of %.3g and %.3g ms", name, place_error(p),
+  baum_i_append(why, size, "%s: error %.2g for a work of %.0f and %.3g ms", name, place_error(p),
                 place_cost(p, BAUM_STUDY_WORK), 1e3 * place_cost(p, BAUM_STUDY_CPU));
   if (p->coarse == p->fine) {
     baum_i_append(why, size, ", as measured");
