@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What an error costs here, beside the best that was got out of other software.
+ *
+ * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all without
+ *
+ * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the cheapest row by CPU time,
+ * from the making of a run to its end. The others' times are own measurements on a similar machine, whole runs, the
+ * cheapest of Exudyn 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE around compiled right-hand sides,
+ * and a hand-written RK4; no command repeats them. Trust ratios of 2 and more only.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <baum/baum.h>
+#include <baum/catalog.h>
+
+enum { TARGETS = 4, SAMPLES = 50 };
+static const double TARGET[TARGETS] = {1e-4, 1e-6, 1e-8, 1e-10};
+
+/* [s] of a run: nothing that takes longer can be ten times cheaper than the others. */
+static const double LONGEST = 0.2;
+
+typedef struct peer {
+  const char *entry;
+  const char *what;
+  baum_catalog_setting setting; /* the one parameter that is not its default, if named */
+  double span;                  /* [s] */
+  double ms[TARGETS];           /* of the best of the others; NaN: none got there */
+} peer;
+
+static const peer PEERS[] = {
+  {"slider_crank",
+   "free slider-crank, 2 s; theirs of other lengths, masses and speed",
+   {"speed", 10.0},
+   2.0,
+   {7.7, 7.7, 39, 58}},
+  {"n_four_bar", "N-four-bar, N = 1, 10 s", {"windows", 1.0}, 10.0, {7, 7, 90, 90}},
+  {"n_four_bar", "N-four-bar, N = 10, 10 s", {"windows", 10.0}, 10.0, {107, 107, 1580, 1700}},
+  {"n_four_bar",
+   "N-four-bar, N = 40, 10 s",
+   {"windows", 40.0},
+   10.0,
+   {620, 1190, (double)NAN, (double)NAN}},
+  {"andrews_bodies", "Andrews' mechanism, 0.03 s", {NULL, 0.0}, 0.03, {11, 22, 22, 37}},
+};
+enum { PEER_COUNT = sizeof PEERS / sizeof PEERS[0] };
+
+/* Where it is, given; else the study makes its own. */
+static baum_status give_reference(baum_study *study, baum_catalog_choice *choice)
+{
+  baum_catalog_entry entry;
+  baum_status status = baum_catalog_find(choice->name, &entry, sizeof entry);
+  return status == BAUM_OK && entry.exact
+           ? baum_study_set_solution(study, baum_catalog_solution, choice, entry.digits_q)
+           : status;
+}
+
+static baum_status add_settings(baum_study *study)
+{
+  const baum_integrator *const methods[] = {baum_rk8(), baum_dp5(), baum_rk4()};
+  baum_study_options options = baum_study_options_default();
+  options.samples = SAMPLES;
+  options.row_limit = LONGEST;
+  options.energy_account = false;
+  baum_status status = baum_study_set_options(study, &options);
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0] && status == BAUM_OK; k++) {
+    baum_study_grid grid = baum_study_grid_default();
+    grid.integrator = methods[k];
+    grid.settings = 12;
+    grid.constants = 0;
+    status = baum_study_add_standard(study, &grid);
+  }
+  return status;
+}
+
+/* The cheapest row that keeps an error; NaN and "" where there is none. */
+static double cheapest(const baum_study *study, double error, const char **name)
+{
+  double best = (double)NAN;
+  *name = "";
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    baum_study_row row;
+    (void)baum_study_row_at(study, k, &row, sizeof row);
+    if (row.state == BAUM_STUDY_DONE && row.error <= error && !(best <= row.cpu)) {
+      best = row.cpu;
+      *name = row.name;
+    }
+  }
+  return best;
+}
+
+static void print(const baum_study *study, const peer *at)
+{
+  for (int k = 0; k < TARGETS; k++) {
+    const char *name;
+    double ms = 1e3 * cheapest(study, TARGET[k], &name);
+    printf("  %5.0e %10.3f %10.4g %8.1f   %s\n", TARGET[k], ms, at->ms[k], at->ms[k] / ms, name);
+  }
+  (void)fflush(stdout);
+}
+
+static baum_status compare(const peer *at)
+{
+  baum_catalog_choice choice = {at->entry, &at->setting, at->setting.name != NULL};
+  baum_mechanism *mechanism = NULL;
+  baum_study *study = NULL;
+  baum_status status = baum_catalog_build(&choice, &mechanism);
+  if (status == BAUM_OK) {
+    status = baum_study_create(mechanism, 0.0, at->span, &study);
+  }
+  if (status == BAUM_OK) {
+    status = give_reference(study, &choice);
+  }
+  if (status == BAUM_OK) {
+    status = add_settings(study);
+  }
+  if (status == BAUM_OK) {
+    status = baum_study_run(study);
+  }
+  if (status >= BAUM_OK) {
+    printf("%s\n  %5s %10s %10s %8s   %s\n", at->what, "error", "ms", "others", "ratio", "by");
+    print(study, at);
+  } else {
+    (void)fprintf(stderr, "%s: %s\n", at->what, baum_message());
+  }
+  baum_study_destroy(study);
+  baum_mechanism_destroy(mechanism);
+  return status;
+}
+
+int main(int count, char **words)
+{
+  bool fine = true;
+  for (int k = 0; k < PEER_COUNT; k++) {
+    if (count < 2 || strcmp(words[1], PEERS[k].entry) == 0) {
+      fine = compare(&PEERS[k]) >= BAUM_OK && fine;
+    }
+  }
+  return fine ? 0 : 1;
+}
