@@ -14,6 +14,8 @@
  *
  *  Threads: one study is used by one thread at a time, but for baum_study_cancel(). baum_study_run() uses the threads of the
  *  options, and calls functions of the user, those of the mechanism too, from each of them.
+ *  While baum_study_run() is under way, its progress function may read the study and cancel it, and nothing else: what would
+ *  change it fails with BAUM_ERR_STATE.
  *  Texts are owned by the study and stay as they are until the next call that is not reading, or its end.
  */
 #ifndef BAUM_STUDY_H
@@ -104,7 +106,7 @@ BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_
 
 /** Add one setting. Whether it can be run is found out by running it: one that is refused is a row.
  *  @param[in] options  copied; start_time, progress and user are the study's whatever they say
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_MEMORY
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
@@ -139,7 +141,8 @@ static inline baum_study_grid baum_study_grid_default(void)
 /** Add the standard grid: every integrator that the build has, with each of its formulations, gains by its own rule, auto and
  *  some constants, each with some steps or tolerances from coarse to fine.
  *  @param[in] grid  NULL: the default
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY; and when the mechanism cannot be started, whose
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has no such integrator with that formulation), BAUM_ERR_STRUCT,
+ *             BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the mechanism cannot be started, whose
  *             rate is looked for, what baum_simulation_create() returns. Unchanged on failure
  */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
@@ -198,7 +201,7 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  mechanism, span, samples, error and reference takes its rows from there, also where a line is cut off. What functions of
  *  the user do is not compared. One process at a time.
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also the time budget is
- *           spent), BAUM_ERR_STATE (no rows), BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another
+ *           spent), BAUM_ERR_STATE (no rows, or under way), BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another
  *           study's: the sentence says what differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what
  *           baum_simulation_create() returns for the mechanism
  */

@@ -223,6 +223,12 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   if (status == BAUM_OK) {
     status = add_all(&g);
   }
+  if (status == BAUM_OK && study->row_count == rows) {
+    const char *formulation = baum_formulation_name(wanted.formulation);
+    status = baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "study grid: this build has no such integrator with the formulation %s",
+                         formulation ? formulation : "that is asked for");
+  }
   if (status != BAUM_OK) {
     baum_i_study_drop_rows(study, rows, methods);
   }

@@ -96,7 +96,7 @@ static baum_status take(const baum_study *study, const baum_simulation_options *
   if (status == BAUM_OK && !out->integrator) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
   }
-  return status;
+  return status == BAUM_OK ? baum_i_study_check_idle(study, call) : status;
 }
 
 baum_status baum_study_add(baum_study *study, const baum_simulation_options *options)

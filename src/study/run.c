@@ -141,7 +141,8 @@ static void report(crew *c)
 /* A coarser setting of the method has reached the limit. */
 static bool is_too_fine(const crew *c, const baum_i_row *row)
 {
-  return baum_i_setting(&row->options) < c->study->methods[row->out.method].too_fine;
+  double setting = baum_i_setting(&row->options);
+  return setting > 0.0 && setting < c->study->methods[row->out.method].too_fine;
 }
 
 static void pass_over(const crew *c, baum_i_row *row)
@@ -514,10 +515,16 @@ baum_status baum_study_run(baum_study *study)
   if (study->row_count == 0) {
     return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no rows; add settings");
   }
+  baum_status status = baum_i_study_check_idle(study, "baum_study_run");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  study->running = true;
   crew c = {.study = study, .deadline = baum_i_wall_seconds() + study->options.time_budget};
-  baum_status status = run_all(&c);
+  status = run_all(&c);
   baum_status closed = baum_i_study_file_close(c.file);
   baum_i_free(c.order);
   atomic_store(&study->cancelled, 0);
+  study->running = false;
   return closed != BAUM_OK && (status == BAUM_OK || status == BAUM_WARNED) ? closed : status;
 }

@@ -168,6 +168,12 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
   return BAUM_OK;
 }
 
+baum_status baum_i_study_check_idle(const baum_study *study, const char *call)
+{
+  return study->running ? baum_i_fail(BAUM_ERR_STATE, "%s: baum_study_run() is under way", call)
+                        : BAUM_OK;
+}
+
 baum_status baum_study_set_options(baum_study *study, const baum_study_options *options)
 {
   const char *call = "baum_study_set_options";
@@ -178,6 +184,9 @@ baum_status baum_study_set_options(baum_study *study, const baum_study_options *
   baum_status status = baum_i_study_take(&o, sizeof o, options, call);
   if (status == BAUM_OK) {
     status = check_options(&o);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_study_check_idle(study, call);
   }
   if (status == BAUM_OK) {
     status = check_begun(study, &o);

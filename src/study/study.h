@@ -107,7 +107,8 @@ struct baum_study {
   baum_i_study_method *methods; /* (method_count) */
   int method_count;
 
-  bool begun; /* rows have been run: what they depend on stays */
+  bool begun;   /* rows have been run: what they depend on stays */
+  bool running; /* within baum_study_run(): its progress must change nothing */
   atomic_int cancelled;
 };
 
@@ -115,6 +116,9 @@ struct baum_study {
 
 /* A struct of a caller, of this version or an older one, over the default that `to` holds. */
 baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
+
+/* BAUM_ERR_STATE within baum_study_run(). */
+baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 
 /* Give up rows and methods from these numbers on. */
 void baum_i_study_drop_rows(baum_study *study, int rows, int methods);

@@ -149,9 +149,67 @@ static void grids_out_of_range_are_refused_and_add_nothing(void **state)
   g = baum_study_grid_default();
   g.coarsest = -1.0;
   ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT, "coarsest is -1 s");
+  g = baum_study_grid_default();
+  g.integrator = baum_rk4();
+  g.formulation = BAUM_FORMULATION_INDEX3;
+  ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT,
+              "no such integrator with the formulation index3");
   assert_int_equal(baum_study_row_count(study), 0);
   assert_int_equal(baum_study_method_count(study), 0);
   ASSERT_SAYS(baum_study_run(study), BAUM_ERR_STATE, "no rows");
+  baum_study_destroy(study);
+}
+
+static int change_all(const baum_study *study, int32_t done, int32_t total, void *user)
+{
+  (void)done;
+  (void)total;
+  baum_study *under_way = user;
+  assert_ptr_equal(study, under_way);
+  const baum_simulation_options o = rk4(0.02);
+  const baum_study_options options = baum_study_options_default();
+  const baum_channel q = {.quantity = BAUM_Q};
+  ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is under way");
+  ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is under way");
+  ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is under way");
+  ASSERT_SAYS(baum_study_set_options(under_way, &options), BAUM_ERR_STATE, "is under way");
+  ASSERT_SAYS(baum_study_set_error(under_way, &q, 1, 1.0), BAUM_ERR_STATE, "stays as it is");
+  return 0;
+}
+
+static void progress_cannot_change_what_is_under_way(void **state)
+{
+  baum_study *study = make(*state);
+  const baum_simulation_options o = rk4(0.01);
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  baum_study_options options = baum_study_options_default();
+  options.rehearse = false;
+  options.progress = change_all;
+  options.user = study;
+  assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  assert_int_equal(baum_study_row_count(study), 1);
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  baum_study_destroy(study);
+}
+
+/* Its finer neighbours are passed over when a row reaches the limit; these are none. */
+static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
+{
+  baum_study *study = make(*state);
+  const double steps[] = {1e-6, -1.0, (double)NAN};
+  for (int k = 0; k < 3; k++) {
+    const baum_simulation_options o = rk4(steps[k]);
+    assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  }
+  baum_study_options options = baum_study_options_default();
+  options.rehearse = false;
+  options.row_limit = 1e-6;
+  assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
+  (void)baum_study_run(study); /* the limit is the reference's, too */
+  assert_int_equal(study_row(study, 0).state, BAUM_STUDY_TIMED_OUT);
+  assert_int_equal(study_row(study, 1).state, BAUM_STUDY_REFUSED);
+  assert_int_equal(study_row(study, 2).state, BAUM_STUDY_REFUSED);
   baum_study_destroy(study);
 }
 
@@ -331,6 +389,8 @@ int main(void)
     cmocka_unit_test(calls_on_no_study_are_refused),
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
+    cmocka_unit_test(progress_cannot_change_what_is_under_way),
+    cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
     cmocka_unit_test(what_is_not_known_yet_is_refused),
     cmocka_unit_test(what_rows_depend_on_stays_once_they_are_run),
     cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),
