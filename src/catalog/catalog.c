@@ -166,8 +166,10 @@ static baum_status set(const baum_i_catalog_mechanism *of, const baum_catalog_se
     wrong = "a whole number up to 1e6";
   }
   if (wrong) {
-    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: \"%s\": %s is %g %s, must be %s",
-                               of->name, parameter->name, value, parameter->unit, wrong);
+    bool pure = strcmp(parameter->unit, "-") == 0;
+    return baum_i_catalog_fail(BAUM_ERR_ARGUMENT, "catalogue: \"%s\": %s is %g%s%s, must be %s",
+                               of->name, parameter->name, value, pure ? "" : " ",
+                               pure ? "" : parameter->unit, wrong);
   }
   p[k] = value;
   return BAUM_OK;

@@ -189,7 +189,7 @@ static void parameters_out_of_range_are_refused(void **state)
     {"slider_crank", {NULL, 1.0}, "no parameter \"NULL\""},
     {"slider_crank", {"crank", 0.0}, "crank is 0 m, must be positive"},
     {"slider_crank", {"angle", (double)NAN}, "angle is nan rad, must be finite"},
-    {"n_four_bar", {"windows", 1.5}, "windows is 1.5 -, must be a whole number"},
+    {"n_four_bar", {"windows", 1.5}, "windows is 1.5, must be a whole number"},
     {"n_four_bar", {"windows", -1.0}, "must be positive"},
     {"n_four_bar", {"windows", 1e9}, "must be a whole number up to 1e6"},
     {"slider_crank", {"eccentricity", 1.0}, "position"},
