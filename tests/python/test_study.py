@@ -158,6 +158,18 @@ class Running(unittest.TestCase):
         with self.assertRaises(ZeroDivisionError):
             small(rod_pendulum(), progress=broken).run()
 
+    def test_the_warning_tells_what_a_function_of_the_mechanism_raised(self):
+        def broken(t, q):
+            if t > 0.1:
+                raise NameError("lenght")
+            return circle(t, q)
+
+        study = baum.study(pendulum(broken), 0, 0.3, samples=5, repeats=1)
+        study.add("rk4", step=0.03)
+        with self.assertWarnsRegex(baum.Warning, "returned -1.*NameError.*lenght"):
+            study.run()
+        self.assertEqual(study.rows[0].state, "failed")
+
     def test_a_study_goes_on_from_its_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "a.study")

@@ -251,7 +251,8 @@ class Study:
     def run(self):
         """Make the reference and run the rows that are not done; without any the standard grid is
         added first. A reference that is not to be trusted, and a budget that is spent, are Python
-        warnings. Returns the study."""
+        warnings. Where a function of the mechanism raises, the row fails; the warning tells what it
+        raised when the reference was made. Returns the study."""
         if len(self) == 0:
             self.add_standard()
         status, sentence = self._long(lib.baum_study_run)
@@ -269,7 +270,9 @@ class Study:
 
         def call():
             status = self._owner.call(function, *arguments)
-            return status, _calls.message()
+            raised = _calls.dropped()
+            note = "" if raised is None else f" ({raised!r} was raised)"
+            return status, _calls.message() + note
 
         self._error = None
         try:
