@@ -448,7 +448,7 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           size_t caller_size, char *why, size_t size);
 
 /** The most exact setting for a CPU time, otherwise as baum_study_recommend().
- *  @param seconds  [s] > 0, for a run over the span of the study on this machine
+ *  @param seconds  [s] > 0, finite, for a run over the span of the study on this machine
  *  @return         as baum_study_recommend(); BAUM_ERR_ARGUMENT also when no row is so fast
  */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,

@@ -489,15 +489,19 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   if (status != BAUM_OK) {
     return status;
   }
-  if (!(seconds > 0.0)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be > 0", call, seconds);
+  if (!(isfinite(seconds) && seconds > 0.0)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be finite and > 0", call,
+                       seconds);
   }
   place p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
+  if (!isfinite(quickest)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row that is done has followed the motion", call);
+  }
   if (!p.fine) {
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
-      "%s: no row is done in %.3g s, with a quarter of it to spare; the quickest takes "
+      "%s: no row is done in %.3g s, with a fifth of it to spare; the quickest takes "
       "%.3g s",
       call, seconds, quickest);
   }

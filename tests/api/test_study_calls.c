@@ -273,6 +273,25 @@ static void references_out_of_order_or_without_digits_are_refused(void **state)
   baum_study_destroy(study);
 }
 
+static void nothing_is_recommended_where_nothing_was_compared(void **state)
+{
+  baum_study *study = make(*state);
+  const double end = 1.0;
+  const double none[2] = {(double)NAN, (double)NAN};
+  const baum_simulation_options o = rk4(0.01);
+  baum_simulation_options best;
+  assert_int_equal(baum_study_set_reference(study, &end, 1, none, NULL, NULL, 9.0), BAUM_OK);
+  assert_int_equal(baum_study_add(study, &o), BAUM_OK);
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
+              BAUM_ERR_ARGUMENT, "no row that is done has followed the motion");
+  ASSERT_SAYS(baum_study_recommend_budget(study, 1.0, &best, sizeof best, NULL, 0),
+              BAUM_ERR_ARGUMENT, "no row that is done has followed the motion");
+  ASSERT_SAYS(baum_study_recommend_budget(study, INFINITY, &best, sizeof best, NULL, 0),
+              BAUM_ERR_ARGUMENT, "seconds is inf s, must be finite and > 0");
+  baum_study_destroy(study);
+}
+
 /* ---- rows ---- */
 
 static void a_setting_that_cannot_be_run_is_a_row_with_its_reason(void **state)
@@ -394,6 +413,7 @@ int main(void)
     cmocka_unit_test(what_is_not_known_yet_is_refused),
     cmocka_unit_test(what_rows_depend_on_stays_once_they_are_run),
     cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),
+    cmocka_unit_test(nothing_is_recommended_where_nothing_was_compared),
     cmocka_unit_test(a_setting_that_cannot_be_run_is_a_row_with_its_reason),
     cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
     cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),
