@@ -441,7 +441,7 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a sentence with the measured figures, cut if too long. May be NULL
  *  @return     BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_ERR_ARGUMENT (also when no row is so
- *              exact, or the reference is not known so well), BAUM_ERR_STATE (no row is done); `best` is unchanged on failure
+ *              exact, or the reference is not known so well), BAUM_ERR_STATE (no row is timed); `best` is unchanged on failure
  */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,

@@ -380,7 +380,7 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
       return BAUM_OK;
     }
   }
-  return baum_i_fail(BAUM_ERR_STATE, "%s: no row is done", call);
+  return baum_i_fail(BAUM_ERR_STATE, "%s: no row is done and timed", call);
 }
 
 static baum_status refuse_error(const baum_study *study, double error, const char *call)

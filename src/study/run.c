@@ -476,7 +476,7 @@ static baum_status conclude(crew *c)
   int left = waiting(study);
   if (left > 0) {
     bool cancelled = atomic_load(&study->cancelled) != 0;
-    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d rows not done",
+    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d rows not done and timed",
                        cancelled ? "cancelled" : "the time budget is spent", left,
                        study->row_count);
   }
