@@ -122,7 +122,8 @@ class Study:
     samples, repeats, row_limit [s of CPU time], time_budget [s of wall time], energy_account,
         rehearse, file: see baum_study_options in study.h. threads: left out as many as there are
         processors, but one for a mechanism with functions of Python.
-    progress(done, total) is called after rows and cancels when it returns something true.
+    progress(done, total) is called after rows and cancels when it returns something true;
+        of the study it can use cancel() and len() alone.
     """
 
     def __init__(self, mechanism, t0, t1, *, error=None, unit=1.0, reference=None, solution=None,
