@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The whole catalogue through a bounded grid: are errors of studies, with references of their own, those that the stored
+ * references tell?
+ *
+ * usage: bench_catalog [ENTRY]
+ *
+ * Every integrator with each of its formulations, gains by its rule, auto and two constants, at three settings; no run
+ * takes more than 0.05 s. tests/support/catalog_grid.c says what must be so.
+ */
+#include <stdio.h>
+#include <string.h>
+
+#include <baum/baum.h>
+
+#include "catalog_grid.h"
+#include "timing.h"
+
+static const double LIMIT = 0.05; /* [s] */
+
+static void print_tally(const char *name, const catalog_tally *t)
+{
+  printf("%-23s %5d %5d %5d %5d %5d %5d %5d %5d %5d | %4d %4d %4d %4d\n", name, t->rows,
+         t->state[BAUM_STUDY_DONE], t->state[BAUM_STUDY_REFUSED], t->state[BAUM_STUDY_FAILED],
+         t->state[BAUM_STUDY_TIMED_OUT], t->off, t->unstable, t->at_floor, t->compared, t->missing,
+         t->better, t->differ, t->unmarked);
+  (void)fflush(stdout);
+}
+
+int main(int count, char **words)
+{
+  baum_study_grid grid = baum_study_grid_default();
+  grid.settings = 3;
+  catalog_tally sum = {0};
+  bool fine = true;
+  double begin = timing_now();
+  printf("%-23s %5s %5s %5s %5s %5s %5s %5s %5s %5s | %4s %4s %4s %4s\n", "rows", "all", "done",
+         "refus", "fail", "time", "off", "unst", "floor", "comp", "miss", "bett", "diff", "unmk");
+  for (int32_t k = 0; k < baum_catalog_count(); k++) {
+    baum_catalog_entry entry;
+    catalog_tally one;
+    if (baum_catalog_entry_at(k, &entry, sizeof entry) != BAUM_OK || entry.sample_count == 0 ||
+        (count > 1 && strcmp(words[1], entry.name) != 0)) {
+      continue;
+    }
+    if (catalog_grid_judge(&entry, &grid, LIMIT, &one) != BAUM_OK) {
+      (void)fprintf(stderr, "%s: %s\n", entry.name, baum_message());
+      fine = false;
+    }
+    print_tally(entry.name, &one);
+    catalog_tally_add(&sum, &one);
+  }
+  print_tally("all", &sum);
+  printf("%.0f s of CPU time\n", timing_now() - begin);
+  return fine && sum.compared > 0 && catalog_tally_wrong(&sum) == 0 ? 0 : 1;
+}

@@ -1,0 +1,50 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Grids of studies against the stored references of the catalogue; bench_catalog takes all of it. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "catalog_grid.h"
+
+static const double LIMIT = 5.0; /* [s] of a run: only slow builds come near it */
+
+static void judge(const char *name, const baum_integrator *integrator, catalog_tally *sum)
+{
+  baum_catalog_entry entry;
+  assert_int_equal(baum_catalog_find(name, &entry, sizeof entry), BAUM_OK);
+  baum_study_grid grid = baum_study_grid_default();
+  grid.integrator = integrator;
+  grid.settings = 3;
+  catalog_tally one;
+  assert_int_equal(catalog_grid_judge(&entry, &grid, LIMIT, &one), BAUM_OK);
+  assert_int_equal(catalog_tally_wrong(&one), 0);
+  catalog_tally_add(sum, &one);
+}
+
+static void errors_of_rows_are_those_that_stored_references_tell(void **state)
+{
+  (void)state;
+  const char *const names[] = {"slider_crank_simeon", "four_bar", "n_four_bar"};
+  catalog_tally sum = {0};
+  for (int k = 0; k < 3; k++) {
+    judge(names[k], baum_semi_implicit_euler(), &sum);
+    judge(names[k], baum_rk4(), &sum);
+    judge(names[k], baum_rk8(), &sum);
+  }
+  /* There was something to be seen of everything. */
+  assert_true(sum.compared > sum.off && sum.off > 0);
+  assert_true(sum.unstable > 0 && sum.at_floor > 0);
+  print_message("%d rows, %d compared, %d off, %d unstable, %d at the floor\n", sum.rows,
+                sum.compared, sum.off, sum.unstable, sum.at_floor);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(errors_of_rows_are_those_that_stored_references_tell),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
