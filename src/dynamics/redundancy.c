@@ -7,9 +7,10 @@
  * of lower rank is a singular one.
  *
  * Next to a singular pose a row that is all but dependent, by its distance d from there, blows up the rounding of those
- * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear: clear neighbours
- * decide, and it counts as a singular one. Where none is clear, rows are all but dependent everywhere, as those of two
- * pins next to each other, and are taken as they are.
+ * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear, and the first such
+ * row is all that is sure of it: clear neighbours that have as many rows decide, and it counts as a singular one. Where
+ * none is clear, rows are all but dependent everywhere, as those of two pins next to each other, and are taken as they
+ * are. So they are around an exactly singular pose that is clear itself, where long members turn rows only little.
  *
  * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it,
  * and assembled there.
@@ -43,7 +44,7 @@ typedef struct search {
   double *q;                  /* (nv) neighbour */
   double *x;                  /* (nv) direction */
   unsigned char *independent; /* (nc) of the pose last looked at */
-  bool clear;                 /* the pose whose rank was kept */
+  pose_rank kept;
 } search;
 
 static void find_column_scale(const search *s)
@@ -84,11 +85,26 @@ static baum_status rank_at(const search *s, double t, const double *q, pose_rank
            : status;
 }
 
+/* What is sure: the first row that is all but dependent has no rounding blown up yet. */
+static int least_rank(const pose_rank *rank)
+{
+  return rank->clear + (rank->all > rank->clear ? 1 : 0);
+}
+
+/* Whether a pose tells more of the mechanism than the other. */
+static bool is_better(const pose_rank *rank, const pose_rank *other)
+{
+  int more = least_rank(rank) - least_rank(other);
+  more = more == 0 ? rank->clear - other->clear : more;
+  more = more == 0 ? rank->all - other->all : more;
+  return more > 0;
+}
+
 static void keep_set(search *s, const pose_rank *rank)
 {
   baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
-  s->clear = rank->all == rank->clear;
+  s->kept = *rank;
   r->rank = rank->all;
   r->count = nc - rank->all;
   for (int i = 0; i < nc; i++) {
@@ -154,9 +170,7 @@ static baum_status look_at_neighbour(search *s, double t, const double *q, doubl
   if (status == BAUM_OK) {
     status = rank_at(s, t + step, s->q, &rank);
   }
-  bool clear = rank.all == rank.clear;
-  bool better = clear == s->clear ? rank.all > w->redundancy.rank : clear;
-  if (status == BAUM_OK && better) {
+  if (status == BAUM_OK && is_better(&rank, &s->kept)) {
     keep_set(s, &rank);
   }
   return status == BAUM_ERR_MEMORY || (status == BAUM_ERR_CALLBACK && !w->point.retry) ? status
@@ -215,7 +229,7 @@ static baum_status find(search *s, double t, const double *q)
     return BAUM_OK;
   }
   status = look_around(s, t, s->start);
-  r->rank_at_start = s->clear ? rank.clear : rank.all;
+  r->rank_at_start = is_better(&s->kept, &rank) ? rank.clear : rank.all;
   if (status == BAUM_OK && r->count > 0 && !r->kkt) {
     status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
   }
