@@ -95,9 +95,8 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   return status;
 }
 
-static baum_status look(baum_workspace *w, double *q, double *v, void *whole)
+static baum_status look(baum_workspace *w, double *q, void *whole)
 {
-  (void)v;
   baum_mobility *report = whole;
   const baum_mechanism *m = w->mechanism;
   memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);

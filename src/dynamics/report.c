@@ -246,9 +246,10 @@ static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
   return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
 }
 
-static baum_status look(baum_workspace *w, double *q, double *v, void *whole)
+static baum_status look(baum_workspace *w, double *q, void *whole)
 {
   baum_report *report = whole;
+  double *v = q + w->mechanism->nq;
   bool assembled = false;
   baum_i_islands islands = {0};
   baum_status status = find_pose(w, q, &assembled);

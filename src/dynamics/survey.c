@@ -23,7 +23,7 @@ baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
     return status;
   }
   double *q = baum_i_alloc((size_t)mechanism->nq + (size_t)mechanism->nv, sizeof *q);
-  status = q ? look(w, q, q + mechanism->nq, to->whole) : baum_i_fail_memory();
+  status = q ? look(w, q, to->whole) : baum_i_fail_memory();
   if (status == BAUM_OK) {
     baum_i_give_sized(to->out, to->caller_size, to->whole, to->size);
   }

@@ -14,8 +14,8 @@ typedef struct baum_i_survey_out {
   size_t size;
 } baum_i_survey_out;
 
-/* Fills `whole`; q (nq) and v (nv) are memory, zeroed. */
-typedef baum_status baum_i_look(baum_workspace *w, double *q, double *v, void *whole);
+/* Fills `whole`; q (nq + nv) is memory, zeroed. */
+typedef baum_status baum_i_look(baum_workspace *w, double *q, void *whole);
 
 /* Look at the mechanism, and give the report if that went well; else nothing is written. */
 baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,

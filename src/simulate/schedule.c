@@ -4,6 +4,7 @@
  */
 #include "simulate/schedule.h"
 
+#include <assert.h>
 #include <math.h>
 #include <string.h>
 
@@ -111,6 +112,7 @@ typedef struct given {
 static int take_others(const baum_i_schedule *old, int k, double t, int64_t input,
                        baum_i_schedule *out)
 {
+  assert(out->jumps);
   for (; k < old->count && old->jumps[k].t <= t; k++) {
     if (old->jumps[k].input != input) {
       out->jumps[out->count++] = old->jumps[k];
@@ -122,6 +124,7 @@ static int take_others(const baum_i_schedule *old, int k, double t, int64_t inpu
 /* Both in order of time. A value that is the one before is no jump. */
 static void merge(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
+  assert(out->jumps && g->times && g->values);
   double before = g->before;
   int next = 0;
   for (int k = 0; k < g->count; k++) {
@@ -172,6 +175,7 @@ static const char *const CALL = "baum_simulation_schedule_input";
 
 static baum_status check_entry(const baum_mechanism *m, const given *g, int k)
 {
+  assert(g->times && g->values);
   const char *name = m->input_names[g->input];
   int number = (int)g->input + 1;
   double t = g->times[k];

@@ -84,6 +84,7 @@ static void insert(const baum_study *study, list *l, int k, baum_study_cost cost
   l->count++;
 }
 
+/* NOLINTNEXTLINE(readability-non-const-parameter): written through the list. */
 baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
                              int32_t *rows, int32_t *count)
 {
@@ -191,7 +192,7 @@ baum_status baum_study_cost_at(const baum_study *study, int32_t method, double e
 baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                baum_study_cost cost, double *ratio)
 {
-  double costs[2];
+  double costs[2] = {(double)NAN, (double)NAN};
   if (!ratio) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_compare: ratio is NULL");
   }

@@ -153,9 +153,10 @@ static baum_status add_gains(const grid *g, baum_simulation_options o)
     status = add_settings(g, &o);
   }
   double gain = g->rate;
-  for (int k = 0; k < g->wanted->constants && status == BAUM_OK; k++, gain *= 10.0) {
+  for (int k = 0; k < g->wanted->constants && status == BAUM_OK; k++) {
     o.gains = baum_gains_fixed(gain, gain);
     status = add_settings(g, &o);
+    gain *= 10.0;
   }
   return status;
 }

@@ -62,6 +62,7 @@ int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **
       rows[count++] = row;
     }
   }
+  /* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are sorted. */
   qsort(rows, (size_t)count, sizeof *rows, by_setting);
   return count;
 }

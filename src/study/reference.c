@@ -350,7 +350,10 @@ static baum_status take_given(baum_study *study)
   baum_simulation *probe = NULL;
   baum_i_course *course = &r->course;
   course->rows = baum_i_alloc((size_t)course->n * (size_t)l.width, sizeof *course->rows);
-  baum_status status = course->rows ? baum_i_study_probe(study, &probe) : baum_i_fail_memory();
+  if (!course->rows) {
+    return baum_i_fail_memory();
+  }
+  baum_status status = baum_i_study_probe(study, &probe);
   for (int k = 0; k < course->n && status == BAUM_OK; k++) {
     double *row = course->rows + (size_t)k * l.width;
     status = give_one(study, &l, k, row);

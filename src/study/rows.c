@@ -60,8 +60,9 @@ static baum_status copy_row_gains(baum_i_row *row)
 /* Last, for the row is the study's from here on. */
 static baum_status keep(baum_study *study, baum_i_row *row)
 {
-  baum_i_row **rows =
-    baum_i_grow_by_one(study->rows, (size_t)study->row_count + 1, sizeof *study->rows);
+  size_t wanted = (size_t)study->row_count + 1;
+  /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers. */
+  baum_i_row **rows = baum_i_grow_by_one(study->rows, wanted, sizeof *study->rows);
   if (!rows) {
     return baum_i_fail_memory();
   }

@@ -172,7 +172,9 @@ static void add_text(char *line, const char *text)
   size_t used = strlen(line);
   baum_i_append(line, LINE, " | %s", text);
   for (char *c = line + used; *c; c++) {
-    *c = *c == '\n' || *c == '\r' ? ' ' : *c;
+    if (*c == '\n' || *c == '\r') {
+      *c = ' ';
+    }
   }
 }
 
