@@ -3,16 +3,16 @@
 # usage: sh tests/run.sh [STAGE...]
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
-#   format build test asan minimal install python tidy
-#   coverage valgrind thread analyzer sweeps fuzz random browser   longer or rarer, by name only
+#   format build test asan minimal install python
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser   longer or rarer, by name only
 # BAUM_COVERAGE=90 is the least line coverage of src in percent.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-usual="format build test asan minimal install python tidy"
-named="coverage valgrind thread analyzer sweeps fuzz random browser"
+usual="format build test asan minimal install python"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -22,6 +22,9 @@ stage_format() {
     echo "to mend: find include src examples tests -name '*.[ch]' | xargs clang-format -i"
     return 1
   }
+  need_venv
+  echo "limits"
+  sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
 }
 
 stage_build() {
@@ -104,8 +107,6 @@ stage_tidy() {
     grep -v 'warnings\{0,1\} generated' build/tidy.log || true
     return 1
   }
-  echo "limits"
-  sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
 }
 
 stage_coverage() {
