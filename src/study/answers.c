@@ -84,8 +84,8 @@ static void insert(const baum_study *study, list *l, int k, baum_study_cost cost
   l->count++;
 }
 
-/* NOLINTNEXTLINE(readability-non-const-parameter): written through the list. */
 baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
+                             /* NOLINTNEXTLINE(readability-non-const-parameter): by the list. */
                              int32_t *rows, int32_t *count)
 {
   const char *call = "baum_study_front";
