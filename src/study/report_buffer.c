@@ -2,6 +2,7 @@
 /* Texts of any length, put together piece by piece, and numbers that do not depend on the locale. */
 #include "study/report_buffer.h"
 
+#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -215,4 +216,23 @@ baum_i_number baum_i_exact(double x, const char *otherwise)
   } while (strtod(out.text, NULL) != x && digits++ < 17);
   baum_i_mend_point(out.text);
   return out;
+}
+
+const char *baum_i_read_number(const char *text, double *out)
+{
+  enum { LONGEST = 40 };
+  char copy[LONGEST + 16];
+  char *end = NULL;
+  text += strspn(text, " ");
+  size_t size = strcspn(text, " ");
+  size_t whole = strcspn(text, ". ");
+  size_t point = whole < size ? 1 : 0;
+  if (size > LONGEST) {
+    return NULL;
+  }
+  (void)snprintf(copy, sizeof copy, "%.*s%s%.*s", (int)whole, text,
+                 point ? localeconv()->decimal_point : "", (int)(size - whole - point),
+                 text + whole + point);
+  *out = strtod(copy, &end);
+  return end != copy && *end == '\0' ? text + size : NULL;
 }

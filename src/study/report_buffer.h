@@ -41,6 +41,8 @@ baum_i_number baum_i_fixed(double x, int digits);
 baum_i_number baum_i_short(double x, int digits);
 /* The shortest that is read back as it is; `otherwise` for NaN and infinities. */
 baum_i_number baum_i_exact(double x, const char *otherwise);
+/* Read what baum_i_exact() has written, up to a blank; returns where it ends, or NULL when there is no number. */
+const char *baum_i_read_number(const char *text, double *out);
 
 /* The point of whatever locale becomes a point. */
 void baum_i_mend_point(char *text);

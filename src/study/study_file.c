@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The study file: lines of text, each written at once when its result is known.
  *
- *   baum-study 1 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX #SUM
+ *   baum-study 2 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX #SUM
  *   reference DIGITS ... | TEXT #SUM
  *   row KEY STATE STATUS ... | MESSAGE #SUM
  *   time KEY EVALUATIONS ... #SUM
  *   rehearsed KEY NUMBER #SUM
  *
- * KEY is a sum over the options of a row, so that rows may be added in any order. SUM is over the line before it: a line
- * that is cut off or damaged is not a result, and its row is run again. Of two lines of one row the last counts.
+ * KEY is a sum over the options of a row, so that rows may be added in any order. SUM is over the line before it and, but
+ * for the first line, what that one has: a line that is cut off, damaged or of another study is not a result, and its row is
+ * run again. Of two lines of one row the first counts that has not run out of time.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -23,160 +24,22 @@
 #include "base/digest.h"
 #include "base/text.h"
 #include "mechanism/fingerprint.h"
+#include "study/report_buffer.h"
 #include "study/study.h"
+#include "study/study_line.h"
 
-enum { LINE = 4096, MARKS = 8 };
+enum { LINE = BAUM_I_STUDY_LINE, MARKS = 8 };
 enum { FILED_MEASURED = 1, FILED_TIMED = 2, FILED_REHEARSED = 4 };
 static const char HEAD[] = "baum-study ";
+static const char VERSION[] = "baum-study 2";
 
 struct baum_i_study_file {
   FILE *stream;
   const char *path;
+  uint64_t seed; /* of the sums of all lines but the first */
 };
-
-/* ---- fields ---- */
-
-typedef enum field_kind { NUMBER, COUNT, YES_OR_NO, STATE, STATUS } field_kind;
-
-typedef struct field {
-  size_t place;
-  field_kind kind;
-} field;
-
-#define ROW(name, kind)                    \
-  {                                        \
-    offsetof(baum_study_row, name), (kind) \
-  }
-#define REFERENCE(name, kind)                    \
-  {                                              \
-    offsetof(baum_study_reference, name), (kind) \
-  }
-
-static const field MEASURED[] = {
-  ROW(state, STATE),
-  ROW(status, STATUS),
-  ROW(at_floor, YES_OR_NO),
-  ROW(untrusted, YES_OR_NO),
-  ROW(off, YES_OR_NO),
-  ROW(unstable, YES_OR_NO),
-  ROW(error, NUMBER),
-  ROW(error_final, NUMBER),
-  ROW(error_half, NUMBER),
-  ROW(error_q, NUMBER),
-  ROW(error_q_final, NUMBER),
-  ROW(error_v, NUMBER),
-  ROW(error_v_final, NUMBER),
-  ROW(error_lambda, NUMBER),
-  ROW(error_lambda_final, NUMBER),
-  ROW(energy_error, NUMBER),
-  ROW(energy_error_final, NUMBER),
-  ROW(max_phi, NUMBER),
-  ROW(max_phi_rate, NUMBER),
-  ROW(violation_work, NUMBER),
-  ROW(projection_work, NUMBER),
-  ROW(gains_work, NUMBER),
-  ROW(steps, COUNT),
-  ROW(rejected, COUNT),
-  ROW(nonlinear_iterations, COUNT),
-  ROW(forced_steps, COUNT),
-  ROW(warnings, COUNT),
-  ROW(near_singular_intervals, COUNT),
-  ROW(branch_warnings, COUNT),
-};
-
-static const field TIMED[] = {
-  ROW(evaluations, COUNT), ROW(factorizations, COUNT), ROW(work, NUMBER),
-  ROW(cpu, NUMBER),        ROW(cpu_spread, NUMBER),    ROW(repeats, STATE),
-};
-
-static const field KNOWN[] = {
-  REFERENCE(trusted, YES_OR_NO),         REFERENCE(digits, NUMBER),
-  REFERENCE(uncertainty, NUMBER),        REFERENCE(uncertainty_q, NUMBER),
-  REFERENCE(uncertainty_v, NUMBER),      REFERENCE(uncertainty_lambda, NUMBER),
-  REFERENCE(uncertainty_energy, NUMBER),
-};
-
-enum {
-  MEASURED_COUNT = sizeof MEASURED / sizeof MEASURED[0],
-  TIMED_COUNT = sizeof TIMED / sizeof TIMED[0],
-  KNOWN_COUNT = sizeof KNOWN / sizeof KNOWN[0]
-};
-
-static int64_t whole_of(const void *place, field_kind kind)
-{
-  switch (kind) {
-  case COUNT: return *(const int64_t *)place;
-  case YES_OR_NO: return *(const bool *)place;
-  case STATE:
-  case STATUS: return *(const int32_t *)place;
-  case NUMBER: break;
-  }
-  return 0;
-}
-
-static void put_whole(void *place, field_kind kind, int64_t value)
-{
-  switch (kind) {
-  case COUNT: *(int64_t *)place = value; break;
-  case YES_OR_NO: *(bool *)place = value != 0; break;
-  case STATE:
-  case STATUS: *(int32_t *)place = (int32_t)value; break;
-  case NUMBER: break;
-  }
-}
-
-static void write_fields(char *line, const void *object, const field *fields, int count)
-{
-  for (int k = 0; k < count; k++) {
-    const void *place = (const char *)object + fields[k].place;
-    if (fields[k].kind == NUMBER) {
-      baum_i_append(line, LINE, " %.17g", *(const double *)place);
-    } else {
-      baum_i_append(line, LINE, " %" PRId64, whole_of(place, fields[k].kind));
-    }
-  }
-}
-
-/* Returns where the fields end, or NULL. */
-static const char *read_fields(const char *text, void *object, const field *fields, int count)
-{
-  for (int k = 0; k < count; k++) {
-    void *place = (char *)object + fields[k].place;
-    char *end = NULL;
-    if (fields[k].kind == NUMBER) {
-      *(double *)place = strtod(text, &end);
-    } else {
-      put_whole(place, fields[k].kind, strtoll(text, &end, 10));
-    }
-    if (end == text) {
-      return NULL;
-    }
-    text = end;
-  }
-  return text;
-}
 
 /* ---- lines ---- */
-
-static uint64_t sum_of(const char *text, size_t size)
-{
-  baum_i_digest digest = {0};
-  baum_i_digest_add_integer(&digest, (int64_t)size);
-  baum_i_digest_add(&digest, text, size);
-  return digest.value;
-}
-
-/* Without what would end a line. */
-static void add_text(char *line, const char *text)
-{
-  size_t used = strlen(line);
-  baum_i_append(line, LINE, " | %s", text);
-  for (char *c = line + used; *c; c++) {
-    if (*c == '\n' || *c == '\r') {
-      *c = ' ';
-    }
-  }
-}
 
 static baum_status complain(const baum_i_study_file *file, const char *what)
 {
@@ -185,28 +48,15 @@ static baum_status complain(const baum_i_study_file *file, const char *what)
 }
 
 /* A line at once, so that a process that ends here leaves whole lines. */
-static baum_status write_line(baum_i_study_file *file, char *line)
+static baum_status write_line(baum_i_study_file *file, char *line, uint64_t seed)
 {
-  baum_i_append(line, LINE, " #%016" PRIx64 "\n", sum_of(line, strlen(line)));
+  baum_i_study_seal(line, seed);
   size_t size = strlen(line);
   errno = 0;
   if (fwrite(line, 1, size, file->stream) != size || fflush(file->stream) != 0) {
     return complain(file, "written");
   }
   return BAUM_OK;
-}
-
-/* Cut the sum off a line that agrees with it. */
-static bool check_line(char *line)
-{
-  char *mark = strrchr(line, '#');
-  if (!mark || mark == line || mark[-1] != ' ') {
-    return false;
-  }
-  char *end = NULL;
-  uint64_t sum = strtoull(mark + 1, &end, 16);
-  mark[-1] = '\0';
-  return end == mark + 17 && strcmp(end, "\n") == 0 && sum == sum_of(line, strlen(line));
 }
 
 /* ---- whose file it is ---- */
@@ -279,10 +129,19 @@ static void write_head(const baum_study *study, char *line)
   mark marks[MARKS];
   mark_study(study, marks);
   line[0] = '\0';
-  baum_i_append(line, LINE, "baum-study 1");
+  baum_i_append(line, LINE, "%s", VERSION);
   for (int k = 0; k < MARKS; k++) {
     baum_i_append(line, LINE, " %s %016" PRIx64, marks[k].name, marks[k].value);
   }
+}
+
+static uint64_t seed_of(const baum_study *study)
+{
+  char head[LINE];
+  baum_i_digest digest = {0};
+  write_head(study, head);
+  baum_i_digest_add_text(&digest, head);
+  return digest.value;
 }
 
 static baum_status refuse(const baum_i_study_file *file, const char *why)
@@ -292,10 +151,10 @@ static baum_status refuse(const baum_i_study_file *file, const char *why)
 
 static baum_status check_head(const baum_i_study_file *file, const baum_study *study, char *line)
 {
-  if (strncmp(line, HEAD, strlen(HEAD)) != 0 || !check_line(line)) {
+  if (strncmp(line, HEAD, strlen(HEAD)) != 0 || !baum_i_study_unseal(line, 0)) {
     return refuse(file, "is no study file");
   }
-  if (strncmp(line, "baum-study 1 ", 13) != 0) {
+  if (strncmp(line, VERSION, strlen(VERSION)) != 0 || line[strlen(VERSION)] != ' ') {
     return refuse(file, "is of another version of the format");
   }
   mark marks[MARKS];
@@ -313,47 +172,59 @@ static baum_status check_head(const baum_i_study_file *file, const baum_study *s
 
 /* ---- reading ---- */
 
-static void take_text(const char *rest, char *text, size_t size)
+/* What is behind " | "; NULL where that is not there. */
+static const char *text_at(const char *rest)
 {
-  const char *begin = strstr(rest, "| ");
-  (void)snprintf(text, size, "%s", begin ? begin + 2 : "");
+  return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-static void take_measured(const baum_study *study, const char *rest, uint64_t key)
+static void take_measured(const baum_study *study, baum_i_row *row, const char *rest)
 {
-  for (int k = 0; k < study->row_count; k++) {
-    baum_i_row *row = study->rows[k];
-    baum_study_row out = row->out;
-    char *end = NULL;
-    double limit = strtod(rest, &end);
-    const char *text = read_fields(end, &out, MEASURED, MEASURED_COUNT);
-    bool too_short = out.state == BAUM_STUDY_TIMED_OUT && limit < study->options.row_limit;
-    if (row->key != key || !text || too_short) {
-      continue;
-    }
-    row->filed |= FILED_MEASURED;
-    if (!row->measured) {
-      row->out = out;
-      row->limit = limit;
-      row->measured = true;
-      take_text(text, row->message, sizeof row->message);
-    }
+  baum_study_row out = row->out;
+  double limit = 0.0;
+  rest = baum_i_read_number(rest, &limit);
+  rest = rest ? baum_i_study_read_fields(rest, &out, &baum_i_measured_fields) : NULL;
+  const char *message = text_at(rest);
+  bool too_short = out.state == BAUM_STUDY_TIMED_OUT && !(limit >= study->options.row_limit);
+  if (!message || too_short) {
+    return;
+  }
+  row->filed |= FILED_MEASURED;
+  if (!row->measured || row->out.state == BAUM_STUDY_TIMED_OUT) {
+    row->out = out;
+    row->limit = limit;
+    row->measured = true;
+    (void)snprintf(row->message, sizeof row->message, "%s", message);
   }
 }
 
-static void take_timed(const baum_study *study, const char *rest, uint64_t key)
+static void take_timed(const baum_study *study, baum_i_row *row, const char *rest)
 {
-  for (int k = 0; k < study->row_count; k++) {
-    baum_i_row *row = study->rows[k];
-    baum_study_row out = row->out;
-    if (row->key != key || !row->measured || !read_fields(rest, &out, TIMED, TIMED_COUNT)) {
-      continue;
-    }
-    row->filed |= FILED_TIMED;
-    if (!row->timed) {
-      row->out = out;
-      row->timed = true;
-    }
+  (void)study;
+  baum_study_row out = row->out;
+  rest = baum_i_study_read_fields(rest, &out, &baum_i_timed_fields);
+  if (!rest || *rest || !row->measured || row->out.state != BAUM_STUDY_DONE) {
+    return;
+  }
+  row->filed |= FILED_TIMED;
+  if (!row->timed) {
+    row->out = out;
+    row->timed = true;
+  }
+}
+
+static void take_rehearsed(const baum_study *study, baum_i_row *row, const char *rest)
+{
+  (void)study;
+  baum_study_row out = row->out;
+  rest = baum_i_study_read_fields(rest, &out, &baum_i_rehearsed_fields);
+  if (!rest || *rest || !row->timed) {
+    return;
+  }
+  row->filed |= FILED_REHEARSED;
+  if (!row->rehearsed) {
+    row->out = out;
+    row->rehearsed = true;
   }
 }
 
@@ -361,52 +232,59 @@ static void take_reference(baum_study *study, const char *rest)
 {
   baum_i_study_reference *r = &study->reference;
   baum_study_reference out = r->out;
-  const char *text = read_fields(rest, &out, KNOWN, KNOWN_COUNT);
+  const char *text = text_at(baum_i_study_read_fields(rest, &out, &baum_i_reference_fields));
   if (text && !r->known) {
     r->out = out;
     r->known = true;
-    take_text(text, r->text, sizeof r->text);
+    (void)snprintf(r->text, sizeof r->text, "%s", text);
   }
 }
 
-static void take_rehearsed(const baum_study *study, const char *text)
+/* A line WORD KEY REST of a row, or of several that are the same. */
+static void take_of_row(const baum_study *study, const char *line)
 {
-  char *end = NULL;
-  uint64_t key = strtoull(text, &end, 16);
-  for (int k = 0; k < study->row_count; k++) {
-    baum_i_row *row = study->rows[k];
-    if (row->key == key && row->timed) {
-      row->filed |= FILED_REHEARSED;
-      row->out.error_rehearsed = strtod(end, NULL);
-      row->rehearsed = true;
+  typedef void take_fn(const baum_study *study, baum_i_row *row, const char *rest);
+  static const struct {
+    const char *word;
+    take_fn *take;
+  } KINDS[] = {{"row ", take_measured}, {"time ", take_timed}, {"rehearsed ", take_rehearsed}};
+  for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0]; i++) {
+    size_t length = strlen(KINDS[i].word);
+    if (strncmp(line, KINDS[i].word, length) != 0) {
+      continue;
+    }
+    char *end = NULL;
+    uint64_t key = strtoull(line + length, &end, 16);
+    for (int k = 0; k < study->row_count; k++) {
+      if (study->rows[k]->key == key) {
+        KINDS[i].take(study, study->rows[k], end);
+      }
     }
   }
 }
 
-static void take_line(baum_study *study, char *line)
+static void take_line(const baum_i_study_file *file, baum_study *study, char *line)
 {
-  if (!check_line(line)) {
+  static const char REFERENCE[] = "reference";
+  if (!baum_i_study_unseal(line, file->seed)) {
     return;
   }
-  if (strncmp(line, "reference ", 10) == 0) {
-    take_reference(study, line + 9);
-    return;
-  }
-  if (strncmp(line, "rehearsed ", 10) == 0) {
-    take_rehearsed(study, line + 10);
-    return;
-  }
-  bool is_row = strncmp(line, "row ", 4) == 0;
-  if (!is_row && strncmp(line, "time ", 5) != 0) {
-    return;
-  }
-  char *end = NULL;
-  uint64_t key = strtoull(line + (is_row ? 4 : 5), &end, 16);
-  if (is_row) {
-    take_measured(study, end, key);
+  if (strncmp(line, REFERENCE, strlen(REFERENCE)) == 0) {
+    take_reference(study, line + strlen(REFERENCE));
   } else {
-    take_timed(study, end, key);
+    take_of_row(study, line);
   }
+}
+
+/* It ended before its head was written: nothing is lost. */
+static bool is_begun_head(const baum_i_study_file *file, const baum_study *study, const char *line)
+{
+  char head[LINE];
+  size_t size = strlen(line);
+  write_head(study, head);
+  baum_i_study_seal(head, 0);
+  return size < strlen(head) && strncmp(line, head, size) == 0 && feof(file->stream) &&
+         ftell(file->stream) == (long)size;
 }
 
 /* All lines; `whole` says whether the last one has its end. */
@@ -421,13 +299,13 @@ static baum_status read_all(baum_i_study_file *file, baum_study *study, bool *is
   *whole = true;
   while (status == BAUM_OK && fgets(line, LINE, file->stream)) {
     *whole = strchr(line, '\n') != NULL;
-    if (*is_new && !*whole && strncmp(line, HEAD, strlen(HEAD)) == 0) {
-      break; /* it ended before its head was written: nothing is lost */
+    if (*is_new && is_begun_head(file, study, line)) {
+      break;
     }
     if (*is_new) {
       status = check_head(file, study, line);
     } else {
-      take_line(study, line);
+      take_line(file, study, line);
     }
     *is_new = false;
   }
@@ -467,7 +345,7 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
   if (is_new) {
     char line[LINE];
     write_head(study, line);
-    return write_line(file, line);
+    return write_line(file, line, 0);
   }
   /* What was cut off becomes a line of its own, which is no result. */
   return whole || fputs("\n", file->stream) >= 0 ? BAUM_OK : complain(file, "written");
@@ -503,6 +381,7 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
     return baum_i_fail_memory();
   }
   file->path = study->options.file;
+  file->seed = seed_of(study);
   bool is_new = true;
   bool whole = true;
   for (int k = 0; k < study->row_count; k++) {
@@ -541,9 +420,9 @@ baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_stud
   if (!file) {
     return BAUM_OK;
   }
-  write_fields(line, &study->reference.out, KNOWN, KNOWN_COUNT);
-  add_text(line, study->reference.text);
-  return write_line(file, line);
+  baum_i_study_write_fields(line, &study->reference.out, &baum_i_reference_fields);
+  baum_i_study_write_text(line, study->reference.text);
+  return write_line(file, line, file->seed);
 }
 
 baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row)
@@ -552,10 +431,11 @@ baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "row %016" PRIx64 " %.17g", row->key, row->limit);
-  write_fields(line, &row->out, MEASURED, MEASURED_COUNT);
-  add_text(line, row->message);
-  return write_line(file, line);
+  baum_i_append(line, LINE, "row %016" PRIx64 " %s", row->key,
+                baum_i_exact(row->limit, "inf").text);
+  baum_i_study_write_fields(line, &row->out, &baum_i_measured_fields);
+  baum_i_study_write_text(line, row->message);
+  return write_line(file, line, file->seed);
 }
 
 baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row)
@@ -565,8 +445,8 @@ baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *r
     return BAUM_OK;
   }
   baum_i_append(line, LINE, "time %016" PRIx64, row->key);
-  write_fields(line, &row->out, TIMED, TIMED_COUNT);
-  return write_line(file, line);
+  baum_i_study_write_fields(line, &row->out, &baum_i_timed_fields);
+  return write_line(file, line, file->seed);
 }
 
 baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_row *row)
@@ -575,6 +455,7 @@ baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_ro
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "rehearsed %016" PRIx64 " %.17g", row->key, row->out.error_rehearsed);
-  return write_line(file, line);
+  baum_i_append(line, LINE, "rehearsed %016" PRIx64, row->key);
+  baum_i_study_write_fields(line, &row->out, &baum_i_rehearsed_fields);
+  return write_line(file, line, file->seed);
 }

@@ -203,19 +203,59 @@ static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
   end_scene(&s);
 }
 
+/* The last ones begin like a study file, one up to a zero in its first line. */
 static void a_file_of_something_else_is_refused_and_left_alone(void **state)
 {
   (void)state;
   scene s = make_scene();
-  const char letter[] = "Dear reader,\nthis is no study.\n";
-  write_file(s.path, letter, strlen(letter));
-  baum_study *study = study_of(&s);
-  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "is no study file");
-  char *text = read_file(s.path);
-  assert_string_equal(text, letter);
-  test_free(text);
-  baum_study_destroy(study);
+  const struct {
+    const char *text;
+    size_t size;
+  } others[] = {{"Dear reader,\nthis is no study.\n", 32},
+                {"\0\0\0\0", 4},
+                {"baum-study notes of mine", 24},
+                {"baum-study 2\0 library", 21}};
+  for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
+    write_file(s.path, others[k].text, others[k].size);
+    baum_study *study = study_of(&s);
+    ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "is no study file");
+    char *text = read_file(s.path);
+    assert_memory_equal(text, others[k].text, others[k].size);
+    assert_int_equal(text[others[k].size], 0);
+    test_free(text);
+    baum_study_destroy(study);
+  }
   end_scene(&s);
+}
+
+/* The same rows of a heavier pendulum, put behind the head of this one. */
+static void lines_of_another_study_are_run_again(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  scene heavy = make_scene();
+  model_pendulum heavier = MODEL_PENDULUM_A01;
+  heavier.gravity *= 2.0;
+  model_destroy(&heavy.m);
+  assert_int_equal(model_pendulum_rod(&heavier, &heavy.m), BAUM_OK);
+  int first = 0;
+  baum_study *want = run_to_the_end(&s, &first);
+  baum_study_destroy(run_to_the_end(&heavy, &first));
+  char *own = read_file(s.path);
+  char *other = read_file(heavy.path);
+  size_t head = strcspn(own, "\n");
+  assert_int_equal(head, strcspn(other, "\n"));
+  memcpy(other, own, head);
+  write_file(s.path, other, strlen(other));
+  baum_study *got = run_to_the_end(&s, &first);
+  assert_int_equal(first, 1);
+  assert_same_rows(got, want);
+  test_free(own);
+  test_free(other);
+  baum_study_destroy(got);
+  baum_study_destroy(want);
+  end_scene(&s);
+  end_scene(&heavy);
 }
 
 static void a_file_of_another_study_is_refused_with_what_differs(void **state)
@@ -276,6 +316,7 @@ int main(void)
     cmocka_unit_test(a_complete_file_needs_no_run),
     cmocka_unit_test(a_line_that_is_cut_off_or_damaged_is_run_again),
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
+    cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
     cmocka_unit_test(a_full_disk_and_a_missing_folder_are_statuses),
   };

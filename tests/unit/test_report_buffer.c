@@ -72,6 +72,15 @@ static void exact_numbers_are_read_back(void **state)
     baum_i_number text = baum_i_exact(numbers[k], "");
     double back = strtod(text.text, NULL);
     assert_memory_equal(&back, &numbers[k], sizeof back);
+    back = 0.5;
+    assert_string_equal(baum_i_read_number(text.text, &back), "");
+    assert_memory_equal(&back, &numbers[k], sizeof back);
+  }
+  double x = 0.0;
+  const char *const none[] = {
+    "", " ", ".", "x", "1.5x", "1.5.5", "1,5", "1e", "12345678901234567890123456789012345678901"};
+  for (size_t k = 0; k < sizeof none / sizeof none[0]; k++) {
+    assert_null(baum_i_read_number(none[k], &x));
   }
   assert_string_equal(baum_i_exact(1e-6, "").text, "1e-06");
   assert_string_equal(baum_i_exact((double)NAN, "null").text, "null");

@@ -1,0 +1,119 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What is written into a line is read back to the bit; what no study writes is refused. */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include <baum/study.h>
+
+#include "study/study_line.h"
+
+enum { LINE = BAUM_I_STUDY_LINE };
+
+static baum_study_row row_with(double error)
+{
+  return (baum_study_row){
+    .state = BAUM_STUDY_DONE,
+    .status = BAUM_WARNED,
+    .off = true,
+    .error = error,
+    .error_v = -error,
+    .max_phi = 1.0 / 3.0,
+    .steps = INT64_MAX,
+    .repeats = 5,
+    .cpu = 1e-5,
+  };
+}
+
+static void numbers_of_all_kinds_come_back(void **state)
+{
+  (void)state;
+  const double numbers[] = {0.0,     -0.0,    0.1 + 0.2,   1e-6,         1e22,
+                            DBL_MAX, DBL_MIN, (double)NAN, -(double)NAN, (double)INFINITY};
+  for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+    char line[LINE] = "row";
+    char again[LINE] = "row";
+    baum_study_row from = row_with(numbers[k]);
+    baum_study_row to = {.name = NULL};
+    baum_i_study_write_fields(line, &from, &baum_i_measured_fields);
+    baum_i_study_write_text(line, "two\nlines");
+    const char *end = baum_i_study_read_fields(line + 3, &to, &baum_i_measured_fields);
+    assert_non_null(end);
+    assert_string_equal(end, " | two lines");
+    assert_memory_equal(&to.error, &from.error, sizeof to.error);
+    baum_i_study_write_fields(again, &to, &baum_i_measured_fields);
+    assert_memory_equal(again, line, strlen(again));
+  }
+}
+
+/* The fields of a time: evaluations, factorizations, work, cpu, cpu_spread, repeats. */
+static void what_no_study_writes_is_refused(void **state)
+{
+  (void)state;
+  const char *const bad[] = {" -1 0 1 1 nan 1",        " 1 0 1 1 nan 0", " 1 0 1 1 nan",
+                             " 1 0 1 1,5 nan 1",       " 1 0 1 x nan 1", "",
+                             " 1 0 1 1 nan 5000000000"};
+  baum_study_row row;
+  assert_non_null(baum_i_study_read_fields(" 1 0 1 1.5 nan 1", &row, &baum_i_timed_fields));
+  for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
+    assert_null(baum_i_study_read_fields(bad[k], &row, &baum_i_timed_fields));
+  }
+}
+
+/* The first three fields of a motion are its state, its status and a flag. */
+static void states_and_statuses_are_those_that_there_are(void **state)
+{
+  (void)state;
+  const int tries[][4] = {{1, 0, 1, true},    {4, 1, 0, true},    {3, -3, 0, true},
+                          {0, 0, 0, false},   {5, 0, 0, false},   {-1, 0, 0, false},
+                          {1, 777, 0, false}, {1, -77, 0, false}, {1, 0, 2, false}};
+  for (size_t k = 0; k < sizeof tries / sizeof tries[0]; k++) {
+    char line[LINE] = "";
+    char text[LINE];
+    baum_study_row row = row_with(1e-6);
+    baum_i_study_write_fields(line, &row, &baum_i_measured_fields);
+    assert_memory_equal(line, " 1 10 0", 7);
+    (void)snprintf(text, sizeof text, " %d %d %d%s", tries[k][0], tries[k][1], tries[k][2],
+                   line + 7);
+    const char *end = baum_i_study_read_fields(text, &row, &baum_i_measured_fields);
+    assert_int_equal(end != NULL, tries[k][3]);
+  }
+}
+
+static void a_line_is_of_one_study_and_as_it_was_written(void **state)
+{
+  (void)state;
+  char line[LINE] = "time 0 # 1";
+  char copy[LINE];
+  baum_i_study_seal(line, 17);
+  for (size_t k = 0; k < strlen(line); k++) {
+    memcpy(copy, line, sizeof copy);
+    copy[k] = copy[k] == '7' ? '8' : '7';
+    assert_false(baum_i_study_unseal(copy, 17));
+    memcpy(copy, line, sizeof copy);
+    copy[k] = '\0';
+    assert_false(baum_i_study_unseal(copy, 17));
+  }
+  memcpy(copy, line, sizeof copy);
+  assert_false(baum_i_study_unseal(copy, 18));
+  assert_true(baum_i_study_unseal(line, 17));
+  assert_string_equal(line, "time 0 # 1");
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(numbers_of_all_kinds_come_back),
+    cmocka_unit_test(what_no_study_writes_is_refused),
+    cmocka_unit_test(states_and_statuses_are_those_that_there_are),
+    cmocka_unit_test(a_line_is_of_one_study_and_as_it_was_written),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
