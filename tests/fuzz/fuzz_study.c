@@ -1,0 +1,302 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Studies that go on from any file: bytes, or a true file with bits and lines changed, lines of another study among them;
+ * or with fields changed and the sum of their line put right. What is refused is left alone. What is taken gives the rows
+ * that the study has without a file, to the last bit, unless a sum was put right; and in any case a study that is over is over
+ * when it goes on once more.
+ */
+#define _GNU_SOURCE /* mkstemp */
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/digest.h"
+#include "bytes.h"
+#include "models.h"
+#include "study/study_line.h"
+
+enum { ROWS = 3, TEXT = 1 << 15, LINES = 64, MOST_CHANGES = 8, FORMS = 4 };
+
+/* ---- the file: one for all inputs ---- */
+
+static char path[] = "/tmp/baum-fuzz-study-XXXXXX";
+
+static void remove_file(void)
+{
+  (void)remove(path);
+}
+
+static void make_file(void)
+{
+  int file = mkstemp(path);
+  FUZZ_CHECK(file >= 0 && close(file) == 0 && atexit(remove_file) == 0);
+}
+
+static void write_file(const char *text, size_t size)
+{
+  FILE *file = fopen(path, "wb");
+  FUZZ_CHECK(file && fwrite(text, 1, size, file) == size && fclose(file) == 0);
+}
+
+static size_t read_file(char text[TEXT])
+{
+  FILE *file = fopen(path, "rb");
+  FUZZ_CHECK(file);
+  size_t size = fread(text, 1, TEXT - 1, file);
+  FUZZ_CHECK(fclose(file) == 0 && size < TEXT - 1);
+  text[size] = '\0';
+  return size;
+}
+
+/* ---- studies ---- */
+
+/* The second one spans another time. */
+static baum_study *make_study(int which)
+{
+  static model pendulum;
+  baum_study *study = NULL;
+  baum_study_options o = baum_study_options_default();
+  o.samples = 4;
+  o.repeats = 1;
+  o.file = path;
+  if (!pendulum.mechanism) {
+    FUZZ_CHECK(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum) == BAUM_OK);
+  }
+  FUZZ_CHECK(baum_study_create(pendulum.mechanism, 0.0, which ? 0.06 : 0.05, &study) == BAUM_OK);
+  FUZZ_CHECK(baum_study_set_options(study, &o) == BAUM_OK);
+  for (int k = 0; k < ROWS; k++) {
+    baum_simulation_options run = baum_simulation_options_default();
+    run.integrator = k < 2 ? baum_rk4() : baum_euler();
+    run.formulation = k < 2 ? BAUM_FORMULATION_PROJECTION : BAUM_FORMULATION_BAUMGARTE;
+    run.gains = k < 2 ? run.gains : baum_gains_fixed(1e3, 1e3); /* unstable: refused */
+    run.step = k == 1 ? 0.01 : 0.02;
+    FUZZ_CHECK(baum_study_add(study, &run) == BAUM_OK);
+  }
+  return study;
+}
+
+static baum_study_row row_of(const baum_study *study, int k)
+{
+  baum_study_row row;
+  FUZZ_CHECK(baum_study_row_at(study, k, &row, sizeof row) == BAUM_OK);
+  return row;
+}
+
+/* NaNs are the same. */
+static bool same(double a, double b)
+{
+  return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
+}
+
+static void check_same_rows(const baum_study *one, const baum_study *other, bool times)
+{
+  for (int k = 0; k < ROWS; k++) {
+    baum_study_row a = row_of(one, k);
+    baum_study_row b = row_of(other, k);
+    FUZZ_CHECK(a.state == b.state && a.status == b.status && strcmp(a.message, b.message) == 0);
+    FUZZ_CHECK(a.off == b.off && a.untrusted == b.untrusted && a.at_floor == b.at_floor);
+    FUZZ_CHECK(same(a.error, b.error) && same(a.error_v, b.error_v) && same(a.max_phi, b.max_phi));
+    FUZZ_CHECK(same(a.error_lambda, b.error_lambda) && same(a.energy_error, b.energy_error));
+    FUZZ_CHECK(same(a.error_rehearsed, b.error_rehearsed) && same(a.work, b.work));
+    FUZZ_CHECK(a.steps == b.steps && a.evaluations == b.evaluations && a.warnings == b.warnings);
+    FUZZ_CHECK(!times || (same(a.cpu, b.cpu) && a.repeats == b.repeats));
+  }
+}
+
+/* The first study as it is without a file, the file it makes, and that of another study. */
+typedef struct truth {
+  baum_study *study;
+  char text[2][TEXT];
+  uint64_t seed; /* of the lines of the first */
+} truth;
+
+static const truth *true_ones(void)
+{
+  static truth t;
+  if (!t.study) {
+    make_file();
+    for (int k = 1; k >= 0; k--) {
+      write_file("", 0);
+      baum_study_destroy(t.study);
+      t.study = make_study(k);
+      FUZZ_CHECK(baum_study_run(t.study) == BAUM_OK);
+      (void)read_file(t.text[k]);
+    }
+    FUZZ_CHECK(row_of(t.study, ROWS - 1).state == BAUM_STUDY_REFUSED);
+    baum_i_digest digest = {0};
+    static char head[BAUM_I_STUDY_LINE];
+    (void)snprintf(head, sizeof head, "%.*s\n", (int)strcspn(t.text[0], "\n"), t.text[0]);
+    FUZZ_CHECK(baum_i_study_unseal(head, 0));
+    baum_i_digest_add_text(&digest, head);
+    t.seed = digest.value;
+  }
+  return &t;
+}
+
+/* ---- texts ---- */
+
+/* Lines with their ends, as far as there is room. */
+typedef struct document {
+  char line[LINES][BAUM_I_STUDY_LINE];
+  int count;
+  bool sealed; /* something that no study has written has the right sum */
+} document;
+
+static void add_line(document *d, const char *line)
+{
+  if (d->count < LINES) {
+    memmove(d->line[d->count++], line, strlen(line) + 1);
+  }
+}
+
+static void add_text(document *d, const char *text)
+{
+  char line[BAUM_I_STUDY_LINE];
+  while (*text) {
+    size_t size = strcspn(text, "\n") + 1;
+    (void)snprintf(line, sizeof line, "%.*s", (int)size, text);
+    add_line(d, line);
+    text += size;
+  }
+}
+
+/* Another word somewhere in a line, and the sum put right. */
+static void change_field(document *d, fuzz_bytes *b, char *line, const truth *t)
+{
+  static const char *const words[] = {
+    "0",    "1",   "-1", "2",  "3", "4",          "5",   "1e300",  "-1e-300",
+    "nan",  "inf", "-5", "10", "",  "2147483648", "| x", "5e-324", "9223372036854775807",
+    "1e999"};
+  enum { WORDS = sizeof words / sizeof *words };
+  static char copy[BAUM_I_STUDY_LINE];
+  uint64_t seed = line == d->line[0] ? 0 : t->seed;
+  (void)snprintf(copy, sizeof copy, "%s", line);
+  if (!baum_i_study_unseal(copy, seed)) {
+    return;
+  }
+  char *begin = copy;
+  for (int k = fuzz_below(b, 40); k > 0 && strchr(begin, ' '); k--) {
+    begin = strchr(begin, ' ') + 1;
+  }
+  const char *rest = begin + strcspn(begin, " ");
+  (void)snprintf(line, BAUM_I_STUDY_LINE - 32, "%.*s%s%s", (int)(begin - copy), copy,
+                 words[fuzz_below(b, WORDS)], rest);
+  baum_i_study_seal(line, seed);
+  d->sealed = true;
+}
+
+static void change(document *d, fuzz_bytes *b, const truth *t)
+{
+  char *line = d->line[fuzz_below(b, d->count)];
+  size_t length = strlen(line);
+  size_t at = length ? (size_t)(fuzz_byte(b) + 256 * fuzz_byte(b)) % length : 0;
+  switch (fuzz_below(b, 8)) {
+  case 0: line[at] = (char)(line[at] ^ (1 << fuzz_below(b, 8))); break;
+  case 1: line[at] = (char)fuzz_byte(b); break;
+  case 2: line[at] = '\0'; break;
+  case 3: line[0] = '\0'; break;
+  case 4: add_line(d, line); break;
+  case 5: add_text(d, t->text[1]); break;
+  case 6: memmove(line, d->line[fuzz_below(b, d->count)], BAUM_I_STUDY_LINE); break;
+  default: change_field(d, b, line, t); break;
+  }
+}
+
+/* Returns whether something that no study has written has the right sum. */
+static bool write_changed(fuzz_bytes *b, const truth *t)
+{
+  static document d;
+  static char text[LINES * BAUM_I_STUDY_LINE];
+  d.count = 0;
+  d.sealed = false;
+  add_text(&d, t->text[0]);
+  for (int k = 1 + fuzz_below(b, MOST_CHANGES); k > 0 && b->left > 0; k--) {
+    change(&d, b, t);
+  }
+  size_t size = 0;
+  for (int k = 0; k < d.count; k++) {
+    size_t length = strlen(d.line[k]);
+    memcpy(text + size, d.line[k], length);
+    size += length;
+  }
+  write_file(text, size);
+  return d.sealed;
+}
+
+/* ---- what a study makes of it ---- */
+
+static void read_all(const baum_study *study, fuzz_bytes *b)
+{
+  static char text[TEXT];
+  baum_simulation_options options;
+  baum_study_method method;
+  int32_t rows[ROWS];
+  int32_t count = 0;
+  double cost = 0.0;
+  baum_report_form form = (baum_report_form)fuzz_below(b, FORMS);
+  FUZZ_CHECK(baum_study_print(study, form, NULL, text, sizeof text, NULL) == BAUM_OK);
+  for (int k = 0; k < baum_study_method_count(study); k++) {
+    FUZZ_CHECK(baum_study_method_at(study, k, &method, sizeof method) == BAUM_OK);
+    (void)fuzz_status(baum_study_cost_at(study, k, 1e-6, BAUM_STUDY_WORK, &cost));
+  }
+  for (int cheap = BAUM_STUDY_WORK; cheap <= BAUM_STUDY_CPU; cheap++) {
+    FUZZ_CHECK(baum_study_front(study, (baum_study_cost)cheap, ROWS, rows, &count) == BAUM_OK);
+    FUZZ_CHECK(count >= 0 && count <= ROWS);
+    double error = fuzz_small(b);
+    (void)fuzz_status(baum_study_recommend(study, error, (baum_study_cost)cheap, &options,
+                                           sizeof options, text, sizeof text));
+  }
+  (void)fuzz_status(
+    baum_study_recommend_budget(study, 1e-3, &options, sizeof options, text, sizeof text));
+}
+
+/* Nothing is done again, and the file stays as it is. */
+static void check_over(const baum_study *study)
+{
+  static char before[TEXT];
+  static char after[TEXT];
+  size_t size = read_file(before);
+  baum_study *again = make_study(0);
+  baum_status status = fuzz_status(baum_study_run(again));
+  FUZZ_CHECK(status == BAUM_OK || status == BAUM_WARNED);
+  check_same_rows(study, again, true);
+  FUZZ_CHECK(read_file(after) == size && memcmp(before, after, size) == 0);
+  baum_study_destroy(again);
+}
+
+static void check_left_alone(const baum_study *study, const char *before, size_t size)
+{
+  static char after[TEXT];
+  FUZZ_CHECK(read_file(after) == size && memcmp(before, after, size) == 0);
+  for (int k = 0; k < ROWS; k++) {
+    FUZZ_CHECK(row_of(study, k).state == BAUM_STUDY_WAITING);
+  }
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
+{
+  static char text[TEXT];
+  fuzz_bytes b = {data, size};
+  const truth *t = true_ones();
+  bool sealed = false;
+  if (fuzz_below(&b, 8) == 0) {
+    write_file((const char *)b.at, b.left);
+  } else {
+    sealed = write_changed(&b, t);
+  }
+  size_t length = read_file(text);
+  baum_study *study = make_study(0);
+  baum_status status = fuzz_status(baum_study_run(study));
+  FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || (status == BAUM_WARNED && sealed));
+  if (status == BAUM_ERR_BUFFER) {
+    check_left_alone(study, text, length);
+  } else {
+    if (!sealed) {
+      check_same_rows(t->study, study, false);
+    }
+    read_all(study, &b);
+    check_over(study);
+  }
+  baum_study_destroy(study);
+  return 0;
+}
