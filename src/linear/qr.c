@@ -459,6 +459,19 @@ static baum_status rank_by_qr(const scaled_rows *rows, double tolerance, int *ra
   return status;
 }
 
+/* Marked ones first. */
+static void order_rows(const scaled_rows *rows, const unsigned char *marked)
+{
+  int next = 0;
+  for (int turn = 0; turn < 2; turn++) {
+    for (int i = 0; i < rows->structure->nc; i++) {
+      if (rows->place[i] >= 0 && (marked[i] == 0) == (turn == 1)) {
+        rows->place[i] = next++;
+      }
+    }
+  }
+}
+
 /* found (nc), zeroed, is scratch. */
 static baum_status find_rank(scaled_rows *rows, double tolerance, unsigned char *found, int *rank,
                              unsigned char *independent)
@@ -468,6 +481,7 @@ static baum_status find_rank(scaled_rows *rows, double tolerance, unsigned char 
   baum_status status =
     baum_i_peel(rows->structure, rows->jacobian, rows->column_scale, rows->place, &rows->left);
   if (status == BAUM_OK && rows->left > 0) {
+    order_rows(rows, independent);
     status = rank_by_qr(rows, tolerance, &rank_left, found);
   }
   if (status != BAUM_OK) {

@@ -328,6 +328,8 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   for (uint64_t seed = 0; seed < MECHANISMS; seed++) {
     random_judge(p->random, seed, &tally);
   }
+  /* of its dependent rows the first ones are nearly so without the last */
+  random_judge(p->random, 3070, &tally);
   assert_int_equal(tally.counts[RANDOM_WRONG], 0);
   assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
   assert_int_equal(tally.counts[RANDOM_CONFLICT], 0);

@@ -47,7 +47,7 @@ static void assert_rank(const saddle *system, const double *column_scale, int wa
 {
   unsigned char independent[MOST];
   int rank = -1;
-  memset(independent, 7, sizeof independent);
+  memset(independent, 7, sizeof independent); /* all alike: in their order */
   assert_int_equal(baum_i_jacobian_rank(&system->structure, system->jacobian, column_scale,
                                         tolerance, &rank, independent),
                    BAUM_OK);
@@ -102,12 +102,36 @@ static void sizes_of_rows_and_columns_do_not_matter(void **state)
   }
 }
 
+/* Row 2 is the sum of rows 0 and 1, and row 4 of the last three. */
+static void marked_rows_are_taken_first(void **state)
+{
+  (void)state;
+  static const double rows[5][4] = {
+    {1, 0, 0, 1}, {0, 1, 0, 0}, {1, 1, 0, 1}, {0, 0, 1, 0}, {1, 2, 1, 1}};
+  static const unsigned char marked[3][5] = {{0, 0, 0, 0, 0}, {0, 0, 1, 0, 0}, {0, 0, 0, 1, 1}};
+  static const unsigned char want[3][5] = {{1, 1, 0, 1, 0}, {1, 0, 1, 1, 0}, {1, 0, 0, 1, 1}};
+  const double ones[] = {1.0, 1.0, 1.0, 1.0};
+  saddle system = saddle_make_dense(4, 5);
+  memcpy(system.jacobian, rows, sizeof rows);
+  for (int k = 0; k < 3; k++) {
+    unsigned char independent[5];
+    int rank = -1;
+    memcpy(independent, marked[k], sizeof independent);
+    assert_int_equal(
+      baum_i_jacobian_rank(&system.structure, system.jacobian, ones, tolerance, &rank, independent),
+      BAUM_OK);
+    assert_int_equal(rank, 3);
+    assert_memory_equal(independent, want[k], sizeof independent);
+  }
+  saddle_free(&system);
+}
+
 static void the_tolerance_is_on_what_is_left_of_a_unit_row(void **state)
 {
   (void)state;
   saddle system = saddle_make_dense(2, 2);
   const double ones[] = {1.0, 1.0};
-  unsigned char independent[2];
+  unsigned char independent[2] = {0};
   int rank;
   system.jacobian[0] = system.jacobian[2] = 100.0;
   system.jacobian[3] = 100.0 * 1e-6;
@@ -175,7 +199,7 @@ static void a_flat_four_bar_has_one_row_too_many(void **state)
 {
   (void)state;
   saddle system = saddle_make_four_bar(1);
-  unsigned char independent[8];
+  unsigned char independent[8] = {0};
   const double scale[] = {1.0, 1.0, 3.4641, 1.0, 1.0, 3.4641, 1.0, 1.0, 3.4641};
   int rank;
   const double angles[] = {0.0, 1e-6};
@@ -250,6 +274,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(of_dependent_rows_the_later_ones_are_given_up),
     cmocka_unit_test(sizes_of_rows_and_columns_do_not_matter),
+    cmocka_unit_test(marked_rows_are_taken_first),
     cmocka_unit_test(the_tolerance_is_on_what_is_left_of_a_unit_row),
     cmocka_unit_test(a_joint_added_twice_is_found),
     cmocka_unit_test(joints_of_a_sparse_mechanism_added_twice_are_found),
