@@ -147,6 +147,15 @@ static inline baum_study_grid baum_study_grid_default(void)
  */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
+/** Add the extremes of settings: steps of 1e-1 to 1e-9 of a period of the motion, rtol of 1e-2 to 1e-14, and with BAUMGARTE
+ *  gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a period or rtol 1e-7. Every row is to meet its
+ *  tolerance, or to say why not. The row limit bounds what tiny steps take.
+ *  @param[in] integrator  NULL: all of the build that take a step or a tolerance
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator), BAUM_ERR_STATE, BAUM_ERR_MEMORY;
+ *             and when the mechanism cannot be started, what baum_simulation_create() returns. Unchanged on failure
+ */
+BAUM_API baum_status baum_study_add_extremes(baum_study *study, const baum_integrator *integrator);
+
 /* ---- what error means ------------------------------------------------------------------------ */
 
 /** Say what error means: the largest |difference from the reference| / unit over all columns of some channels. Without

@@ -5,7 +5,7 @@
  * to one digit:
  *
  *   order      1      2      3 to 5   8
- *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, see rate_of()
+ *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, baum_i_study_rate()
  *   factor     3      3      2        1.5
  */
 #include <math.h>
@@ -56,9 +56,7 @@ static baum_status check_grid(const baum_study_grid *g)
 
 /* ---- the rate of the motion ---- */
 
-/* The rate at the start, or the mean |v| / scale of a rough run where that is more. A rough run that fails tells what it
- * has seen. */
-static baum_status rate_of(const baum_study *study, double *rate)
+baum_status baum_i_study_rate(const baum_study *study, double *rate)
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_dp5();
@@ -180,8 +178,7 @@ static baum_status add_integrator(const grid *g, const baum_integrator *integrat
   return status;
 }
 
-/* Those of SUNDIALS are there by name without it. */
-static bool in_build(const baum_integrator *integrator)
+bool baum_i_study_in_build(const baum_integrator *integrator)
 {
   const char *name = integrator->name;
   bool of_sundials = strncmp(name, "cvode", 5) == 0 || strcmp(name, "ida") == 0;
@@ -194,7 +191,7 @@ static baum_status add_all(const grid *g)
   const baum_integrator *integrator = NULL;
   for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
     bool wanted = !g->wanted->integrator || g->wanted->integrator == integrator;
-    if (wanted && in_build(integrator)) {
+    if (wanted && baum_i_study_in_build(integrator)) {
       status = add_integrator(g, integrator);
     }
   }
@@ -217,7 +214,7 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   baum_status status = check_grid(&wanted);
   grid g = {.study = study, .wanted = &wanted};
   if (status == BAUM_OK) {
-    status = rate_of(study, &g.rate);
+    status = baum_i_study_rate(study, &g.rate);
   }
   int rows = study->row_count;
   int methods = study->method_count;

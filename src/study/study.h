@@ -123,6 +123,15 @@ baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 /* Give up rows and methods from these numbers on. */
 void baum_i_study_drop_rows(baum_study *study, int rows, int methods);
 
+/* ---- grid.c ---- */
+
+/* [1/s] of the motion: that at the start, or the mean |v| / scale of a rough run where that is more. A rough run that fails
+ * tells what it has seen. What baum_simulation_create() returns. */
+baum_status baum_i_study_rate(const baum_study *study, double *rate);
+
+/* Those of SUNDIALS are there by name without it. */
+bool baum_i_study_in_build(const baum_integrator *integrator);
+
 /* ---- names.c ---- */
 
 /* Such as "rk4 baumgarte auto". */

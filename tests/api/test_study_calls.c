@@ -81,6 +81,7 @@ static void calls_on_no_study_are_refused(void **state)
     baum_study_set_options(NULL, &o),
     baum_study_add(NULL, &best),
     baum_study_add_standard(NULL, NULL),
+    baum_study_add_extremes(NULL, NULL),
     baum_study_set_error(NULL, &q, 1, 1.0),
     baum_study_set_reference(NULL, &one, 1, &one, NULL, NULL, 9.0),
     baum_study_set_solution(NULL, NULL, NULL, 9.0),
@@ -172,6 +173,7 @@ static int change_all(const baum_study *study, int32_t done, int32_t total, void
   ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is under way");
   ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is under way");
+  ASSERT_SAYS(baum_study_add_extremes(under_way, NULL), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_set_options(under_way, &options), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_set_error(under_way, &q, 1, 1.0), BAUM_ERR_STATE, "stays as it is");
   return 0;

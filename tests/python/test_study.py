@@ -51,6 +51,13 @@ class Studies(unittest.TestCase):
             run = self.m.simulate(t, **best)
             self.assertLess(np.abs(run.q - exact).max(), error)  # scale 0.46 m: the smaller unit
 
+    def test_extremes_are_rows_that_work_or_say_why(self):
+        study = baum.study(self.m, 0, 1, samples=20, repeats=1, row_limit=0.02, rehearse=False)
+        rows = study.add_extremes("rk4").run().rows
+        self.assertEqual(len(rows), 9 + 20)
+        for row in rows:
+            self.assertTrue(row.state == "done" or row.message, row.name)
+
     def test_the_front_goes_from_cheap_to_exact(self):
         rows = self.study.rows
         front = [rows[k] for k in self.study.front()]

@@ -1169,6 +1169,7 @@ PROTOTYPES = {
     "baum_study_add": (c_int, [c_void_p, POINTER(baum_simulation_options)]),
     "baum_study_grid_init": (None, [POINTER(baum_study_grid), c_size_t]),
     "baum_study_add_standard": (c_int, [c_void_p, POINTER(baum_study_grid)]),
+    "baum_study_add_extremes": (c_int, [c_void_p, c_void_p]),
     "baum_study_set_error": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_double]),
     "baum_study_set_reference": (c_int, [
         c_void_p, c_void_p, c_int32, c_void_p, c_void_p, c_void_p, c_double,

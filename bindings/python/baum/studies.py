@@ -247,6 +247,13 @@ class Study:
         self._long(lib.baum_study_add_standard, ctypes.byref(struct))
         return self
 
+    def add_extremes(self, integrator=None):
+        """Add settings at their extremes, of all integrators or of one: steps, tolerances, gains; see
+        baum_study_add_extremes() in study.h. Returns the study."""
+        address = None if integrator is None else lookup(integrator).address
+        self._long(lib.baum_study_add_extremes, address)
+        return self
+
     # ---- running ---------------------------------------------------------------------------------
 
     def run(self):

@@ -1,0 +1,112 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Settings at their extremes, for a mechanism of the user's. Decades, because what breaks does so between them. */
+#include <math.h>
+
+#include "integrate/integrator.h"
+#include "study/study.h"
+
+static const double PI = 3.14159265358979323846;
+
+/* Decades: steps of a period 10^-1 to 10^-9, rtol 10^-2 to 10^-14, gains 10^-6 to 10^12 1/s. */
+enum {
+  FIRST_STEP = 1,
+  LAST_STEP = 9,
+  FIRST_RTOL = 2,
+  LAST_RTOL = 14,
+  FIRST_GAIN = -6,
+  LAST_GAIN = 12,
+  STEP_WITH_GAINS = 3,
+  RTOL_WITH_GAINS = 7
+};
+
+typedef struct ladders {
+  baum_study *study;
+  double period; /* [s] of the motion */
+} ladders;
+
+static baum_status add_step(const ladders *l, baum_simulation_options o, int decade)
+{
+  o.step = l->period * pow(10.0, -decade);
+  return baum_study_add(l->study, &o);
+}
+
+static baum_status add_rtol(const ladders *l, baum_simulation_options o, int decade)
+{
+  o.rtol = pow(10.0, -decade);
+  return baum_study_add(l->study, &o);
+}
+
+static baum_status add_settings(const ladders *l, const baum_simulation_options *o)
+{
+  baum_status status = BAUM_OK;
+  bool fixed = baum_integrator_has_fixed_step(o->integrator);
+  bool variable = baum_integrator_has_variable_step(o->integrator);
+  for (int k = FIRST_STEP; fixed && k <= LAST_STEP && status == BAUM_OK; k++) {
+    status = add_step(l, *o, k);
+  }
+  for (int k = FIRST_RTOL; variable && k <= LAST_RTOL && status == BAUM_OK; k++) {
+    status = add_rtol(l, *o, k);
+  }
+  return status;
+}
+
+/* None, and alpha = beta through the decades, each with one step or tolerance that is moderate. */
+static baum_status add_gains(const ladders *l, baum_simulation_options o)
+{
+  baum_status status = BAUM_OK;
+  o.formulation = BAUM_FORMULATION_BAUMGARTE;
+  if (!baum_integrator_offers(o.integrator, o.formulation)) {
+    return status;
+  }
+  bool variable = baum_integrator_has_variable_step(o.integrator);
+  for (int k = FIRST_GAIN - 1; k <= LAST_GAIN && status == BAUM_OK; k++) {
+    double gain = k < FIRST_GAIN ? 0.0 : pow(10.0, k);
+    o.gains = baum_gains_fixed(gain, gain);
+    status = variable ? add_rtol(l, o, RTOL_WITH_GAINS) : add_step(l, o, STEP_WITH_GAINS);
+  }
+  return status;
+}
+
+static baum_status add_integrator(const ladders *l, const baum_integrator *integrator)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = integrator;
+  baum_status status = add_settings(l, &o);
+  return status == BAUM_OK ? add_gains(l, o) : status;
+}
+
+static baum_status add_all(const ladders *l, const baum_integrator *only)
+{
+  baum_status status = BAUM_OK;
+  const baum_integrator *integrator = NULL;
+  for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
+    if ((!only || only == integrator) && baum_i_study_in_build(integrator)) {
+      status = add_integrator(l, integrator);
+    }
+  }
+  return status;
+}
+
+baum_status baum_study_add_extremes(baum_study *study, const baum_integrator *integrator)
+{
+  const char *call = "baum_study_add_extremes";
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  double rate = 0.0;
+  baum_status status = baum_i_study_rate(study, &rate);
+  int rows = study->row_count;
+  int methods = study->method_count;
+  if (status == BAUM_OK) {
+    const ladders l = {.study = study, .period = 2.0 * PI / rate};
+    status = add_all(&l, integrator);
+  }
+  if (status == BAUM_OK && study->row_count == rows) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: this build has no %s with a step or a tolerance",
+                         call, baum_integrator_name(integrator));
+  }
+  if (status != BAUM_OK) {
+    baum_i_study_drop_rows(study, rows, methods);
+  }
+  return status;
+}
