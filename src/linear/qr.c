@@ -33,16 +33,13 @@ enum { RANK_STATISTIC = 4 }; /* of cholmod_common.SPQR_istat */
 
 /* ---- shared by both uses ---- */
 
-static bool start(cholmod_common *common)
+static void start(cholmod_common *common)
 {
-  if (!cholmod_l_start(common)) {
-    return false;
-  }
+  (void)cholmod_l_start(common); /* fails for NULL only */
   common->print = 0;
   common->try_catch = 1;
   common->error_handler = NULL;
   common->useGPU = 0;
-  return true;
 }
 
 static void clear_sparse(cholmod_sparse *sparse)
@@ -97,7 +94,6 @@ static double largest_of(const double *x, size_t count)
 typedef struct qr_backend {
   baum_i_pattern pattern;
   cholmod_common common;
-  bool is_started;
   cholmod_sparse matrix;
   SuiteSparseQR_C_factorization *factors;
   double *scale; /* (n) */
@@ -112,10 +108,8 @@ static void destroy(void *self)
   if (!qr) {
     return;
   }
-  if (qr->is_started) {
-    (void)SuiteSparseQR_C_free(&qr->factors, &qr->common);
-    (void)cholmod_l_finish(&qr->common);
-  }
+  (void)SuiteSparseQR_C_free(&qr->factors, &qr->common);
+  (void)cholmod_l_finish(&qr->common);
   clear_sparse(&qr->matrix);
   baum_i_free(qr->work);
   baum_i_free(qr->scale);
@@ -125,8 +119,8 @@ static void destroy(void *self)
 
 static bool set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
 {
-  qr->is_started = start(&qr->common);
-  if (!qr->is_started || baum_i_pattern_create(structure, &qr->pattern) != BAUM_OK) {
+  start(&qr->common);
+  if (baum_i_pattern_create(structure, &qr->pattern) != BAUM_OK) {
     return false;
   }
   const baum_i_pattern *pattern = &qr->pattern;
@@ -443,9 +437,7 @@ static baum_status rank_by_qr(const scaled_rows *rows, double tolerance, int *ra
                               unsigned char *independent)
 {
   cholmod_common common;
-  if (!start(&common)) {
-    return BAUM_ERR_MEMORY;
-  }
+  start(&common);
   baum_status status = BAUM_ERR_MEMORY;
   cholmod_triplet *list =
     cholmod_l_allocate_triplet((size_t)rows->structure->nv, (size_t)rows->left,

@@ -82,21 +82,15 @@ static void cross(const march *m, const int square[2], int edge, double point[2]
 /* Two corners that are inside opposite to each other hang together when the middle is inside. */
 static int leave(const march *m, const int square[2], int edge)
 {
-  double at[2];
-  for (int k = 1; k < 4; k++) {
-    int other = (edge + k) & 3;
-    if (is_inside(m, square, other) || !is_inside(m, square, other + 1)) {
-      continue;
-    }
-    if (k == 1 && !is_inside(m, square, edge + 3)) {
-      place(m, square[0] + 0.5, square[1] + 0.5, at);
-      if (!baum_i_chart_within(m->method, at, m->growth)) {
-        continue;
-      }
-    }
-    return other;
+  bool opposite = is_inside(m, square, edge + 2);
+  bool beside = is_inside(m, square, edge + 3);
+  if (opposite && !beside) {
+    double middle[2];
+    place(m, square[0] + 0.5, square[1] + 0.5, middle);
+    opposite = baum_i_chart_within(m->method, middle, m->growth);
   }
-  return edge; /* not reached: what is entered is left */
+  int turn = opposite ? 1 : beside ? 2 : 3;
+  return (edge + turn) & 3;
 }
 
 static void follow(march *m, const int start[2])

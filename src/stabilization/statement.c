@@ -13,24 +13,15 @@
 
 static const char *of_variable_step(baum_i_method_family family)
 {
-  switch (family) {
-  case BAUM_I_FAMILY_ADAMS:
-    return "Adams-Moulton, variable step: orders 1 and 2 damp violations at any gains, higher "
-           "orders "
-           "in bounded regions (critical damping to alpha h = 6 at order 3, 3 at order 4); the "
-           "error "
-           "test keeps order and step inside, so that violations decay for any gains and high "
-           "gains "
-           "cost steps.";
-  case BAUM_I_FAMILY_BDF:
+  if (family == BAUM_I_FAMILY_BDF) {
     return "BDF, variable step: orders 1 to 5 are A(51.84 degrees)-stable, so that alpha / beta >= "
            "0.618 damps violations at any alpha h; below that orders 3 to 5 may not, until the "
            "error test shortens the step.";
-  case BAUM_I_FAMILY_EXPLICIT:
-  default:
-    return "Variable step: the error test keeps an explicit method inside of its region, so that "
-           "violations decay for any gains and high gains cost steps.";
   }
+  return "Adams-Moulton, variable step: orders 1 and 2 damp violations at any gains, higher orders "
+         "in bounded regions (critical damping to alpha h = 6 at order 3, 3 at order 4); the error "
+         "test keeps order and step inside, so that violations decay for any gains and high gains "
+         "cost steps.";
 }
 
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,

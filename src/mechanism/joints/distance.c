@@ -50,9 +50,6 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
                          double *parameters)
 {
   baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
-  if (status != BAUM_OK) {
-    return status;
-  }
   const baum_planar_distance_def *def = joint->element.def;
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   numbers[LENGTH] = def->length;
@@ -65,7 +62,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
                        "%s: length is not given and is 0 m in the drawn pose, must be > 0",
                        baum_i_label(&joint->element, "joint", label));
   }
-  return BAUM_OK;
+  return status;
 }
 
 /* ---- one joint ---- */

@@ -62,9 +62,6 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
                          double *parameters)
 {
   baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
-  if (status != BAUM_OK) {
-    return status;
-  }
   const baum_planar_rack_and_pinion_def *def = joint->element.def;
   baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
@@ -73,7 +70,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   numbers[RADIUS] = def->radius;
   baum_i_planar_pair drawn = baum_i_planar_pair_of(parameters, &a, &b);
   numbers[OFFSET] = isnan(def->offset) ? rolled(&drawn) : def->offset;
-  return BAUM_OK;
+  return status;
 }
 
 /* ---- one joint ---- */
