@@ -15,7 +15,7 @@
 
 #define PI 3.14159265358979323846
 
-enum { ARMS = 60 };
+enum { ARMS = 60, NET = 300 };
 
 static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU, BAUM_SOLVER_QR,
                                       BAUM_SOLVER_BLOCK};
@@ -105,6 +105,18 @@ static int pull(double t, const double *q, const double *v, const double *inputs
   return 0;
 }
 
+static int pull_one(double t, const double *q, const double *v, const double *inputs, double *out,
+                    void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = 3.0;
+  return 0;
+}
+
 static int tie(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -132,6 +144,54 @@ static baum_mechanism *make_massless(void)
   same.row_count = 1;
   same.phi = tie;
   check(baum_mechanism_add_user_constraint(m, &same, NULL));
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* Particles, each tied to four others of which two are far away, so that no part hangs by few rods. */
+static baum_mechanism *make_net(void)
+{
+  baum_body_id bodies[NET];
+  baum_mechanism *m = NULL;
+  check(baum_mechanism_create(&m));
+  for (int k = 0; k < NET; k++) {
+    baum_planar_particle_def def = baum_planar_particle_def_default();
+    def.position[0] = sin(1.7 * k * k + 1.0);
+    def.position[1] = sin(2.3 * k * k + k);
+    check(baum_mechanism_add_planar_particle(m, &def, &bodies[k]));
+  }
+  baum_planar_distance_def rod = baum_planar_distance_def_default();
+  memset(rod.point_a, 0, sizeof rod.point_a);
+  memset(rod.point_b, 0, sizeof rod.point_b);
+  for (int k = 0; k < 2 * NET - 3; k++) {
+    int a = k % NET;
+    rod.body_a = bodies[a];
+    rod.body_b = bodies[k < NET ? (a + 1) % NET : (7 * a + 4) % NET]; /* never itself: 6 a + 4 */
+    check(baum_mechanism_add_planar_distance(m, &rod, NULL));
+  }
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* A mass that is known from a time on. */
+static int late_mass(double t, const double *q, double *out, void *user)
+{
+  (void)q;
+  (void)user;
+  out[0] = 2.0;
+  return t < 1.0 ? -1 : 0;
+}
+
+static baum_mechanism *make_late(void)
+{
+  baum_mechanism *m = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.name = "late";
+  def.size = 1;
+  def.mass = late_mass;
+  def.force = pull_one;
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_add_coordinates(m, &def, NULL));
   check(baum_mechanism_freeze(m));
   return m;
 }
@@ -259,6 +319,42 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   baum_mechanism_destroy(m);
 }
 
+static void nets_that_blocks_would_fill_are_told(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_net();
+  baum_simulation_options o = euler(BAUM_SOLVER_BLOCK);
+  assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
+                 "solver is block|the joints are so much of a net that blocks would fill");
+  baum_mechanism_destroy(m);
+}
+
+static void masses_that_are_not_known_as_drawn_are_told(void **state)
+{
+  (void)state;
+  baum_mechanism *m = make_late();
+  baum_report report;
+  check(baum_mechanism_report(m, &report, sizeof report));
+  assert_false(report.blocks);
+  assert_true(isnan(report.flops) && isnan(report.bytes));
+  assert_non_null(strstr(report.text, "\ncost          not known\n"));
+  assert_non_null(strstr(report.text, "\nspared        nothing"));
+  baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
+  o.start_time = 1.5;
+  o.step = 0.5;
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  baum_simulation *run = start(m, &o);
+  assert_explained(run, "\nsolver        klu on the whole system: mass or force cannot be "
+                        "evaluated in the drawn pose\n");
+  check(baum_simulation_step(run, 1));
+  ASSERT_NEAR(baum_simulation_v(run)[0], 0.75, 1e-15, 0.0);
+  baum_simulation_destroy(run);
+  o.solver = BAUM_SOLVER_BLOCK;
+  assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
+                 "solver is block|mass or force cannot be evaluated in the drawn pose");
+  baum_mechanism_destroy(m);
+}
+
 static void blocks_alone_stop_close_to_a_singular_pose(void **state)
 {
   (void)state;
@@ -310,6 +406,8 @@ int main(void)
     cmocka_unit_test(bodies_with_very_many_joints_are_named),
     cmocka_unit_test(many_joints_below_that_are_fine),
     cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
+    cmocka_unit_test(nets_that_blocks_would_fill_are_told),
+    cmocka_unit_test(masses_that_are_not_known_as_drawn_are_told),
     cmocka_unit_test(blocks_alone_stop_close_to_a_singular_pose),
     cmocka_unit_test(no_joints_are_no_nodes),
   };

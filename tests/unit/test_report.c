@@ -234,6 +234,73 @@ static void no_joints_cost_no_solution(void **state)
   ASSERT_NEAR(r.flops, 65.0, 0.0, 0.0);
 }
 
+static int unit_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  int size = *(int *)user;
+  for (int i = 0; i < size; i++) {
+    out[i * (size + 1)] = 1.0;
+  }
+  return 0;
+}
+
+static int first_is_zero(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0];
+  return 0;
+}
+
+static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                    void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)out;
+  (void)user;
+  return 0;
+}
+
+/* L y = f and L^T a = y once for the body and once for its row: n^2 each; and for every coordinate a number of J, 6,
+ * and of a force that changes. Sides come in threes. */
+static void the_factor_of_a_full_mass_matrix_is_counted(void **state)
+{
+  (void)state;
+  double flops[3];
+  double bytes[3];
+  for (int k = 0; k < 3; k++) {
+    int size = 4 + k;
+    baum_mechanism *m = begin();
+    baum_coordinates_def body = baum_coordinates_def_default();
+    baum_body_id id;
+    body.size = size;
+    body.mass = unit_mass;
+    body.force = no_force;
+    body.constant_mass = true;
+    body.user = &size;
+    must(baum_mechanism_add_coordinates(m, &body, &id));
+    baum_user_constraint_def row = baum_user_constraint_def_default();
+    row.bodies = &id;
+    row.body_count = 1;
+    row.row_count = 1;
+    row.phi = first_is_zero;
+    must(baum_mechanism_add_user_constraint(m, &row, NULL));
+    baum_report r = report_once(m);
+    assert_true(r.blocks);
+    assert_int_equal(r.nodes, 1);
+    flops[k] = r.flops;
+    bytes[k] = r.bytes;
+  }
+  ASSERT_NEAR(flops[1] - flops[0], 4.0 * (25.0 - 16.0) + 7.0, 0.0, 0.0);
+  ASSERT_NEAR(flops[2] - flops[1], 4.0 * (36.0 - 25.0) + 7.0, 0.0, 0.0);
+  /* The factor, and in each column what is told of it. */
+  ASSERT_NEAR(bytes[2] - 2.0 * bytes[1] + bytes[0], 2.0 * sizeof(double), 0.0, 0.0);
+}
+
 /* ---- where blocks do not suit ---- */
 
 static void a_hub_is_named_and_klu_counts(void **state)
@@ -292,6 +359,7 @@ int main(void)
     cmocka_unit_test(islands_are_counted),
     cmocka_unit_test(bodies_that_cannot_move_are_told),
     cmocka_unit_test(no_joints_cost_no_solution),
+    cmocka_unit_test(the_factor_of_a_full_mass_matrix_is_counted),
     cmocka_unit_test(a_hub_is_named_and_klu_counts),
     cmocka_unit_test(what_cannot_be_assembled_has_a_cost_nevertheless),
   };

@@ -1,0 +1,417 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Whichever call of a user's function fails, in whatever the library was asked for: that fails with the sentence of
+ * the function, nothing has changed, and the same is done right as soon as the function works again.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "check.h"
+#include "dynamics/dynamics.h"
+#include "step_mode.h"
+
+/* ---- a bead on a hoop, all of it by functions ---- */
+
+typedef struct fault {
+  int answer;   /* 0: NaN is given */
+  int64_t from; /* which call is the first to fail; 0: none */
+  int64_t calls;
+} fault;
+
+static int answer(fault *f, double *out)
+{
+  f->calls++;
+  if (f->from == 0 || f->calls < f->from) {
+    return 0;
+  }
+  if (f->answer == 0) {
+    out[0] = (double)NAN;
+  }
+  return f->answer;
+}
+
+static int bead_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  out[0] = 2.0 + 0.5 * q[0];
+  out[3] = 2.0 + 0.5 * q[0];
+  return answer(user, out);
+}
+
+static int bead_constant_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  out[0] = 2.0;
+  out[3] = 2.0;
+  return answer(user, out);
+}
+
+static int bead_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  out[1] = -20.0;
+  return answer(user, out);
+}
+
+static int bead_potential(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  out[0] = 20.0 * q[1];
+  return answer(user, out);
+}
+
+static int hoop_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  out[0] = 0.5 * (q[0] * q[0] + q[1] * q[1] - 1.0);
+  return answer(user, out);
+}
+
+static int hoop_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  out[0] = q[0];
+  out[1] = q[1];
+  return answer(user, out);
+}
+
+static int hoop_nu(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  return answer(user, out);
+}
+
+static int hoop_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  out[0] = -(v[0] * v[0] + v[1] * v[1]);
+  return answer(user, out);
+}
+
+static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *bead, fault *f)
+{
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.name = name;
+  def.bodies = bead;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.phi = hoop_phi;
+  def.jacobian = hoop_jacobian;
+  def.nu = hoop_nu;
+  def.gamma = hoop_gamma;
+  def.user = f;
+  check(baum_mechanism_add_user_constraint(m, &def, NULL));
+}
+
+/* Off the hoop, so that a run has to assemble it. */
+static const double DRAWN[2] = {0.48, 0.64};
+
+static baum_mechanism *bead_on_hoops(int hoops, bool constant_mass, fault *f)
+{
+  baum_mechanism *m = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  baum_body_id bead;
+  def.name = "bead";
+  def.size = 2;
+  def.q = DRAWN;
+  def.mass = constant_mass ? bead_constant_mass : bead_mass;
+  def.constant_mass = constant_mass;
+  def.force = bead_force;
+  def.potential = bead_potential;
+  def.user = f;
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_add_coordinates(m, &def, &bead));
+  for (int k = 0; k < hoops; k++) {
+    add_hoop(m, k == 0 ? "hoop" : "other hoop", &bead, f);
+  }
+  check(baum_mechanism_set_scale(m, 1.0));
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* ---- what is asked for ---- */
+
+enum { MOST_ROWS = 2, MOST_OUT = 16 };
+
+typedef struct request {
+  baum_workspace *w;
+  double q[2]; /* off the hoop */
+  double v[2];
+  double out[MOST_OUT];
+} request;
+
+typedef baum_status ask(request *r);
+
+static baum_status ask_phi(request *r)
+{
+  return baum_workspace_phi(r->w, 0.0, r->q, r->out);
+}
+
+static baum_status ask_jacobian(request *r)
+{
+  return baum_workspace_jacobian(r->w, 0.0, r->q, r->out);
+}
+
+static baum_status ask_nu(request *r)
+{
+  return baum_workspace_nu(r->w, 0.0, r->q, r->out);
+}
+
+static baum_status ask_mass(request *r)
+{
+  return baum_workspace_mass(r->w, 0.0, r->q, r->out);
+}
+
+static baum_status ask_gamma(request *r)
+{
+  return baum_workspace_gamma(r->w, 0.0, r->q, r->v, r->out);
+}
+
+static baum_status ask_force(request *r)
+{
+  return baum_workspace_force(r->w, 0.0, r->q, r->v, r->out);
+}
+
+static baum_status ask_energy(request *r)
+{
+  return baum_workspace_energy(r->w, 0.0, r->q, r->v, r->out, r->out + 1);
+}
+
+static baum_status ask_acceleration(request *r)
+{
+  return baum_workspace_acceleration(r->w, 0.0, r->q, r->v, 5.0, 5.0, r->out, r->out + 2);
+}
+
+static baum_status ask_reported(request *r)
+{
+  return baum_workspace_acceleration(r->w, 0.0, r->q, r->v, 0.0, 0.0, r->out, r->out + 2);
+}
+
+static baum_status ask_reaction(request *r)
+{
+  const double lambda[MOST_ROWS] = {3.0, 3.0};
+  return baum_workspace_reaction(r->w, 0.0, r->q, lambda, (baum_joint_id){1, r->w->mechanism->tag},
+                                 r->out);
+}
+
+static baum_status ask_residual(request *r)
+{
+  const baum_dae dae = {.index = BAUM_RESIDUAL_GGL};
+  const double y[4 + 2 * MOST_ROWS] = {r->q[0], r->q[1], r->v[0], r->v[1]};
+  return baum_workspace_residual(r->w, &dae, 0.0, y, y, r->out);
+}
+
+static baum_status ask_residual_jacobian(request *r)
+{
+  enum { SIZE = 4 + 2 * MOST_ROWS };
+  static int32_t columns[SIZE + 1];
+  static int32_t rows[SIZE * SIZE];
+  static double values[SIZE * SIZE];
+  const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1, .alpha = 5.0, .beta = 5.0};
+  const double y[SIZE] = {r->q[0], r->q[1], r->v[0], r->v[1]};
+  baum_sparse out = {columns, rows, values, 0};
+  baum_status status = baum_workspace_residual_jacobian(r->w, &dae, 1.0, 0.0, y, y, &out);
+  memcpy(r->out, values, sizeof r->out);
+  return status;
+}
+
+static baum_status ask_assemble(request *r)
+{
+  r->v[1] = (double)NAN;
+  return baum_workspace_assemble(r->w, 0.0, r->q, r->v, NULL, 0);
+}
+
+static baum_status ask_project(request *r)
+{
+  return baum_workspace_project(r->w, 0.0, r->q, r->v);
+}
+
+static ask *const ASKS[] = {
+  ask_phi,          ask_jacobian, ask_nu,       ask_mass,     ask_gamma,
+  ask_force,        ask_energy,   ask_reaction, ask_residual, ask_residual_jacobian,
+  ask_acceleration, ask_reported, ask_assemble, ask_project};
+enum { ASK_COUNT = sizeof ASKS / sizeof *ASKS };
+
+static request request_of(baum_workspace *w)
+{
+  return (request){.w = w, .q = {0.606, 0.808}, .v = {-0.8, 0.63}};
+}
+
+/* ---- what comes of it ---- */
+
+static const struct {
+  int answer;
+  baum_status status;
+  const char *sentence;
+} FAULTS[] = {
+  {-3, BAUM_ERR_CALLBACK, "returned -3 (stop)"},
+  {4, BAUM_ERR_CALLBACK, "returned 4 (retry)"},
+  {0, BAUM_ERR_NOT_FINITE, "nan"},
+};
+enum { FAULT_COUNT = 3 };
+
+/* Bits: v[1] may be NaN. */
+static void assert_same_numbers(const double *got, const double *want, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (!(isnan(got[i]) && isnan(want[i]))) {
+      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* pivots chosen anew round otherwise */
+    }
+  }
+}
+
+static void check_ask(baum_workspace *w, fault *f, int which)
+{
+  request want = request_of(w);
+  check(ASKS[which](&want)); /* once for what is kept: the metric of GGL */
+  want = request_of(w);
+  f->calls = 0;
+  check(ASKS[which](&want));
+  int64_t calls = f->calls;
+  for (int64_t n = 1; n <= calls * FAULT_COUNT; n++) {
+    int k = (int)(n % FAULT_COUNT);
+    request r = request_of(w);
+    f->answer = FAULTS[k].answer;
+    f->from = (n + FAULT_COUNT - 1) / FAULT_COUNT;
+    f->calls = 0;
+    baum_status status = ASKS[which](&r);
+    f->from = 0;
+    if (status != FAULTS[k].status || !strstr(baum_message(), FAULTS[k].sentence)) {
+      fail_msg("request %d, call %lld of %lld, answer %d: %s: %s", which,
+               (long long)((n + FAULT_COUNT - 1) / FAULT_COUNT), (long long)calls, FAULTS[k].answer,
+               baum_status_name(status), baum_message());
+    }
+    request before = request_of(w);
+    assert_memory_equal(r.q, before.q, sizeof r.q);
+    assert_true(r.v[0] == before.v[0]);
+    check(ASKS[which](&r));
+    assert_same_numbers(r.q, want.q, 2);
+    assert_same_numbers(r.v, want.v, 2);
+    assert_same_numbers(r.out, want.out, MOST_OUT);
+  }
+  assert_true(calls > 0);
+}
+
+/* By blocks, by either solver of the whole, and with a row that is left out. */
+static void a_workspace_passes_on_every_failing_call(void **state)
+{
+  (void)state;
+  static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR};
+  for (int k = 0; k < 3; k++) {
+    fault f = {0};
+    baum_mechanism *m = bead_on_hoops(1, false, &f);
+    baum_workspace *w = NULL;
+    check(baum_i_workspace_create(m, choices[k], &w));
+    for (int i = 0; i < ASK_COUNT; i++) {
+      check_ask(w, &f, i);
+    }
+    baum_workspace_destroy(w);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static void so_does_one_with_redundant_rows(void **state)
+{
+  (void)state;
+  fault f = {0};
+  baum_mechanism *m = bead_on_hoops(2, false, &f);
+  baum_workspace *w = NULL;
+  check(baum_workspace_create(m, &w));
+  assert_int_equal(w->redundancy.count, 1);
+  for (int i = 0; i < ASK_COUNT; i++) {
+    check_ask(w, &f, i);
+  }
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- runs ---- */
+
+static bool is_done(baum_status status)
+{
+  return status == BAUM_OK || status == BAUM_WARNED;
+}
+
+static bool is_of_fault(baum_status status, int k)
+{
+  return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].sentence);
+}
+
+/* Whether the run was made; it is at the end then, though a call may have failed on the way. */
+static bool check_run(const baum_mechanism *m, const baum_simulation_options *o, fault *f, int k)
+{
+  baum_simulation *run = NULL;
+  baum_status status = baum_simulation_create(m, o, &run);
+  if (status < BAUM_OK) {
+    f->from = 0;
+    if (!is_of_fault(status, k)) {
+      fail_msg("%s: %s", baum_status_name(status), baum_message());
+    }
+    assert_null(run);
+    return false;
+  }
+  status = baum_simulation_advance_to(run, 0.02);
+  f->from = 0;
+  if (!is_done(status) && !is_of_fault(status, k)) {
+    fail_msg("%s: %s: %s", baum_integrator_name(o->integrator), baum_status_name(status),
+             baum_message());
+  }
+  assert_true(isfinite(baum_simulation_q(run)[0]) && isfinite(baum_simulation_v(run)[0]));
+  assert_true(is_done(baum_simulation_advance_to(run, 0.02)));
+  assert_true(baum_simulation_time(run) == 0.02);
+  baum_simulation_destroy(run);
+  return true;
+}
+
+static void check_every_call(const baum_simulation_options *o, fault *f, bool constant_mass)
+{
+  *f = (fault){.from = 0};
+  baum_mechanism *m = bead_on_hoops(1, constant_mass, f);
+  assert_true(check_run(m, o, f, 0));
+  int64_t calls = f->calls;
+  int failed = 0;
+  for (int64_t n = 1; n <= calls; n += 1 + n / 20) {
+    int k = (int)(n % FAULT_COUNT);
+    *f = (fault){.answer = FAULTS[k].answer, .from = n};
+    failed += check_run(m, o, f, k) ? 0 : 1;
+  }
+  assert_in_range(failed, 10, calls - 1); /* at create, and not all */
+  baum_mechanism_destroy(m);
+}
+
+/* With either solver: assembled from afar, checked, started, advanced. */
+static void a_run_is_not_made_or_stops_and_goes_on(void **state)
+{
+  (void)state;
+  fault f;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    for (int solver = 0; solver < 2; solver++) {
+      baum_simulation_options o = step_mode_options(step_mode_at(k), 2e-3, 1e-4);
+      o.solver = solver == 0 ? BAUM_SOLVER_AUTO : BAUM_SOLVER_KLU;
+      check_every_call(&o, &f, o.integrator == baum_rattle());
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_workspace_passes_on_every_failing_call),
+    cmocka_unit_test(so_does_one_with_redundant_rows),
+    cmocka_unit_test(a_run_is_not_made_or_stops_and_goes_on),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,61 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Memory: nothing is too little to have a block, too much has none. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "base/alloc.h"
+
+static void counts_whose_bytes_cannot_be_counted_get_nothing(void **state)
+{
+  (void)state;
+  double *old = baum_i_alloc(1, sizeof *old);
+  assert_non_null(old);
+  *old = 3.0;
+  assert_null(baum_i_grow(old, SIZE_MAX, 1)); /* no power of two is as large */
+  assert_null(baum_i_grow(old, SIZE_MAX / 4, sizeof *old));
+  assert_null(baum_i_alloc(SIZE_MAX / 4, sizeof *old));
+  assert_true(*old == 3.0); /* and nothing is lost */
+  baum_i_free(old);
+}
+
+static void nothing_has_a_block_too(void **state)
+{
+  (void)state;
+  void *blocks[] = {baum_i_alloc(0, 8), baum_i_alloc(8, 0), baum_i_grow(NULL, 0, 8),
+                    baum_i_copy(NULL, 0, 8)};
+  for (int k = 0; k < 4; k++) {
+    assert_non_null(blocks[k]);
+    baum_i_free(blocks[k]);
+  }
+  baum_i_free(NULL);
+}
+
+static void what_grows_one_by_one_is_kept(void **state)
+{
+  (void)state;
+  int *numbers = NULL;
+  for (int k = 0; k < 100; k++) {
+    numbers = baum_i_grow_by_one(numbers, (size_t)k + 1, sizeof *numbers);
+    assert_non_null(numbers);
+    numbers[k] = k;
+  }
+  for (int k = 0; k < 100; k++) {
+    assert_int_equal(numbers[k], k);
+  }
+  baum_i_free(numbers);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(counts_whose_bytes_cannot_be_counted_get_nothing),
+    cmocka_unit_test(nothing_has_a_block_too),
+    cmocka_unit_test(what_grows_one_by_one_is_kept),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
