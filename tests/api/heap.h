@@ -38,6 +38,7 @@ static struct {
   long fail_to;        /* one past the last */
   bool inside;         /* of an excluded call */
   long may_still_fail; /* allocations inside of it that are not excluded */
+  bool gsl_answers;    /* as if its error handler were off */
 } heap;
 
 /* ---- watching ---- */
@@ -163,7 +164,8 @@ HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 
 /* gsl_interp_alloc() and gsl_interp_init() of GSL: its error handler, which belongs to the whole
  * program, ends it when they get no memory. The library tries beforehand whether there is enough,
- * and that may fail.
+ * and that may fail. In a program that has turned the handler off they answer instead; what they
+ * have got by then they do not free, so that here they fail as a whole.
  */
 #if BAUM_HAVE_GSL
 
@@ -179,6 +181,9 @@ int gsl_interp_init(void *spline, const double *x, const double *y, size_t size)
 
 HEAP_PUBLIC void *gsl_interp_alloc(const void *type, size_t size)
 {
+  if (heap.gsl_answers && heap_refuses()) {
+    return NULL;
+  }
   heap.inside = true;
   heap.may_still_fail = 0;
   void *spline = heap_real_alloc_spline(type, size);
@@ -188,6 +193,9 @@ HEAP_PUBLIC void *gsl_interp_alloc(const void *type, size_t size)
 
 HEAP_PUBLIC int gsl_interp_init(void *spline, const double *x, const double *y, size_t size)
 {
+  if (heap.gsl_answers && heap_refuses()) {
+    return 8; /* GSL_ENOMEM */
+  }
   heap.inside = true;
   heap.may_still_fail = 0;
   int code = heap_real_init_spline(spline, x, y, size);

@@ -14,7 +14,7 @@
 #include <cmocka.h>
 
 #include "every_element.h"
-#include "heap.h"
+#include "failing_heap.h"
 #include "step_mode.h"
 
 /* ---- what is run ---- */
@@ -251,41 +251,7 @@ static void evaluations_allocate_nothing(void **state)
 
 /* ---- every allocation may fail ---- */
 
-/* Something that cleans up after itself and returns its first failure. */
-typedef baum_status scenario(void *context);
-
 static void *const GARBAGE = (void *)(uintptr_t)16;
-
-static void fail_once(scenario *run, void *context, long n, bool for_good)
-{
-  long before = heap_blocks();
-  heap_fail(n, for_good);
-  baum_status status = run(context);
-  (void)heap_stop();
-  if (status != BAUM_OK && status != BAUM_ERR_MEMORY) {
-    fail_msg("allocation %ld%s: %s: %s", n, for_good ? " and all after it" : "",
-             baum_status_name(status), baum_message());
-  }
-  if (heap_blocks() != before) {
-    fail_msg("allocation %ld%s: %ld blocks are lost", n, for_good ? " and all after it" : "",
-             heap_blocks() - before);
-  }
-}
-
-/* First once without failure, which also lets libraries make what they keep for good. */
-static void fail_every_allocation(scenario *run, void *context)
-{
-  assert_int_equal(run(context), BAUM_OK);
-  long before = heap_blocks();
-  heap_watch();
-  assert_int_equal(run(context), BAUM_OK);
-  long allocations = heap_stop();
-  assert_int_equal(heap_blocks(), before);
-  for (long n = 0; n < allocations; n++) {
-    fail_once(run, context, n, false);
-    fail_once(run, context, n, true);
-  }
-}
 
 static baum_status build_everything(void *context)
 {

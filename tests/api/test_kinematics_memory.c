@@ -10,7 +10,7 @@
 #include <cmocka.h>
 
 #include "driven.h"
-#include "heap.h"
+#include "failing_heap.h"
 
 static baum_status go(baum_simulation *run, double from, double to)
 {
@@ -55,7 +55,7 @@ static void steps_and_outputs_allocate_nothing(void **state)
   }
 }
 
-static baum_status simulate(const baum_mechanism *mechanism)
+static baum_status simulate(void *mechanism)
 {
   baum_simulation *run = NULL;
   baum_status status = create(mechanism, &run);
@@ -76,20 +76,7 @@ static void a_run_survives_every_failing_allocation(void **state)
   }
   const drive motor = {.angle = 0.4, .rate = 1.0};
   baum_mechanism *mechanism = parallelogram_make(&motor);
-  assert_int_equal(simulate(mechanism), BAUM_OK);
-  long before = heap_blocks();
-  heap_watch();
-  assert_int_equal(simulate(mechanism), BAUM_OK);
-  long allocations = heap_stop();
-  for (long n = 0; n < allocations; n++) {
-    heap_fail(n, false);
-    baum_status status = simulate(mechanism);
-    (void)heap_stop();
-    if ((status != BAUM_OK && status != BAUM_ERR_MEMORY) || heap_blocks() != before) {
-      fail_msg("allocation %ld: %s: %s; %ld blocks are lost", n, baum_status_name(status),
-               baum_message(), heap_blocks() - before);
-    }
-  }
+  fail_every_allocation(simulate, mechanism);
   baum_mechanism_destroy(mechanism);
 }
 
