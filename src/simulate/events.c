@@ -242,6 +242,15 @@ static baum_status begin_last(baum_simulation *run)
   return BAUM_OK;
 }
 
+/* A run without events has none of this, as before. */
+static void drop_if_empty(baum_simulation *run)
+{
+  if (run->events && run->events->count == 0) {
+    baum_i_events_destroy(run->events);
+    run->events = NULL;
+  }
+}
+
 /* ---- public ---- */
 
 static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
@@ -282,7 +291,9 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status == BAUM_OK && index) {
+  if (status != BAUM_OK) {
+    drop_if_empty(simulation);
+  } else if (index) {
     *index = number;
   }
   return status;

@@ -417,14 +417,18 @@ static int waiting(const baum_study *study)
   return count;
 }
 
-static bool some_to_measure(const baum_study *study)
+/* Rows to be measured, or that may have to be rehearsed once they are timed, are compared with it. */
+static bool needs_reference(crew *c)
 {
+  const baum_study *study = c->study;
   for (int k = 0; k < study->row_count; k++) {
-    if (!study->rows[k]->measured) {
+    const baum_i_row *row = study->rows[k];
+    bool is_timed_first = row->out.state == BAUM_STUDY_DONE && !row->timed && !row->rehearsed;
+    if (!row->measured || (study->options.rehearse && is_timed_first)) {
       return true;
     }
   }
-  return false;
+  return order_rehearsals(c);
 }
 
 static bool wants_check(const baum_study *study)
@@ -441,7 +445,7 @@ static baum_status prepare(crew *c)
 {
   baum_study *study = c->study;
   baum_status status = BAUM_OK;
-  if (!some_to_measure(study) && !order_rehearsals(c) && study->reference.known) {
+  if (study->reference.known && !needs_reference(c)) {
     return BAUM_OK;
   }
   if (wants_check(study) && !study->reference.known) {

@@ -218,7 +218,7 @@ static void take_rehearsed(const baum_study *study, baum_i_row *row, const char 
   (void)study;
   baum_study_row out = row->out;
   rest = baum_i_study_read_fields(rest, &out, &baum_i_rehearsed_fields);
-  if (!rest || *rest || !row->timed) {
+  if (!rest || *rest || !row->measured || row->out.state != BAUM_STUDY_DONE) {
     return;
   }
   row->filed |= FILED_REHEARSED;
