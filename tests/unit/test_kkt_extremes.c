@@ -11,6 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "linear/scale.h"
 #include "saddle_solver.h"
 
 #define PI 3.14159265358979323846
@@ -360,6 +361,90 @@ static void at_a_singular_position_qr_takes_over_and_hands_back(void **state)
   saddle_free(&system);
 }
 
+/* ---- contradictions ---- */
+
+/* The first row three times, to a part of the last bits or not at all. */
+static saddle make_repeated(double error)
+{
+  saddle system = saddle_make_dense(4, 4);
+  uint64_t seed = 23;
+  for (int j = 0; j < 4; j++) {
+    system.mass[(ptrdiff_t)5 * j] = 1.0 + j;
+    system.f[j] = saddle_random(&seed);
+    double x = saddle_random(&seed);
+    for (int i = 0; i < 3; i++) {
+      system.jacobian[4 * i + j] = (1.0 + i) * x; /* of another length */
+    }
+    system.jacobian[12 + j] = saddle_random(&seed);
+  }
+  for (int i = 0; i < 4; i++) {
+    system.r[i] = 1.0 + i;
+  }
+  system.r[1] += error;
+  return system;
+}
+
+static void rows_that_repeat_each_other_share_their_multiplier(void **state)
+{
+  (void)state;
+  static const baum_i_kkt_choice able[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR};
+  for (int k = 0; k < 4; k++) {
+    saddle system = make_repeated(k % 2 == 0 ? 0.0 : 1e-10); /* below 1e-8 of the right side */
+    baum_i_kkt *kkt = make_solver(&system, able[k / 2]);
+    assert_int_equal(factor(kkt, &system), BAUM_OK);
+    assert_int_equal(solve(kkt, &system), BAUM_OK);
+    assert_int_equal(baum_i_kkt_get_quality(kkt), BAUM_I_KKT_NEAR_SINGULAR);
+    double row[4] = {0.0};
+    baum_i_jacobian_times(&system.structure, system.jacobian, system.a, row);
+    for (int i = 0; i < 4; i++) {
+      ASSERT_NEAR(row[i], system.r[i], 0.0, k % 2 == 0 ? 1e-13 : 1e-10);
+    }
+    baum_i_kkt_destroy(kkt);
+    saddle_free(&system);
+  }
+}
+
+/* By either sign and up to sizes that hide all else; and what does not contradict is solved again. */
+static void rows_that_contradict_each_other_are_singular(void **state)
+{
+  (void)state;
+  static const double errors[] = {1e-6, -1e-3, 1.0, -1e3, 1e12};
+  for (int k = 0; k < CHOICES; k++) {
+    for (int e = 0; e < 5; e++) {
+      saddle system = make_repeated(errors[e]);
+      baum_i_kkt *kkt = make_solver(&system, choices[k]);
+      baum_status status = factor(kkt, &system);
+      /* KLU alone sees the rank, and that ends it; least squares see the rows. */
+      assert_int_equal(status, choices[k] == BAUM_I_KKT_KLU ? BAUM_ERR_SINGULAR : BAUM_OK);
+      system.a[0] = 123.0;
+      assert_int_equal(solve(kkt, &system), BAUM_ERR_SINGULAR);
+      assert_true(system.a[0] == 123.0);
+      system.r[1] -= errors[e];
+      assert_int_equal(solve(kkt, &system), status);
+      baum_i_kkt_destroy(kkt);
+      saddle_free(&system);
+    }
+  }
+}
+
+static void scales_of_the_least_and_largest_numbers_are_powers_of_two(void **state)
+{
+  (void)state;
+  static const double sizes[] = {0x1p-1074, 0x1p-1020, 1.0, 0x1p+1023};
+  for (int k = 0; k < 16; k++) {
+    saddle system = saddle_make_dense(2, 1);
+    double scale[3];
+    system.mass[0] = system.mass[3] = sizes[k / 4];
+    system.jacobian[0] = sizes[k % 4];
+    baum_i_scale_compute(&system.structure, &system.values, scale);
+    for (int i = 0; i < 3; i++) {
+      int exponent;
+      assert_true(isnormal(scale[i]) && frexp(scale[i], &exponent) == 0.5);
+    }
+    saddle_free(&system);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -376,6 +461,9 @@ int main(void)
     cmocka_unit_test(accuracy_falls_only_as_fast_as_the_singular_position_nears),
     cmocka_unit_test(close_to_a_singular_position_the_solver_says_so),
     cmocka_unit_test(at_a_singular_position_qr_takes_over_and_hands_back),
+    cmocka_unit_test(rows_that_repeat_each_other_share_their_multiplier),
+    cmocka_unit_test(rows_that_contradict_each_other_are_singular),
+    cmocka_unit_test(scales_of_the_least_and_largest_numbers_are_powers_of_two),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
