@@ -423,14 +423,19 @@ static bool has_cancelled(const baum_i_block *block)
   return before > CANCELLED * after;
 }
 
+static baum_i_pivots factor(baum_i_block_path *path)
+{
+  path->kernel->couple(path->block);
+  path->factorizations++;
+  return path->kernel->eliminate(path->block);
+}
+
 /* last: nobody corrects the result, so that its residual is looked at. */
 static baum_status solve(baum_i_block_path *path, bool last, double *lambda)
 {
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
-  kernel->couple(block);
-  path->factorizations++;
-  baum_i_pivots pivots = kernel->eliminate(block);
+  baum_i_pivots pivots = factor(path);
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
@@ -452,8 +457,9 @@ static void clear_dropped(baum_workspace *w)
   }
 }
 
-baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q, const double *v,
-                                    const baum_i_right_side *right)
+/* All that the block wants to know of a state. */
+static baum_status set(baum_workspace *w, double t, const double *q, const double *v,
+                       const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->jacobian_ready = false; /* half of it is overwritten where a function fails */
@@ -471,6 +477,26 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
   set_nodes(w, v, right);
   if (right->row_gains) {
     add_row_gains(w, right);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_block_path_factor(baum_workspace *w, double t, const double *q)
+{
+  const baum_i_right_side nothing = {0};
+  baum_status status = set(w, t, q, NULL, &nothing);
+  if (status == BAUM_OK) {
+    (void)factor(w->path);
+  }
+  return status;
+}
+
+baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q, const double *v,
+                                    const baum_i_right_side *right)
+{
+  baum_status status = set(w, t, q, v, right);
+  if (status != BAUM_OK) {
+    return status;
   }
   /* Positions are projected by several solutions, velocities by one. */
   status = solve(w->path, v && !right->force, w->lambda);

@@ -60,6 +60,9 @@ typedef struct baum_i_right_side {
 baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const double *q,
                                     const double *v, const baum_i_right_side *right);
 
+/* Pivots alone, also where they are bad. */
+baum_status baum_i_block_path_factor(baum_workspace *workspace, double t, const double *q);
+
 /* One evaluation, refinement, forces and functions of the user left out. path_cost.c */
 baum_i_cost baum_i_block_path_cost(const baum_mechanism *mechanism, const baum_i_block_path *path);
 

@@ -146,7 +146,7 @@ baum_status baum_i_need_jacobian(baum_workspace *workspace);
 baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, const double *q,
                                          const double *v);
 
-/* ---- pivot.c: after a solution ---- */
+/* ---- pivot.c ---- */
 
 /* Below this share of what it usually is the pose is near a singular one: at a seventh of the distance of ordinary
  * ones. */
@@ -157,6 +157,10 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 double baum_i_smallest_pivot(const baum_workspace *workspace);
 /* The joint that has it, -1: none. */
 int baum_i_smallest_pivot_joint(const baum_workspace *workspace);
+/* Of a state that needs no solution: a, lambda and what was evaluated are not to be read. Blocks stay with blocks, so that
+ * pivots go on without a jump where others solve. Statuses of baum_i_motion(). */
+baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
+                              const double *v);
 
 /* ---- energy.c, reaction.c ---- */
 

@@ -10,6 +10,7 @@
 #include <math.h>
 
 #include "dynamics/block_path.h"
+#include "dynamics/immobile.h"
 
 /* A light rotation lets the diagonal of S alone come and go with the direction of the arm. */
 static double pivot_of_pin(const baum_i_block *block, int k)
@@ -68,4 +69,17 @@ int baum_i_smallest_pivot_joint(const baum_workspace *w)
     row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
   }
   return row < 0 ? -1 : baum_i_row_joint(w->mechanism, row);
+}
+
+/* Without blocks a solution costs little more than its factors. */
+baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
+{
+  if (!baum_i_motion_path(w)) {
+    return baum_i_motion(w, t, q, v, 0.0, 0.0);
+  }
+  baum_i_block_path *whole = baum_i_enter_motion(w);
+  baum_status status = baum_i_block_path_factor(w, t, q);
+  w->solved_by = w->path;
+  baum_i_leave_motion(w, whole);
+  return status;
 }

@@ -16,6 +16,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/least.h"
 #include "simulate/passage.h"
 
 /* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began at 0.9. Polynomials over
@@ -37,59 +38,43 @@ static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count
   baum_i_passages *p = run->passages;
   baum_i_hermite(knots, count, p->nv, t, p->at.q, p->at.v);
   p->at.t = t;
-  if (baum_i_motion(run->workspace, t, p->at.q, p->at.v, 0.0, 0.0) != BAUM_OK) {
+  if (baum_i_find_pivot(run->workspace, t, p->at.q, p->at.v) != BAUM_OK) {
     return run->workspace->point.retry ? (double)INFINITY : 0.0;
   }
   return baum_i_smallest_pivot(run->workspace) / p->usual;
 }
 
-typedef struct least_pivot {
-  double t;
-  double pivot;
+/* The motion that is looked at, and the joint of its least pivot so far. */
+typedef struct look {
+  baum_simulation *run;
+  const baum_i_knot *knots;
+  int count;
+  double least;
   int joint;
-} least_pivot;
+} look;
 
-static double look_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
-                      least_pivot *least)
+static double look_at(void *user, double t)
 {
-  double pivot = pivot_at(run, knots, count, t);
-  if (pivot < least->pivot) {
-    *least = (least_pivot){t, pivot, baum_i_smallest_pivot_joint(run->workspace)};
+  look *in = user;
+  double pivot = pivot_at(in->run, in->knots, in->count, t);
+  if (pivot < in->least) {
+    in->least = pivot;
+    in->joint = baum_i_smallest_pivot_joint(in->run->workspace);
   }
   return pivot;
 }
 
-/* Golden section until the time is known to a millionth of the span; then pivots are known to its square. Next to the
- * pose another solver takes over, whose pivots are larger and depend on what it has solved before: the least of all
- * counts, not the last one. */
+/* When the time is known to a millionth of the span pivots are known to its square. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
-                                 const double span[2], double *at, int *joint)
+                                 double *at, int *joint)
 {
-  static const double GOLDEN = 0.6180339887498949;
-  double a = span[0];
-  double b = span[1];
-  least_pivot least = {a, (double)INFINITY, -1};
-  double x[2] = {b - GOLDEN * (b - a), a + GOLDEN * (b - a)};
-  double p[2] = {look_at(run, knots, count, x[0], &least),
-                 look_at(run, knots, count, x[1], &least)};
-  for (int k = 0; k < 30; k++) {
-    if (p[0] < p[1]) {
-      b = x[1];
-      x[1] = x[0];
-      p[1] = p[0];
-      x[0] = b - GOLDEN * (b - a);
-      p[0] = look_at(run, knots, count, x[0], &least);
-    } else {
-      a = x[0];
-      x[0] = x[1];
-      p[0] = p[1];
-      x[1] = a + GOLDEN * (b - a);
-      p[1] = look_at(run, knots, count, x[1], &least);
-    }
-  }
-  *at = least.t;
-  *joint = least.joint;
-  return least.pivot;
+  look in = {run, knots, count, (double)INFINITY, -1};
+  double first = knots[0].t;
+  double last = knots[count - 1].t;
+  const double ends[2] = {fmin(first, last), fmax(first, last)};
+  double pivot = baum_i_least(look_at, &in, ends, 1e-6 * (ends[1] - ends[0]), 32, at);
+  *joint = in.joint;
+  return pivot;
 }
 
 /* ---- gap ---- */

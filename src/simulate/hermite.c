@@ -1,45 +1,58 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's form with every time taken twice, z_0 = z_1 = t_0, z_2 = z_3 = t_1, ...:
+/* With l_k the Lagrange polynomials of the times, l_k(t_i) = 1 for i = k and 0 else, and s_k = l_k'(t_k):
  *
- *   p(t) = sum_k f[z_0 ... z_k] (t - z_0) ... (t - z_(k-1)),  f[z_i z_i] = v_i
+ *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 v_k
  *
- * (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.)
+ * (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The factors of q_k and v_k are the same for
+ * all coordinates. Those of the q_k have the sum 1, their rates the sum 0: q_k - q_0 stands for q_k, so that angles after
+ * many turns lose nothing.
  */
 #include "simulate/hermite.h"
 
-#include <stdbool.h>
+/* What belongs to a knot at a time. */
+typedef struct factors {
+  double q;
+  double v;
+  double q_rate;
+  double v_rate;
+} factors;
 
-enum { ORDER = 2 * BAUM_I_HERMITE_MOST };
-
-/* f[z_0 ... z_k] of coordinate i. */
-static void divided_differences(const baum_i_knot *knots, int count, int i, double f[ORDER])
+static factors find_factors(const baum_i_knot *knots, int count, int k, double t)
 {
-  int n = 2 * count;
-  for (int k = 0; k < n; k++) {
-    f[k] = knots[k / 2].q[i];
-  }
-  for (int order = 1; order < n; order++) {
-    for (int k = n - 1; k >= order; k--) {
-      double apart = knots[k / 2].t - knots[(k - order) / 2].t;
-      bool twice = order == 1 && k % 2 == 1;
-      f[k] = twice ? knots[k / 2].v[i] : (f[k] - f[k - 1]) / apart;
+  double l = 1.0;
+  double rate = 0.0; /* of l */
+  double slope = 0.0;
+  for (int i = 0; i < count; i++) {
+    if (i != k) {
+      double apart = knots[k].t - knots[i].t;
+      double share = (t - knots[i].t) / apart;
+      rate = rate * share + l / apart;
+      l *= share;
+      slope += 1.0 / apart;
     }
   }
+  double x = t - knots[k].t;
+  double square = l * l;
+  double square_rate = 2.0 * l * rate;
+  double line = 1.0 - 2.0 * slope * x;
+  return (factors){line * square, x * square, line * square_rate - 2.0 * slope * square,
+                   square + x * square_rate};
 }
 
 void baum_i_hermite(const baum_i_knot *knots, int count, int n, double t, double *q, double *v)
 {
-  double f[ORDER];
   for (int i = 0; i < n; i++) {
-    divided_differences(knots, count, i, f);
-    double value = f[2 * count - 1];
-    double rate = 0.0;
-    for (int k = 2 * count - 2; k >= 0; k--) {
-      double x = t - knots[k / 2].t;
-      rate = rate * x + value;
-      value = value * x + f[k];
+    q[i] = v[i] = 0.0;
+  }
+  for (int k = 0; k < count; k++) {
+    factors f = find_factors(knots, count, k, t);
+    for (int i = 0; i < n; i++) {
+      double from_first = knots[k].q[i] - knots[0].q[i];
+      q[i] += f.q * from_first + f.v * knots[k].v[i];
+      v[i] += f.q_rate * from_first + f.v_rate * knots[k].v[i];
     }
-    q[i] = value;
-    v[i] = rate;
+  }
+  for (int i = 0; i < n; i++) {
+    q[i] += knots[0].q[i];
   }
 }

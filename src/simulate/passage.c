@@ -182,11 +182,10 @@ static void begin(baum_i_passages *p, double from)
 static void search(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
-  const double span[2] = {p->recent[0].t, p->recent[2].t};
   baum_i_passage *present = &p->present;
   double at = 0.0;
   int joint = -1;
-  double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, span, &at, &joint);
+  double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
   if (pivot < present->smallest) {
     present->smallest = pivot;
     present->at = at;
@@ -381,7 +380,7 @@ static void look_between(baum_simulation *run, double t)
   baum_status status =
     run->integrator->interpolate(run->self, &run->problem, t, between.q, between.v);
   if (status == BAUM_OK) {
-    status = baum_i_motion(run->workspace, t, between.q, between.v, 0.0, 0.0);
+    status = baum_i_find_pivot(run->workspace, t, between.q, between.v);
   }
   if (status == BAUM_OK) {
     baum_i_passages_note(run, &between);
@@ -401,7 +400,7 @@ void baum_i_passages_step(baum_simulation *run, const baum_i_state *end)
   baum_i_message_keep(&kept);
   int64_t near_singular = w->near_singular;
   baum_status status = run->integrator->solves_residuals
-                         ? baum_i_motion(w, end->t, end->q, end->v, 0.0, 0.0)
+                         ? baum_i_find_pivot(w, end->t, end->q, end->v)
                          : BAUM_OK;
   double pivot = baum_i_smallest_pivot(w);
   int joint = baum_i_smallest_pivot_joint(w);

@@ -63,10 +63,10 @@ void baum_i_passages_step(baum_simulation *run, const baum_i_state *end);
 void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
                           baum_near_singular *out);
 
-/* branch.c: least pivot, of the usual one, of the motion through `knots` between two times; time and joint of it. The
- * state there is left in passages->at. INFINITY where evaluations fail. */
+/* branch.c: least pivot, of the usual one, of the motion through `knots` from the first to the last; time and joint of it.
+ * INFINITY where evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
-                                 const double span[2], double *at, int *joint);
+                                 double *at, int *joint);
 
 /* branch.c: is there no singular pose near the last recent state, or near the motion through the recent ones at t, where
  * its pivot is given? */
