@@ -431,6 +431,81 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+/* ---- more numbers than an int can count ---- */
+
+static int never_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)out;
+  (void)user;
+  fail();
+  return 0;
+}
+
+static int never_force(double t, const double *q, const double *v, const double *inputs,
+                       double *out, void *user)
+{
+  (void)v;
+  (void)inputs;
+  return never_mass(t, q, out, user);
+}
+
+enum { HUGE_BODIES = 22, HUGE_SIZE = 10000 };
+
+static baum_mechanism *make_huge(int count, baum_body_id *ids)
+{
+  baum_mechanism *mechanism = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = HUGE_SIZE;
+  def.mass = never_mass;
+  def.force = never_force;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  for (int k = 0; k < count; k++) {
+    assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, &ids[k]), BAUM_OK);
+  }
+  return mechanism;
+}
+
+static void check_too_large(baum_mechanism *mechanism, const char *element)
+{
+  char sentence[120];
+  (void)snprintf(sentence, sizeof sentence,
+                 "%s|the mechanism has more than 2147483647 matrix entries here", element);
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT, sentence);
+  assert_false(baum_mechanism_is_frozen(mechanism));
+  baum_mechanism_destroy(mechanism);
+}
+
+/* 10000^2 of a mass, of rows and of a force, of which 21 can be counted. */
+static void freezing_refuses_matrices_too_large_to_count(void **state)
+{
+  (void)state;
+  baum_body_id ids[HUGE_BODIES];
+  baum_mechanism *mechanism = make_huge(HUGE_BODIES, ids);
+  check_too_large(mechanism, "body 22 ");
+
+  mechanism = make_huge(1, ids);
+  baum_user_constraint_def rows = baum_user_constraint_def_default();
+  rows.bodies = ids;
+  rows.body_count = 1;
+  rows.row_count = HUGE_SIZE;
+  rows.phi = never_mass;
+  for (int k = 0; k < HUGE_BODIES; k++) {
+    assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &rows, NULL), BAUM_OK);
+  }
+  check_too_large(mechanism, "joint 22 ");
+
+  /* One of three bodies has 9e8 numbers, and needs thrice as many to find them. */
+  mechanism = make_huge(3, ids);
+  baum_user_force_def force = baum_user_force_def_default();
+  force.bodies = ids;
+  force.body_count = 3;
+  force.force = never_force;
+  assert_int_equal(baum_mechanism_add_user_force(mechanism, &force, NULL), BAUM_OK);
+  check_too_large(mechanism, "force 1 ");
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -447,6 +522,7 @@ int main(void)
     cmocka_unit_test(nothing_is_added_or_set_after_freeze),
     cmocka_unit_test(gravity_and_scale_out_of_range_are_refused),
     cmocka_unit_test(freezing_refuses_points_that_do_not_fit),
+    cmocka_unit_test(freezing_refuses_matrices_too_large_to_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

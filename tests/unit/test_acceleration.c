@@ -249,6 +249,55 @@ static void stabilization_pulls_a_violated_pendulum_back(void **state)
   model_destroy(&m);
 }
 
+static int mass_by_place(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0];
+  return 0;
+}
+
+static int force_of_six(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = 6.0;
+  return 0;
+}
+
+/* Blocks divide by the mass's root; what has none goes to the solver of the whole, and what is zero to nobody. */
+static void a_mass_that_is_positive_no_more_is_handed_over(void **state)
+{
+  (void)state;
+  static const double drawn = 2.0;
+  baum_mechanism *m = NULL;
+  baum_workspace *w = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = 1;
+  def.q = &drawn;
+  def.mass = mass_by_place;
+  def.force = force_of_six;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  static const double masses[] = {3.0, -3.0, 0.0, 1.5};
+  for (int k = 0; k < 4; k++) {
+    double q = masses[k];
+    double v = 0.0;
+    double a = 7.0;
+    baum_status status = baum_workspace_acceleration(w, 0.0, &q, &v, 0.0, 0.0, &a, NULL);
+    assert_int_equal(status, masses[k] == 0.0 ? BAUM_ERR_SINGULAR : BAUM_OK);
+    ASSERT_NEAR(a, masses[k] == 0.0 ? 7.0 : 6.0 / masses[k], 1e-15, 0.0);
+  }
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -257,6 +306,7 @@ int main(void)
     cmocka_unit_test(reactions_on_each_body_balance_inertia_and_weight),
     cmocka_unit_test(joints_that_end_on_ground_give_the_reaction_on_ground),
     cmocka_unit_test(stabilization_pulls_a_violated_pendulum_back),
+    cmocka_unit_test(a_mass_that_is_positive_no_more_is_handed_over),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -11,6 +11,7 @@
 #include "assert_near.h"
 #include "dynamics/dynamics.h"
 #include "models.h"
+#include "sentence.h"
 
 enum { NV = 9, NC = 8 };
 
@@ -151,6 +152,73 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   baum_mechanism_destroy(m);
 }
 
+static int half_a_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
+                    void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)inputs;
+  (void)out;
+  (void)user;
+  return 0;
+}
+
+static int first_is_three(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0] - 3.0;
+  return 0;
+}
+
+/* The metric says nothing of it: klu cannot tell where it is to go, least squares leave it where it is. */
+static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
+{
+  (void)state;
+  static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_QR, BAUM_I_KKT_KLU};
+  static const double drawn[2] = {2.9, 0.7};
+  baum_mechanism *m = NULL;
+  baum_body_id body;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = 2;
+  def.q = drawn;
+  def.mass = half_a_mass;
+  def.force = no_force;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_coordinates(m, &def, &body), BAUM_OK);
+  baum_user_constraint_def row = baum_user_constraint_def_default();
+  row.bodies = &body;
+  row.body_count = 1;
+  row.row_count = 1;
+  row.phi = first_is_three;
+  assert_int_equal(baum_mechanism_add_user_constraint(m, &row, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  for (int k = 0; k < 3; k++) {
+    baum_workspace *w = NULL;
+    double q[2] = {drawn[0], drawn[1]};
+    double v[2] = {0.0, 0.0};
+    assert_int_equal(baum_i_workspace_create(m, choices[k], &w), BAUM_OK);
+    baum_status status = baum_workspace_assemble(w, 0.5, q, v, NULL, 0);
+    if (choices[k] == BAUM_I_KKT_KLU) {
+      ASSERT_SAYS(status, BAUM_ERR_SINGULAR, "t = 0.5 s: assembly: the equations are singular");
+    }
+    ASSERT_NEAR(q[0], status == BAUM_OK ? 3.0 : drawn[0], 1e-14, 0.0);
+    assert_true(q[1] == drawn[1]);
+    baum_workspace_destroy(w);
+  }
+  baum_mechanism_destroy(m);
+}
+
 static void projection_returns_to_the_constraints_from_nearby(void **state)
 {
   (void)state;
@@ -248,6 +316,7 @@ int main(void)
     cmocka_unit_test(held_bodies_that_contradict_are_refused_and_nothing_changes),
     cmocka_unit_test(
       of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_the_masses),
+    cmocka_unit_test(what_has_neither_mass_nor_joint_stays_or_is_refused),
     cmocka_unit_test(projection_returns_to_the_constraints_from_nearby),
     cmocka_unit_test(projection_moves_a_consistent_state_by_rounding_only),
     cmocka_unit_test(projection_of_velocities_is_least_in_the_metric_of_the_masses),

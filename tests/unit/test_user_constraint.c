@@ -193,6 +193,11 @@ static void every_difference_passes_a_failure_on(void **state)
     assert_int_equal(baum_i_mechanism_jacobian(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_nu(&p.point, out), BAUM_ERR_CALLBACK);
     assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
+    p.v[0] = 0.1; /* so slow that it is asked whether Phi changes with t alone */
+    test_point_update(&p);
+    f.calls = 0;
+    assert_int_equal(baum_i_mechanism_gamma(&p.point, out), BAUM_ERR_CALLBACK);
+    assert_int_equal(f.calls, 1);
     const baum_i_joint_blocks blocks[] = {
       {.jw_q = out}, {.jtl_q = out}, {.gamma_q = out}, {.gamma_v = out}, {.nu_q = out}};
     for (int b = 0; b < 5; b++) {
