@@ -203,14 +203,13 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
 /* ---- finite.c ---- */
 
 /* BAUM_ERR_NOT_FINITE, which names the joint or the body, where a number is not finite: of rows (nc), of velocities
- * (nv), of M, of J. `what` is what the numbers are. */
+ * (nv), of J. `what` is what the numbers are. */
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
 baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
-baum_status baum_i_check_mass(const baum_workspace *w);
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
-/* BAUM_ERR_NOT_FINITE: names whose number in M, J, force or rhs is not finite. */
+/* BAUM_ERR_NOT_FINITE: names whose number in J, force or rhs is not finite. */
 baum_status baum_i_fail_not_finite(const baum_workspace *w);
 
 /* ---- project.c, assemble.c, redundancy.c ---- */

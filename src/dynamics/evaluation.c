@@ -171,9 +171,6 @@ baum_status baum_workspace_mass(baum_workspace *workspace, double t, const doubl
   }
   baum_i_point_set(&workspace->point, t, q, NULL);
   status = baum_i_evaluate_mass(workspace);
-  if (status == BAUM_OK) {
-    status = baum_i_check_mass(workspace);
-  }
   if (status != BAUM_OK) {
     return status;
   }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Whose number is not finite: masses, forces and coordinates that are large enough overflow, though each of them is
- * a number that a definition may have.
+ * a number that a definition may have. M itself is always finite: of definitions, or of a function that is looked at.
  */
 #include <math.h>
 
@@ -51,19 +51,6 @@ baum_status baum_i_check_velocities(const baum_workspace *w, const char *what, c
   return i < 0 ? BAUM_OK : fail_velocity(w, what, i, values[i]);
 }
 
-baum_status baum_i_check_mass(const baum_workspace *w)
-{
-  for (int k = 0; k < w->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
-    const double *values = w->mass + block->value;
-    int i = first_not_finite(values, block->size * block->size);
-    if (i >= 0) {
-      return fail_velocity(w, "mass", block->first, values[i]);
-    }
-  }
-  return BAUM_OK;
-}
-
 baum_status baum_i_check_jacobian(const baum_workspace *w)
 {
   for (int k = 0; k < w->structure.row_block_count; k++) {
@@ -79,10 +66,7 @@ baum_status baum_i_check_jacobian(const baum_workspace *w)
 
 baum_status baum_i_fail_not_finite(const baum_workspace *w)
 {
-  baum_status status = baum_i_check_mass(w);
-  if (status == BAUM_OK) {
-    status = baum_i_check_jacobian(w);
-  }
+  baum_status status = baum_i_check_jacobian(w);
   if (status == BAUM_OK) {
     status = baum_i_check_velocities(w, "force", w->force);
   }

@@ -315,6 +315,8 @@ static void workspaces_refuse_the_rest_by_name(void **state)
   ASSERT_SAYS(baum_workspace_residual(w, &dae, 0.0, y, y, y), BAUM_ERR_ARGUMENT,
               "index is 5, must be 1, 2, 3 or 4 (GGL)");
   ASSERT_SAYS(baum_workspace_residual(w, NULL, 0.0, y, y, y), BAUM_ERR_ARGUMENT, "dae is NULL");
+  ASSERT_SAYS(baum_workspace_residual_jacobian(w, &dae, 1.0, 0.0, y, y, NULL), BAUM_ERR_ARGUMENT,
+              "baum_workspace_residual_jacobian: the output is NULL");
   dae = (baum_dae){.index = BAUM_RESIDUAL_INDEX1, .alpha = (double)NAN};
   ASSERT_SAYS(baum_workspace_residual(w, &dae, 0.0, y, y, y), BAUM_ERR_ARGUMENT, "alpha");
   ASSERT_SAYS(baum_workspace_reaction(w, 0.0, q, y, others.rod, v), BAUM_ERR_ARGUMENT,
