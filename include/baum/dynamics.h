@@ -10,7 +10,8 @@
  *  Threads: one workspace is used by one thread at a time; any number may share a mechanism.
  *  NULL: q, v and every array are required unless an argument says otherwise.
  *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
- *  BAUM_ERR_NOT_FINITE (the message names the element), and what its own text adds.
+ *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (from a function of the user that
+ *  the workspace is calling), and what its own text adds.
  */
 #ifndef BAUM_DYNAMICS_H
 #define BAUM_DYNAMICS_H

@@ -17,6 +17,9 @@
  *  Callbacks: q and v hold the coordinates of the named bodies one after the other; matrices are
  *  dense and row-major, zeroed before the call; return 0 when fine, > 0 to ask for a smaller
  *  step, < 0 to stop the run. They must be reentrant when the mechanism is shared between threads.
+ *  They may call the library, but not with the workspace or the run that is calling them: what
+ *  returns a status fails there (BAUM_ERR_STATE), and it cannot be destroyed; time, q, v, inputs
+ *  and texts can be read, and the run be cancelled.
  *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are
  *  only ever appended: a struct of a program that was compiled with an older version is smaller,
  *  and what it lacks has its default. A larger one, of a newer version, is refused

@@ -134,7 +134,9 @@ typedef enum baum_solver {
                              BAUM_ERR_SINGULAR close to singular poses. */
 } baum_solver;
 
-/** Called now and then during a call that advances a run; each call begins the interval anew.
+/** Called now and then during a call that advances a run; each call begins the interval anew. It may
+ *  read the run, with baum_simulation_get() and such, too; what changes, advances or saves it fails
+ *  (BAUM_ERR_STATE), and it cannot be destroyed.
  *  @return non-zero to cancel */
 typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *user);
 

@@ -15,7 +15,7 @@
  *  Threads: one study is used by one thread at a time, but for baum_study_cancel(). baum_study_run() uses the threads of the
  *  options, and calls functions of the user, those of the mechanism too, from each of them.
  *  While baum_study_run() is under way, its progress function may cancel it and, with one thread, read it: what would change it
- *  fails with BAUM_ERR_STATE.
+ *  fails with BAUM_ERR_STATE, and it cannot be destroyed.
  *  Texts are owned by the study and stay as they are until the next call that is not reading, or its end.
  */
 #ifndef BAUM_STUDY_H

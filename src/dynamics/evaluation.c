@@ -40,7 +40,10 @@ static baum_status check_point(const char *call, const baum_workspace *w, double
     return fail_null(call, "the output");
   }
   baum_status status = baum_i_check_finite(call, "t", "s", t);
-  return status == BAUM_OK ? check_finite(call, "q", q, w->mechanism->nq) : status;
+  if (status == BAUM_OK) {
+    status = check_finite(call, "q", q, w->mechanism->nq);
+  }
+  return status == BAUM_OK ? baum_i_check_idle(w, call, "the workspace") : status;
 }
 
 static baum_status check_state(const char *call, const baum_workspace *w, double t, const double *q,
@@ -320,7 +323,10 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
   if (status == BAUM_OK) {
     status = check_finite(call, "y", y, size);
   }
-  return status == BAUM_OK ? check_finite(call, "dy", dy, size) : status;
+  if (status == BAUM_OK) {
+    status = check_finite(call, "dy", dy, size);
+  }
+  return status == BAUM_OK ? baum_i_check_idle(w, call, "the workspace") : status;
 }
 
 static baum_status need_metric(baum_workspace *w, const baum_dae *dae)

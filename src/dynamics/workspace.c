@@ -186,9 +186,18 @@ void baum_i_workspace_forget(baum_workspace *w)
   }
 }
 
+baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what)
+{
+  return w->point.asking
+           ? baum_i_fail(BAUM_ERR_STATE,
+                         "%s: %s is calling a function of the user, which must not use it", call,
+                         what)
+           : BAUM_OK;
+}
+
 void baum_workspace_destroy(baum_workspace *workspace)
 {
-  if (!workspace) {
+  if (!workspace || workspace->point.asking) {
     return;
   }
   array list[ARRAY_COUNT];
@@ -217,6 +226,9 @@ baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id id
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the workspace is NULL", call);
   }
   baum_status status = baum_i_check_input_value(workspace->mechanism, id, call, value);
+  if (status == BAUM_OK) {
+    status = baum_i_check_idle(workspace, call, "the workspace");
+  }
   if (status == BAUM_OK) {
     workspace->inputs[id.index1 - 1] = value;
   }

@@ -161,6 +161,7 @@ typedef struct baum_i_point {
   const double *inputs; /* (input_count) present values; NULL while there are none */
   double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
   bool retry;           /* set when the last failure may vanish with a smaller step */
+  bool asking;          /* within a function of the user, who may not ask anything of this point */
 } baum_i_point;
 
 /* Memory of a point, with the mechanism's own numbers and initial inputs. BAUM_OK or

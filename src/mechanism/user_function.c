@@ -95,6 +95,7 @@ static baum_status fail_not_finite(const baum_i_user_function *function, const b
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out)
 {
+  at->point->asking = false;
   if (answer != 0) {
     return fail_returned(function, at->point, answer);
   }
@@ -111,6 +112,7 @@ baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
                           const baum_i_local *at, double *out)
 {
   clear(function, out);
+  at->point->asking = true;
   return baum_i_judge(function, at, call(at->t, at->q, out, function->user), out);
 }
 
@@ -118,6 +120,7 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
                            const baum_i_local *at, double *out)
 {
   clear(function, out);
+  at->point->asking = true;
   return baum_i_judge(function, at, call(at->t, at->q, at->v, out, function->user), out);
 }
 
@@ -125,6 +128,7 @@ baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_f
                               const baum_i_local *at, double *out)
 {
   clear(function, out);
+  at->point->asking = true;
   return baum_i_judge(function, at,
                       call(at->t, at->q, at->v, at->point->inputs, out, function->user), out);
 }

@@ -465,6 +465,7 @@ static baum_status make_workspace(baum_simulation *run)
   mine->count = w->redundancy.count;
   memcpy(mine->dropped, w->redundancy.dropped, (size_t)w->mechanism->nc);
   account->workspace->blocks_only = w->blocks_only;
+  run->beside = account->workspace;
   return baum_i_use_blocks(account->workspace);
 }
 
@@ -574,7 +575,8 @@ baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_ene
                        "%s: the run keeps no account; set the option energy_account", call);
   }
   double columns[BAUM_I_ACCOUNT_WIDTH];
-  baum_status status = baum_i_account_put(simulation, &simulation->state, columns);
+  baum_status status = baum_i_run_may_be_read(simulation, call);
+  status = status == BAUM_OK ? baum_i_account_put(simulation, &simulation->state, columns) : status;
   if (status != BAUM_OK) {
     return status;
   }

@@ -423,7 +423,8 @@ static baum_status check_time(const baum_simulation *run, const char *call, doub
   if (!run) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
   }
-  return baum_i_check_finite(call, "t", "s", t);
+  baum_status status = baum_i_check_finite(call, "t", "s", t);
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
 }
 
 /* ---- public ---- */
@@ -514,7 +515,8 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   if (baum_i_output_width(run->workspace->mechanism, channels, count) < 0) {
     return BAUM_ERR_ARGUMENT;
   }
-  return check_times(run, times, n);
+  baum_status status = check_times(run, times, n);
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
 }
 
 /* To a sample time: by whole steps, and from there to the side on the trial state,

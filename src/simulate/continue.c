@@ -84,7 +84,7 @@ static baum_status check_both(const baum_simulation *run, const baum_simulation 
   if (!same) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the two runs are of different mechanisms", call);
   }
-  return BAUM_OK;
+  return baum_i_run_may_be_changed(run, call);
 }
 
 baum_status baum_simulation_continue(baum_simulation *simulation, const baum_simulation *from)

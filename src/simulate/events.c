@@ -152,7 +152,9 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
   if (event->joint >= 0) {
     event->next = coordinate_of(w, event);
   } else {
+    w->point.asking = true;
     answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
+    w->point.asking = false;
   }
   bool fine = answer == 0 && isfinite(event->next);
   return fine ? BAUM_OK : fail_value(run, number, answer, event->next, state->t);
@@ -266,7 +268,7 @@ static baum_status check_add(const baum_simulation *run, const baum_event_def *d
                        "version; start from baum_event_def_default()",
                        call, def->struct_size, sizeof *def);
   }
-  return BAUM_OK;
+  return baum_i_run_may_be_changed(run, call);
 }
 
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,

@@ -66,6 +66,9 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   }
   baum_workspace *w = simulation->workspace;
   baum_status status = baum_i_check_input_value(w->mechanism, input, call, value);
+  if (status == BAUM_OK) {
+    status = baum_i_run_may_be_changed(simulation, call);
+  }
   if (status != BAUM_OK) {
     return status;
   }
@@ -114,7 +117,7 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   for (int k = 0; k < 3 && status == BAUM_OK; k++) {
     status = baum_i_check_finite(label, names[k], units[k], law[k]);
   }
-  return status;
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
 }
 
 baum_status baum_i_run_own_parameters(baum_simulation *run)

@@ -20,6 +20,22 @@ void baum_simulation_cancel(baum_simulation *simulation)
   }
 }
 
+baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
+{
+  baum_status status = baum_i_check_idle(run->workspace, call, "the simulation");
+  return status == BAUM_OK && run->beside ? baum_i_check_idle(run->beside, call, "the simulation")
+                                          : status;
+}
+
+baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call)
+{
+  return run->reporting ? baum_i_fail(BAUM_ERR_STATE,
+                                      "%s: the simulation is calling progress(), which may only "
+                                      "read it",
+                                      call)
+                        : baum_i_run_may_be_read(run, call);
+}
+
 double baum_i_seconds_since(const struct timespec *then)
 {
   struct timespec now;
@@ -34,7 +50,10 @@ static bool progress_cancels(baum_simulation *run)
     return false;
   }
   (void)clock_gettime(CLOCK_MONOTONIC, &run->last_progress);
-  return o->progress(run, run->state.t, o->user) != 0;
+  run->reporting = true;
+  int answer = o->progress(run, run->state.t, o->user);
+  run->reporting = false;
+  return answer != 0;
 }
 
 /* Over the last steps of this call, every so many of them. A fixed step is the user's own. */

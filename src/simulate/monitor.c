@@ -289,8 +289,11 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   double kinetic = 0.0;
   double potential = 0.0;
   const baum_i_state *state = &simulation->state;
-  baum_status status =
-    baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential);
+  baum_status status = baum_i_run_may_be_read(simulation, "baum_simulation_counters");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential);
   if (status != BAUM_OK) {
     return status;
   }

@@ -69,6 +69,7 @@ struct baum_simulation {
 
   double *row_gains;       /* (nc) own copy of the option, or NULL */
   baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
+  baum_workspace *beside;  /* the account's, which asks functions of the user too; NULL without */
   baum_i_events *events;   /* see events.h; NULL: there are none */
 
   baum_i_passages *passages; /* through singular poses, see passage.h; NULL: not looked for */
@@ -104,6 +105,7 @@ struct baum_simulation {
 
   atomic_int cancelled;
   struct timespec last_progress;
+  bool reporting;  /* within progress() */
   double paced_at; /* [s] of a call: where its pace has last been looked at */
 };
 
@@ -171,6 +173,10 @@ void baum_i_run_count_from_here(baum_simulation *run);
 /* Before every step: cancelled, too many steps in this call, or steps that lead nowhere? A run that stops here stands
  * where its last step ended, which a variable-step method keeps ahead. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
+
+/* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read it. */
+baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
+baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
 /* [s] of wall time. */
 double baum_i_seconds_since(const struct timespec *then);

@@ -178,6 +178,10 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
                        simulation ? "size" : "the simulation");
   }
+  baum_status status = baum_i_run_may_be_changed(simulation, call); /* it forgets pivots */
+  if (status != BAUM_OK) {
+    return status;
+  }
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   size_t most = largest_size(&list);
@@ -549,10 +553,14 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_restore: %s is NULL",
                        simulation ? "the buffer" : "the simulation");
   }
+  baum_status status = baum_i_run_may_be_changed(simulation, "baum_simulation_restore");
+  if (status != BAUM_OK) {
+    return status;
+  }
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   reader r = {.bytes = buffer, .size = size};
-  baum_status status = check(&r, simulation, &list);
+  status = check(&r, simulation, &list);
   if (status == BAUM_OK) {
     status = make_room(simulation, &r, &list);
   }

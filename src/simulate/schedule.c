@@ -204,7 +204,7 @@ static baum_status check(const baum_simulation *run, baum_input_id input, const 
     status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", CALL,
                          count < 0 ? "count is negative" : "times or values are NULL");
   }
-  return status;
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, CALL) : status;
 }
 
 baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,

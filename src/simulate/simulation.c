@@ -268,9 +268,17 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   return BAUM_OK;
 }
 
+/* A function of the user that it is calling wants its end; it may be half-built. */
+static bool is_in_use(const baum_simulation *run)
+{
+  bool asks = run->workspace && run->workspace->point.asking;
+  bool asks_beside = run->beside && run->beside->point.asking;
+  return run->reporting || asks || asks_beside;
+}
+
 void baum_simulation_destroy(baum_simulation *simulation)
 {
-  if (!simulation) {
+  if (!simulation || is_in_use(simulation)) {
     return;
   }
   if (simulation->integrator->destroy) {

@@ -221,7 +221,7 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
       status = check_entry(call, 'v', i, v[i], may_be_free);
     }
   }
-  return status;
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
 }
 
 /* Whether a whole state violates the constraints no more than this run has already done, as one of

@@ -67,7 +67,7 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
 
 void baum_study_destroy(baum_study *study)
 {
-  if (!study) {
+  if (!study || study->running) {
     return;
   }
   baum_i_study_drop_rows(study, 0, 0);

@@ -367,6 +367,11 @@ CALL(baum_study_add_standard)
   return baum_study_add_standard(s->study, &grid);
 }
 
+CALL(baum_study_add_extremes)
+{
+  return baum_study_add_extremes(s->study, baum_rk4());
+}
+
 CALL(baum_study_set_error)
 {
   const baum_channel energy = {.quantity = BAUM_ENERGY};
@@ -433,6 +438,7 @@ static const call CALLS[] = {
   ROW(baum_study_set_options, STUDIED),
   ROW(baum_study_add, STUDIED),
   ROW(baum_study_add_standard, STUDIED),
+  ROW(baum_study_add_extremes, STUDIED),
   ROW(baum_study_set_error, STUDIED),
   ROW(baum_study_set_reference, STUDIED),
   ROW(baum_study_run, STUDIED),

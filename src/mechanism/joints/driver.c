@@ -57,7 +57,9 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
   s[0] = 0.0;
   s[1] = 0.0;
   s[2] = 0.0;
+  point->asking = true;
   int code = def->law(point->t, s, def->user);
+  point->asking = false;
   return code == 0 ? baum_i_check_motion(joint, point, "law()", s)
                    : refuse_return(joint, point, code);
 }
