@@ -217,9 +217,6 @@ static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
     weigh(run, problem);
     status = check_tolerances(run, problem);
   }
-  if (status == BAUM_OK && baum_i_rk_pose_is_held(&run->pose)) {
-    status = fail_short(run, problem, run->control.step);
-  }
   return status;
 }
 
@@ -264,11 +261,16 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
   return status;
 }
 
-/* The one place where a step is accepted. */
-static void accept(adaptive_run *run, double error, baum_i_state *state)
+/* The one place where a step is accepted. One cut to `length` for a pose ahead says nothing against what was wanted, which
+ * the next needs to get over it. */
+static void accept(adaptive_run *run, double error, double length, baum_i_state *state)
 {
   size_t bytes = (size_t)run->rk.nv * sizeof *state->q;
+  double wanted = run->control.step;
   baum_i_step_control_accept(&run->control, fabs(run->h), error);
+  if (length < wanted) {
+    run->control.step = fmax(run->control.step, wanted);
+  }
   run->has_step = true;
   run->has_dense = false;
   state->t = run->t_end;
@@ -301,7 +303,7 @@ static double largest_error(const adaptive_run *run, const baum_i_problem *probl
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_rk_pose_look(&run->pose, &run->rk, problem, run->t);
-  for (;;) {
+  while (!baum_i_rk_pose_is_held(&run->pose)) {
     double error = 0.0;
     bool forced = false;
     double length = baum_i_rk_pose_length(&run->pose, run->control.step, &forced);
@@ -313,7 +315,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     status = try_step(run, problem, most, &error);
     if (status == BAUM_OK && error <= most && baum_i_rk_pose_may_end(&run->pose, problem)) {
       run->forced += error > 1.0;
-      accept(run, fmin(error, 1.0), state);
+      accept(run, fmin(error, 1.0), length, state);
       return BAUM_OK;
     }
     if (status != BAUM_OK) {
@@ -327,8 +329,10 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     if (forced || status != BAUM_OK) {
       run->pose.least = 0.0; /* for another reason, perhaps */
     }
+    baum_i_rk_pose_refuse(&run->pose, &run->rk, problem, run->h);
     run->rejected++;
   }
+  return fail_short(run, problem, run->control.step);
 }
 
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,

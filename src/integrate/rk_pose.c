@@ -9,9 +9,9 @@ static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
 /* Error of such a step, of the scales, above which it is refused all the same. */
 static const double LARGEST_FORCED = 0.01;
-/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it with 40 windows, where it
- * was up to 5e-11. */
-static const double ROUNDING = 1e-10;
+/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it, and gains that bring
+ * violations back. With 40 windows it was up to 2e-10; what is refused then is worse from nearer by. */
+static const double ROUNDING = 1e-9;
 
 /* Pivots, of the usual one: below the first a singular pose ahead is looked for, and from above it no step ends below the
  * second, where rounding over p is large. */
@@ -23,10 +23,14 @@ static const double LOOK = 1e-4;
 /* Below this pivot a start may be singular; what is usual is then seen so many radians further on. */
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
+/* A start in a pose takes its acceleration from four states so many radians apart: cut off at the fourth power, while
+ * rounding there is 1e-16 over the square. Slower ones, in relation to what gravity makes, have no way on to look at. */
+static const double APART = 0.003;
+static const double SLOW = 0.1;
 
-/* Near a pose so many steps in a row, each followed by one of less than so many radians, are the last. Steps that are
- * free to grow do so sixfold; of these 1e8 would make a radian. */
-enum { HELD = 20 };
+/* Near a pose so many steps in a row that are followed by one of less than so many radians, or tries that are as short, are
+ * the last. Steps that are free to grow do so sixfold; of these 1e8 would make a radian. */
+enum { HELD = 10 };
 static const double TINY = 1e-8;
 
 /* [1/s] at which the mechanism moves. */
@@ -76,6 +80,40 @@ static void look_further(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i
   }
 }
 
+/* Accelerations dt behind the start, on a way that begins with its velocity. */
+static baum_status look_behind(const baum_i_rk *rk, const baum_i_problem *problem, double t,
+                               double dt)
+{
+  const double one = 1.0;
+  double *v = rk->point + rk->nv;
+  baum_i_rk_combine(rk, 1, &one, dt, rk->point);
+  baum_status status = baum_i_project(problem->workspace, t + dt, rk->point, v);
+  return status == BAUM_OK ? baum_i_problem_motion(problem, t + dt, rk->point, v) : status;
+}
+
+/* In a pose the equations allow the accelerations of all branches. Those of the motion that goes on as its velocity says
+ * are the limit of what is behind it, by a cubic through four states. Where one fails they stay as they are. */
+static void extrapolate_start(const baum_i_rk *rk, const baum_i_problem *problem, double t)
+{
+  static const double WEIGHT[] = {4.0, -6.0, 4.0, -1.0};
+  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  double *limit = baum_i_rk_rate(rk, 1);
+  baum_status status = BAUM_OK;
+  if (!(rate > SLOW * problem->rate)) {
+    return;
+  }
+  memset(limit, 0, (size_t)rk->nv * sizeof *limit);
+  for (int k = 0; k < 4 && status == BAUM_OK; k++) {
+    status = look_behind(rk, problem, t, problem->direction * (k + 1) * APART / rate);
+    for (int i = 0; i < rk->nv; i++) {
+      limit[i] += WEIGHT[k] * problem->workspace->a[i];
+    }
+  }
+  if (status == BAUM_OK) {
+    memcpy(baum_i_rk_rate(rk, 0) + rk->nv, limit, (size_t)rk->nv * sizeof *limit);
+  }
+}
+
 void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
                           double t)
 {
@@ -86,6 +124,9 @@ void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_
     look_further(pose, rk, problem, t);
   }
   pose->pivot = pose->usual > 0.0 ? pivot / pose->usual : 0.0;
+  if (pose->pivot < SHORT * SHORT) {
+    extrapolate_start(rk, problem, t);
+  }
 }
 
 /* Where the root of the pivot, which falls in a straight line, would be zero. */
@@ -154,6 +195,12 @@ void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_
   bool tiny = next * find_rate(rk, problem) < TINY;
   pose->held = tiny && pose->pivot_end < BAUM_I_NEAR_PIVOT ? pose->held + 1 : 0;
   pose->pivot = pose->pivot_end;
+}
+
+void baum_i_rk_pose_refuse(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                           double h)
+{
+  pose->held += pose->pivot < BAUM_I_NEAR_PIVOT && fabs(h) * find_rate(rk, problem) < TINY;
 }
 
 bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose)

@@ -44,6 +44,10 @@ bool baum_i_rk_pose_may_end(baum_i_rk_pose *pose, const baum_i_problem *problem)
 void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
                           double next);
 
+/* A try by h was refused. */
+void baum_i_rk_pose_refuse(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
+                           double h);
+
 /* Is there no way on? */
 bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose);
 
