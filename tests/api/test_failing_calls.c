@@ -101,6 +101,52 @@ static int hoop_gamma(double t, const double *q, const double *v, double *out, v
   return answer(user, out);
 }
 
+/* y = 0.75 + 0.3 t */
+static int lift_phi(double t, const double *q, double *out, void *user)
+{
+  out[0] = q[1] - 0.75 - 0.3 * t;
+  return answer(user, out);
+}
+
+static int lift_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  out[1] = 1.0;
+  return answer(user, out);
+}
+
+static int lift_nu(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  out[0] = 0.3;
+  return answer(user, out);
+}
+
+static int lift_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  return answer(user, out);
+}
+
+static void add_lift(baum_mechanism *m, const baum_body_id *bead, fault *f)
+{
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.name = "lift";
+  def.bodies = bead;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.phi = lift_phi;
+  def.jacobian = lift_jacobian;
+  def.nu = lift_nu;
+  def.gamma = lift_gamma;
+  def.user = f;
+  check(baum_mechanism_add_user_constraint(m, &def, NULL));
+}
+
 static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *bead, fault *f)
 {
   baum_user_constraint_def def = baum_user_constraint_def_default();
@@ -119,7 +165,13 @@ static void add_hoop(baum_mechanism *m, const char *name, const baum_body_id *be
 /* Off the hoop, so that a run has to assemble it. */
 static const double DRAWN[2] = {0.48, 0.64};
 
-static baum_mechanism *bead_on_hoops(int hoops, bool constant_mass, fault *f)
+typedef struct variant {
+  int hoops;
+  bool constant_mass;
+  bool lifted; /* no freedom is left */
+} variant;
+
+static baum_mechanism *make_bead(variant of, fault *f)
 {
   baum_mechanism *m = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
@@ -127,15 +179,18 @@ static baum_mechanism *bead_on_hoops(int hoops, bool constant_mass, fault *f)
   def.name = "bead";
   def.size = 2;
   def.q = DRAWN;
-  def.mass = constant_mass ? bead_constant_mass : bead_mass;
-  def.constant_mass = constant_mass;
+  def.mass = of.constant_mass ? bead_constant_mass : bead_mass;
+  def.constant_mass = of.constant_mass;
   def.force = bead_force;
   def.potential = bead_potential;
   def.user = f;
   check(baum_mechanism_create(&m));
   check(baum_mechanism_add_coordinates(m, &def, &bead));
-  for (int k = 0; k < hoops; k++) {
+  for (int k = 0; k < of.hoops; k++) {
     add_hoop(m, k == 0 ? "hoop" : "other hoop", &bead, f);
+  }
+  if (of.lifted) {
+    add_lift(m, &bead, f);
   }
   check(baum_mechanism_set_scale(m, 1.0));
   check(baum_mechanism_freeze(m));
@@ -312,7 +367,7 @@ static void a_workspace_passes_on_every_failing_call(void **state)
   static const baum_i_kkt_choice choices[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR};
   for (int k = 0; k < 3; k++) {
     fault f = {0};
-    baum_mechanism *m = bead_on_hoops(1, false, &f);
+    baum_mechanism *m = make_bead((variant){.hoops = 1}, &f);
     baum_workspace *w = NULL;
     check(baum_i_workspace_create(m, choices[k], &w));
     for (int i = 0; i < ASK_COUNT; i++) {
@@ -327,7 +382,7 @@ static void so_does_one_with_redundant_rows(void **state)
 {
   (void)state;
   fault f = {0};
-  baum_mechanism *m = bead_on_hoops(2, false, &f);
+  baum_mechanism *m = make_bead((variant){.hoops = 2}, &f);
   baum_workspace *w = NULL;
   check(baum_workspace_create(m, &w));
   assert_int_equal(w->redundancy.count, 1);
@@ -376,17 +431,17 @@ static bool check_run(const baum_mechanism *m, const baum_simulation_options *o,
   return true;
 }
 
-static void check_every_call(const baum_simulation_options *o, fault *f, bool constant_mass)
+static void check_every_call(const baum_simulation_options *o, variant of)
 {
-  *f = (fault){.from = 0};
-  baum_mechanism *m = bead_on_hoops(1, constant_mass, f);
-  assert_true(check_run(m, o, f, 0));
-  int64_t calls = f->calls;
+  fault f = {.from = 0};
+  baum_mechanism *m = make_bead(of, &f);
+  assert_true(check_run(m, o, &f, 0));
+  int64_t calls = f.calls;
   int failed = 0;
   for (int64_t n = 1; n <= calls; n += 1 + n / 20) {
     int k = (int)(n % FAULT_COUNT);
-    *f = (fault){.answer = FAULTS[k].answer, .from = n};
-    failed += check_run(m, o, f, k) ? 0 : 1;
+    f = (fault){.answer = FAULTS[k].answer, .from = n};
+    failed += check_run(m, o, &f, k) ? 0 : 1;
   }
   assert_in_range(failed, 10, calls - 1); /* at create, and not all */
   baum_mechanism_destroy(m);
@@ -396,13 +451,22 @@ static void check_every_call(const baum_simulation_options *o, fault *f, bool co
 static void a_run_is_not_made_or_stops_and_goes_on(void **state)
 {
   (void)state;
-  fault f;
   for (int k = 0; step_mode_at(k).integrator; k++) {
     for (int solver = 0; solver < 2; solver++) {
       baum_simulation_options o = step_mode_options(step_mode_at(k), 2e-3, 1e-4);
       o.solver = solver == 0 ? BAUM_SOLVER_AUTO : BAUM_SOLVER_KLU;
-      check_every_call(&o, &f, o.integrator == baum_rattle());
+      check_every_call(&o, (variant){.hoops = 1, .constant_mass = o.integrator == baum_rattle()});
     }
+  }
+}
+
+static void so_does_kinematics(void **state)
+{
+  (void)state;
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  for (int k = 1; k <= 2; k++) {
+    check_every_call(&o, (variant){.hoops = k, .constant_mass = true, .lifted = true});
   }
 }
 
@@ -412,6 +476,7 @@ int main(void)
     cmocka_unit_test(a_workspace_passes_on_every_failing_call),
     cmocka_unit_test(so_does_one_with_redundant_rows),
     cmocka_unit_test(a_run_is_not_made_or_stops_and_goes_on),
+    cmocka_unit_test(so_does_kinematics),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
