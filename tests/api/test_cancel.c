@@ -1,0 +1,243 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A run, a sampling or a study that is cancelled after any of its steps stands there and goes on to the same end, to the
+ * last bit.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "driven.h"
+#include "models.h"
+#include "step_mode.h"
+#include "study_rows.h"
+
+enum { NV_MOST = 16, MOST_STEPS = 400, SAMPLES = 7 };
+static const double END = 0.3; /* [s] */
+
+/* When a run is cancelled: at the call of progress that brings it to zero. */
+typedef struct cancelling {
+  int left;
+  bool by_flag; /* with baum_simulation_cancel(), which takes effect before the next step */
+  baum_simulation *run;
+} cancelling;
+
+static int count_down(const baum_simulation *run, double t, void *user)
+{
+  cancelling *c = user;
+  (void)run;
+  (void)t;
+  bool now = c->left > 0 && --c->left == 0;
+  if (now && c->by_flag) {
+    baum_simulation_cancel(c->run);
+  }
+  return now && !c->by_flag;
+}
+
+static baum_simulation *start(const baum_mechanism *m, const baum_simulation_options *given,
+                              cancelling *c)
+{
+  baum_simulation_options o = *given;
+  o.progress = count_down;
+  o.progress_interval = 0.0;
+  o.user = c;
+  check(baum_simulation_create(m, &o, &c->run));
+  return c->run;
+}
+
+typedef struct state {
+  double t;
+  double q[NV_MOST];
+  double v[NV_MOST];
+} state;
+
+static state state_of(const baum_mechanism *m, const baum_simulation *run)
+{
+  state s;
+  int32_t nq = 0;
+  int32_t nv = 0;
+  memset(&s, 0, sizeof s);
+  check(baum_mechanism_sizes(m, &nq, &nv, NULL));
+  assert_in_range(nv, 1, NV_MOST);
+  s.t = baum_simulation_time(run);
+  memcpy(s.q, baum_simulation_q(run), (size_t)nq * sizeof(double));
+  memcpy(s.v, baum_simulation_v(run), (size_t)nv * sizeof(double));
+  return s;
+}
+
+/* ---- advancing ---- */
+
+/* Returns whether there was such a step. */
+static bool cancel_at(const baum_mechanism *m, const baum_simulation_options *o, int k,
+                      const state *want)
+{
+  cancelling c = {.left = k, .by_flag = k % 2 == 0};
+  baum_simulation *run = start(m, o, &c);
+  baum_status status = baum_simulation_advance_to(run, END);
+  bool cancelled = status == BAUM_STOP_CANCELLED;
+  check(status);
+  if (cancelled) {
+    assert_true(baum_simulation_time(run) < END);
+    check(baum_simulation_advance_to(run, END));
+  }
+  const state end = state_of(m, run);
+  assert_memory_equal(&end, want, sizeof end);
+  baum_simulation_destroy(run);
+  return cancelled;
+}
+
+static void cancel_everywhere(const baum_mechanism *m, const baum_simulation_options *o)
+{
+  cancelling never = {.left = 0};
+  baum_simulation *run = start(m, o, &never);
+  check(baum_simulation_advance_to(run, END));
+  const state want = state_of(m, run);
+  baum_simulation_destroy(run);
+  int steps = 0;
+  while (cancel_at(m, o, steps + 1, &want)) {
+    assert_in_range(++steps, 1, MOST_STEPS);
+  }
+  assert_true(steps >= 5); /* the longest steps, of rk8, are a sixteenth of the period */
+}
+
+static void a_run_goes_on_as_if_it_had_not_been_cancelled(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
+      if (baum_integrator_offers(mode.integrator, (baum_formulation)f)) {
+        double rtol = f == BAUM_FORMULATION_INDEX3 ? 1e-4 : 1e-6;
+        baum_simulation_options o = step_mode_options(mode, 0.02, rtol);
+        o.formulation = (baum_formulation)f;
+        o.max_step = mode.fixed ? (double)NAN : 0.03;
+        cancel_everywhere(pendulum.mechanism, &o);
+      }
+    }
+  }
+  model_destroy(&pendulum);
+}
+
+static void kinematics_go_on_likewise(void **unused)
+{
+  (void)unused;
+  const drive motor = {.angle = 0.4, .rate = 1.0};
+  baum_mechanism *four_bar = four_bar_make(&motor);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  o.max_step = 0.03;
+  cancel_everywhere(four_bar, &o);
+  baum_mechanism_destroy(four_bar);
+}
+
+/* ---- sampling ---- */
+
+/* Rows of positions and energies; what is cancelled goes on with the samples that are left. */
+static void sample(baum_simulation *run, double rows[SAMPLES][4])
+{
+  const baum_channel channels[] = {{.quantity = BAUM_Q}, {.quantity = BAUM_ENERGY}};
+  double times[SAMPLES];
+  int64_t first = 0;
+  baum_status status = BAUM_STOP_CANCELLED;
+  for (int k = 0; k < SAMPLES; k++) {
+    times[k] = (k + 1) * END / (SAMPLES + 0.5);
+  }
+  while (status == BAUM_STOP_CANCELLED) {
+    int64_t done = 0;
+    status =
+      baum_simulation_sample(run, times + first, SAMPLES - first, channels, 2, rows[first], &done);
+    check(status);
+    first += done;
+  }
+  assert_int_equal(first, SAMPLES);
+}
+
+static void samples_are_the_same_wherever_they_were_cancelled(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    double want[SAMPLES][4];
+    double got[SAMPLES][4];
+    const baum_simulation_options o = step_mode_options(step_mode_at(i), 0.02, 1e-6);
+    for (int k = 0; k < 20; k++) {
+      cancelling c = {.left = k, .by_flag = false};
+      baum_simulation *run = start(pendulum.mechanism, &o, &c);
+      sample(run, k == 0 ? want : got);
+      baum_simulation_destroy(run);
+      if (k > 0) {
+        assert_memory_equal(got, want, sizeof want);
+      }
+    }
+  }
+  model_destroy(&pendulum);
+}
+
+/* ---- studies ---- */
+
+static int cancel_study(const baum_study *study, int32_t done, int32_t total, void *user)
+{
+  int *left = user;
+  (void)study;
+  (void)done;
+  (void)total;
+  return *left > 0 && --*left == 0;
+}
+
+static baum_study *study_of(const baum_mechanism *m, int *left)
+{
+  baum_study *study = NULL;
+  baum_study_options o = small_study_options();
+  o.progress = cancel_study;
+  o.user = left;
+  check(baum_study_create(m, 0.0, 0.1, &study));
+  check(baum_study_set_options(study, &o));
+  for (int k = 0; k < 4; k++) {
+    const step_mode mode = {k % 2 == 0 ? baum_rk4() : baum_rk8(), k % 2 == 0};
+    const baum_simulation_options run = step_mode_options(mode, 0.01 / (k + 1), 1e-4 / (k + 1));
+    check(baum_study_add(study, &run));
+  }
+  return study;
+}
+
+static void a_study_goes_on_to_the_same_rows(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  int left = 0;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  baum_study *want = study_of(pendulum.mechanism, &left);
+  assert_int_equal(baum_study_run(want), BAUM_OK);
+  baum_status status = BAUM_STOP_CANCELLED;
+  int k = 1;
+  for (; status == BAUM_STOP_CANCELLED; k++) {
+    left = k;
+    baum_study *got = study_of(pendulum.mechanism, &left);
+    status = baum_study_run(got);
+    assert_int_equal(baum_study_run(got), BAUM_OK);
+    assert_same_rows(got, want);
+    baum_study_destroy(got);
+  }
+  assert_true(k > 2 * 4); /* two stages of each row */
+  baum_study_destroy(want);
+  model_destroy(&pendulum);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_run_goes_on_as_if_it_had_not_been_cancelled),
+    cmocka_unit_test(kinematics_go_on_likewise),
+    cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
+    cmocka_unit_test(a_study_goes_on_to_the_same_rows),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
