@@ -66,7 +66,8 @@ BAUM_API const char *baum_status_text(baum_status status);
  */
 BAUM_API const char *baum_message(void);
 
-/** Set this thread's sentence, for libraries on top of this one and for functions of the user that fail.
+/** Set this thread's sentence, for libraries on top of this one and for functions of the user that fail: forces,
+ *  constraints, laws and solutions, whose sentence then ends that of the library.
  *  @param status    returned as it is
  *  @param sentence  copied, cut where it is very long; NULL: the general meaning of the status
  *  @return          status, so that one can write `return baum_fail(...)`

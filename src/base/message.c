@@ -3,10 +3,13 @@
 #include "base/message.h"
 
 #include <stdarg.h>
-#include <stdio.h>
+#include <stdbool.h>
 #include <string.h>
 
+#include "base/text.h"
+
 static _Thread_local char sentence[BAUM_I_MESSAGE_SIZE];
+static _Thread_local bool has_said; /* baum_fail() has been called since baum_i_listen() */
 
 const char *baum_message(void)
 {
@@ -19,7 +22,7 @@ baum_status baum_i_fail(baum_status status, const char *format, ...)
   char text[BAUM_I_MESSAGE_SIZE];
   va_list arguments;
   va_start(arguments, format);
-  (void)vsnprintf(text, sizeof text, format, arguments);
+  (void)baum_i_format(text, sizeof text, format, arguments);
   va_end(arguments);
   memcpy(sentence, text, sizeof text);
   return status;
@@ -27,7 +30,18 @@ baum_status baum_i_fail(baum_status status, const char *format, ...)
 
 baum_status baum_fail(baum_status status, const char *given)
 {
+  has_said = given != NULL;
   return baum_i_fail(status, "%s", given ? given : baum_status_text(status));
+}
+
+void baum_i_listen(void)
+{
+  has_said = false;
+}
+
+const char *baum_i_heard(void)
+{
+  return has_said ? sentence : NULL;
 }
 
 baum_status baum_i_fail_memory(void)

@@ -18,6 +18,10 @@ enum { BAUM_I_MESSAGE_SIZE = 1024 };
 /* Set this thread's sentence and return status, so that one can write `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
+/* What a function of the user says of its failure: before it is called, and behind; NULL: nothing. */
+void baum_i_listen(void);
+const char *baum_i_heard(void);
+
 /* The sentence for BAUM_ERR_MEMORY. */
 baum_status baum_i_fail_memory(void);
 

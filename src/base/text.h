@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts that grow piece by piece. */
+/* Texts with numbers, which have a point whatever the locale of the program is. */
 #ifndef BAUM_I_BASE_TEXT_H
 #define BAUM_I_BASE_TEXT_H
 
+#include <stdarg.h>
 #include <stddef.h>
 
 #include "base/message.h"
+
+/* As vsnprintf() and snprintf() but for the locale. */
+int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
+  BAUM_I_PRINTF(3, 0);
+int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
 /* Append to a zero-terminated text in a buffer of `size` characters; what does not fit is cut. */
 void baum_i_append(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);

@@ -12,11 +12,10 @@
  * displacements: |Phi_i| / d_i, d_i the norm of row i of J times the scales.
  */
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/message.h"
+#include "base/text.h"
 #include "dynamics/dynamics.h"
 
 enum { ITERATIONS = 200, HALVINGS = 12, CORRECTIONS = 8 };
@@ -146,8 +145,9 @@ static baum_status fail_inconsistent(const assembly *s, const double *rows, cons
       continue;
     }
     char label[BAUM_I_LABEL_SIZE];
-    used += (size_t)snprintf(text + used, sizeof text - used, "%s%s (%.3g %s)", used ? ", " : "",
-                             baum_i_joint_label(m, joint, label), rows[i], unit);
+    used +=
+      (size_t)baum_i_print(text + used, sizeof text - used, "%s%s (%.3g %s)", used ? ", " : "",
+                           baum_i_joint_label(m, joint, label), rows[i], unit);
     last = joint;
   }
   return baum_i_fail(BAUM_ERR_INCONSISTENT, "t = %.9g s: %s contradict each other in %s", s->t,

@@ -2,7 +2,6 @@
 /* What an evaluation of a mechanism costs and what it is spared, in numbers and in words. */
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -202,7 +201,7 @@ static void BAUM_I_PRINTF(3, 4) spare(baum_report *report, int *count, const cha
   char text[160];
   va_list arguments;
   va_start(arguments, format);
-  (void)vsnprintf(text, sizeof text, format, arguments);
+  (void)baum_i_format(text, sizeof text, format, arguments);
   va_end(arguments);
   say(report, "%s%s", (*count)++ > 0 ? "; " : "spared        ", text);
 }

@@ -11,10 +11,9 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "base/message.h"
+#include "base/text.h"
 
 /* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
  * of one step's error, and it is far above the rounding of times. */
@@ -120,7 +119,7 @@ baum_status baum_i_fail_in_step(baum_status status, const char *sentence, const 
 {
   char length[48] = "";
   if (h != 0.0) {
-    (void)snprintf(length, sizeof length, ", %.3g s long", fabs(h));
+    baum_i_print(length, sizeof length, ", %.3g s long", fabs(h));
   }
   return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", sentence, integrator, t,
                      length);

@@ -53,8 +53,10 @@ static int values(const baum_i_user_function *function)
   return function->cols > 0 ? function->rows * function->cols : function->rows;
 }
 
-static void clear(const baum_i_user_function *function, double *out)
+void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out)
 {
+  baum_i_listen();
+  at->point->asking = true;
   memset(out, 0, (size_t)values(function) * sizeof *out);
 }
 
@@ -72,14 +74,15 @@ const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
   return text;
 }
 
-static baum_status fail_returned(const baum_i_user_function *function, baum_i_point *point,
-                                 int answer)
+baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
+                                 const char *name, int answer, baum_i_point *point)
 {
   char label[BAUM_I_LABEL_SIZE];
+  const char *said = baum_i_heard();
   point->retry = answer > 0;
-  return baum_i_fail(BAUM_ERR_CALLBACK, "%s: %s() returned %d (%s)",
-                     baum_i_label(function->element, function->family, label), function->name,
-                     answer, answer > 0 ? "retry" : "stop");
+  return baum_i_fail(BAUM_ERR_CALLBACK, "%s: %s() returned %d (%s)%s%.300s",
+                     baum_i_label(element, family, label), name, answer,
+                     answer > 0 ? "retry" : "stop", said ? ": " : "", said ? said : "");
 }
 
 static baum_status fail_not_finite(const baum_i_user_function *function, const baum_i_local *at,
@@ -97,7 +100,8 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 {
   at->point->asking = false;
   if (answer != 0) {
-    return fail_returned(function, at->point, answer);
+    return baum_i_fail_returned(function->element, function->family, function->name, answer,
+                                at->point);
   }
   int count = values(function);
   for (int i = 0; i < count; i++) {
@@ -111,24 +115,21 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
                           const baum_i_local *at, double *out)
 {
-  clear(function, out);
-  at->point->asking = true;
+  baum_i_begin_call(function, at, out);
   return baum_i_judge(function, at, call(at->t, at->q, out, function->user), out);
 }
 
 baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *call,
                            const baum_i_local *at, double *out)
 {
-  clear(function, out);
-  at->point->asking = true;
+  baum_i_begin_call(function, at, out);
   return baum_i_judge(function, at, call(at->t, at->q, at->v, out, function->user), out);
 }
 
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out)
 {
-  clear(function, out);
-  at->point->asking = true;
+  baum_i_begin_call(function, at, out);
   return baum_i_judge(function, at,
                       call(at->t, at->q, at->v, at->point->inputs, out, function->user), out);
 }

@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "base/sized.h"
+#include "base/text.h"
 #include "simulate/account.h"
 
 /* ---- warnings ---- */
@@ -16,7 +17,8 @@ void baum_i_run_warn(baum_simulation *run, const char *format, ...)
   if (run->counters.warnings < BAUM_I_WARNINGS) {
     va_list arguments;
     va_start(arguments, format);
-    (void)vsnprintf(run->warnings[run->counters.warnings], BAUM_I_WARNING_SIZE, format, arguments);
+    (void)baum_i_format(run->warnings[run->counters.warnings], BAUM_I_WARNING_SIZE, format,
+                        arguments);
     va_end(arguments);
   }
   run->counters.warnings++;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/text.h"
 #include "mechanism/planar.h"
 #include "simulate/account.h"
 
@@ -29,24 +30,26 @@ typedef enum depth { DEPTH_FRAMES, DEPTH_VIOLATION, DEPTH_SOLUTION } depth;
 typedef struct facts {
   object of;
   depth needs;
+  const char *word;
 } facts;
 
 /* By quantity; 0 is none. */
 static const facts table[] = {
-  [BAUM_Q] = {OF_Q, DEPTH_FRAMES},
-  [BAUM_V] = {OF_V, DEPTH_FRAMES},
-  [BAUM_A] = {OF_V, DEPTH_SOLUTION},
-  [BAUM_LAMBDA] = {OF_ROWS, DEPTH_SOLUTION},
-  [BAUM_PHI] = {OF_ROWS, DEPTH_VIOLATION},
-  [BAUM_PHI_RATE] = {OF_ROWS, DEPTH_VIOLATION},
-  [BAUM_ENERGY] = {OF_ENERGY, DEPTH_FRAMES},
-  [BAUM_BODY_POSE] = {OF_BODY, DEPTH_FRAMES},
-  [BAUM_BODY_VELOCITY] = {OF_BODY, DEPTH_FRAMES},
-  [BAUM_JOINT_REACTION] = {OF_JOINT, DEPTH_SOLUTION},
-  [BAUM_JOINT_COORDINATE] = {OF_JOINT, DEPTH_FRAMES},
-  [BAUM_BODY_ACCELERATION] = {OF_BODY, DEPTH_SOLUTION},
-  [BAUM_DRIVE_EFFORT] = {OF_JOINT, DEPTH_SOLUTION},
-  [BAUM_ENERGY_ACCOUNT] = {OF_ACCOUNT, DEPTH_FRAMES},
+  [0] = {OF_NOTHING, DEPTH_FRAMES, "nothing"},
+  [BAUM_Q] = {OF_Q, DEPTH_FRAMES, "positions"},
+  [BAUM_V] = {OF_V, DEPTH_FRAMES, "velocities"},
+  [BAUM_A] = {OF_V, DEPTH_SOLUTION, "accelerations"},
+  [BAUM_LAMBDA] = {OF_ROWS, DEPTH_SOLUTION, "multipliers"},
+  [BAUM_PHI] = {OF_ROWS, DEPTH_VIOLATION, "violation"},
+  [BAUM_PHI_RATE] = {OF_ROWS, DEPTH_VIOLATION, "rate of violation"},
+  [BAUM_ENERGY] = {OF_ENERGY, DEPTH_FRAMES, "energy"},
+  [BAUM_BODY_POSE] = {OF_BODY, DEPTH_FRAMES, "pose"},
+  [BAUM_BODY_VELOCITY] = {OF_BODY, DEPTH_FRAMES, "velocity"},
+  [BAUM_JOINT_REACTION] = {OF_JOINT, DEPTH_SOLUTION, "reaction"},
+  [BAUM_JOINT_COORDINATE] = {OF_JOINT, DEPTH_FRAMES, "coordinate"},
+  [BAUM_BODY_ACCELERATION] = {OF_BODY, DEPTH_SOLUTION, "acceleration"},
+  [BAUM_DRIVE_EFFORT] = {OF_JOINT, DEPTH_SOLUTION, "effort"},
+  [BAUM_ENERGY_ACCOUNT] = {OF_ACCOUNT, DEPTH_FRAMES, "energy account"},
 };
 
 static facts facts_of(baum_quantity quantity)
@@ -124,6 +127,23 @@ static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
   case OF_JOINT: return joint_width(m, c, k);
   case OF_NOTHING:
   default: return fail_channel(k, "quantity is no baum_quantity");
+  }
+}
+
+void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char *text, size_t size)
+{
+  facts f = facts_of(c->quantity);
+  char label[BAUM_I_LABEL_SIZE];
+  baum_i_append(text, size, "%s", f.word);
+  if (f.of == OF_BODY) {
+    const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
+    baum_i_append(text, size, " of %s", baum_i_label(&body->element, "body", label));
+    if (c->point[0] != 0.0 || c->point[1] != 0.0) {
+      baum_i_append(text, size, " at (%g, %g) m", c->point[0], c->point[1]);
+    }
+  } else if (c->joint.index1 != 0 && (f.of == OF_JOINT || f.of == OF_ROWS)) {
+    baum_i_append(text, size, " of %s",
+                  baum_i_joint_label(m, baum_i_joint_index(m, c->joint), label));
   }
 }
 

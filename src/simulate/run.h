@@ -204,6 +204,10 @@ baum_status baum_i_run_own_parameters(baum_simulation *run);
 /* Width of channels, or -1 with the sentence. */
 int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *channels, int count);
 
+/* `pose of body 3 "slider" at (0.1, 0) m` behind a text. The channel is checked. */
+void baum_i_append_channel(const baum_mechanism *mechanism, const baum_channel *channel, char *text,
+                           size_t size);
+
 /* Channels at any state, without change to the run. The channels are checked. */
 baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
                           const baum_channel *channels, int count, double *row);

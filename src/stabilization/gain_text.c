@@ -8,9 +8,8 @@
 #include "stabilization/gain_text.h"
 
 #include <math.h>
-#include <stdio.h>
 
-#include "base/message.h"
+#include "base/text.h"
 
 static const double BDF_DAMPING_RATIO = 0.618;
 static const double EDGE_GROWTH = -0.05; /* spectral radius 0.95: what a refusal offers has 0.9 */
@@ -25,9 +24,9 @@ static void print_radius(double radius, char text[RADIUS_SIZE])
 {
   double growth = radius - 1.0;
   if (fabs(growth) > 1e-12 && fabs(growth) < 1e-4) {
-    (void)snprintf(text, RADIUS_SIZE, "1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth));
+    baum_i_print(text, RADIUS_SIZE, "1 %c %.2g", growth > 0.0 ? '+' : '-', fabs(growth));
   } else {
-    (void)snprintf(text, RADIUS_SIZE, "%.6g", radius);
+    baum_i_print(text, RADIUS_SIZE, "%.6g", radius);
   }
 }
 
@@ -43,20 +42,20 @@ static void print_region(const baum_i_method *method, const baum_i_gain_draft *g
                          char text[REGION_SIZE])
 {
   if (method->kind == BAUM_I_METHOD_SEMI_IMPLICIT) {
-    (void)snprintf(text, REGION_SIZE, "0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h");
+    baum_i_print(text, REGION_SIZE, "0 < alpha h < 1 and 0 < beta^2 h^2 < 4 - 4 alpha h");
     return;
   }
   if (method->kind == BAUM_I_METHOD_ONE_STEP && method->degree == 1) {
-    (void)snprintf(text, REGION_SIZE, "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4");
+    baum_i_print(text, REGION_SIZE, "0 < beta^2 h^2 < 2 alpha h and beta^2 h^2 > 4 alpha h - 4");
     return;
   }
   double on_ray = limit_on_ray(method, gains);
-  int length = snprintf(text, REGION_SIZE, "alpha = beta up to alpha h = %.6g",
-                        baum_i_stability_limit(method, 1.0));
+  int length = baum_i_print(text, REGION_SIZE, "alpha = beta up to alpha h = %.6g",
+                            baum_i_stability_limit(method, 1.0));
   if (!isnan(on_ray)) {
-    (void)snprintf(text + length, REGION_SIZE - (size_t)length,
-                   " and alpha = %.4g beta up to alpha h = %.6g",
-                   gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
+    baum_i_print(text + length, REGION_SIZE - (size_t)length,
+                 " and alpha = %.4g beta up to alpha h = %.6g",
+                 gains->alpha_h / sqrt(gains->beta2_h2), on_ray);
   }
 }
 
@@ -131,16 +130,16 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
   bool near_edge = stable && !undamped && is_near_edge(context, gains);
   print_radius(amplification->spectral_radius, radius);
   int length =
-    snprintf(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
-             gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
+    baum_i_print(text, CLAUSE_SIZE, "(alpha h, beta^2 h^2) = (%.6g, %.6g), spectral radius %s, %s",
+                 gains->alpha_h, gains->beta2_h2, radius, class_text[amplification->stability]);
   if (near_edge) {
-    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length,
-                   "; warning: near the edge of the region, a step leaves %s of a violation and "
-                   "not %.3g",
-                   radius, exp(-promised_damping(gains)));
+    baum_i_print(text + length, CLAUSE_SIZE - (size_t)length,
+                 "; warning: near the edge of the region, a step leaves %s of a violation and "
+                 "not %.3g",
+                 radius, exp(-promised_damping(gains)));
   }
   if (undamped) {
-    (void)snprintf(text + length, CLAUSE_SIZE - (size_t)length, "; %s", UNDAMPED);
+    baum_i_print(text + length, CLAUSE_SIZE - (size_t)length, "; %s", UNDAMPED);
   }
   return !stable || undamped || near_edge;
 }
@@ -151,27 +150,27 @@ static bool print_variable_step(baum_i_method_family family, const baum_i_gain_d
                                 double max_step, char text[CLAUSE_SIZE])
 {
   if (gains->beta == 0.0 && gains->alpha > 0.0) {
-    (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step; warning: beta = 0 leaves violations of position");
+    baum_i_print(text, CLAUSE_SIZE,
+                 "variable step; warning: beta = 0 leaves violations of position");
     return true;
   }
   if (gains->beta > 0.0 && gains->alpha == 0.0) {
-    (void)snprintf(text, CLAUSE_SIZE, "variable step; %s", UNDAMPED);
+    baum_i_print(text, CLAUSE_SIZE, "variable step; %s", UNDAMPED);
     return true;
   }
   if (isfinite(max_step)) {
-    (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step, at most %.4g s, for beyond is where violations would grow",
-                   max_step);
+    baum_i_print(text, CLAUSE_SIZE,
+                 "variable step, at most %.4g s, for beyond is where violations would grow",
+                 max_step);
     return false;
   }
   if (family == BAUM_I_FAMILY_BDF && gains->alpha < BDF_DAMPING_RATIO * gains->beta) {
-    (void)snprintf(text, CLAUSE_SIZE,
-                   "variable step; warning: alpha / beta = %.3g < %g, where BDF may not damp",
-                   gains->alpha / gains->beta, BDF_DAMPING_RATIO);
+    baum_i_print(text, CLAUSE_SIZE,
+                 "variable step; warning: alpha / beta = %.3g < %g, where BDF may not damp",
+                 gains->alpha / gains->beta, BDF_DAMPING_RATIO);
     return true;
   }
-  (void)snprintf(text, CLAUSE_SIZE, "variable step");
+  baum_i_print(text, CLAUSE_SIZE, "variable step");
   return false;
 }
 
@@ -184,7 +183,6 @@ void baum_i_gain_explain(const char *rule, const baum_i_gain_context *context,
   } else {
     choice->doubtful = print_fixed_step(context, gains, &choice->amplification, clause);
   }
-  (void)snprintf(choice->why, sizeof choice->why,
-                 "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s", rule, gains->alpha,
-                 gains->beta, gains->note, clause);
+  baum_i_print(choice->why, sizeof choice->why, "gains %s: alpha = %.6g 1/s, beta = %.6g 1/s%s; %s",
+               rule, gains->alpha, gains->beta, gains->note, clause);
 }

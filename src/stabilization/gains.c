@@ -24,9 +24,8 @@
 #include "stabilization/gains.h"
 
 #include <math.h>
-#include <stdio.h>
 
-#include "base/message.h"
+#include "base/text.h"
 #include "stabilization/gain_text.h"
 
 static const double PI = 3.14159265358979323846;
@@ -148,9 +147,9 @@ static double auto_factor(const baum_i_gain_context *context)
 static void print_note(baum_i_gain_draft *out, const baum_i_gain_context *context,
                        const char *capped)
 {
-  (void)snprintf(out->note, sizeof out->note, " (%s%g x %.6g 1/s, %s%s)", capped,
-                 auto_factor(context), context->rate, context->rate_is,
-                 context->driven ? "; no freedom is left" : "");
+  baum_i_print(out->note, sizeof out->note, " (%s%g x %.6g 1/s, %s%s)", capped,
+               auto_factor(context), context->rate, context->rate_is,
+               context->driven ? "; no freedom is left" : "");
 }
 
 /* Half of the limit keeps well inside also where 0.3 would not. */
@@ -160,8 +159,8 @@ static double auto_with_step(const baum_i_gain_context *context, double wanted,
   double h = context->step;
   double cap = fmin(AUTO_CAP, 0.5 * baum_i_stability_limit(context->method, 1.0));
   if (context->rate * h < REST) {
-    (void)snprintf(out->note, sizeof out->note, " (nothing moves at start: alpha h = %g)",
-                   AUTO_AT_REST);
+    baum_i_print(out->note, sizeof out->note, " (nothing moves at start: alpha h = %g)",
+                 AUTO_AT_REST);
     return AUTO_AT_REST / h;
   }
   bool capped = wanted * h > cap;
@@ -176,8 +175,7 @@ static double auto_without_step(const baum_i_gain_context *context, double wante
     print_note(out, context, "");
     return wanted;
   }
-  (void)snprintf(out->note, sizeof out->note,
-                 " (nothing moves at start: 1 1/s for want of a rate)");
+  baum_i_print(out->note, sizeof out->note, " (nothing moves at start: 1 1/s for want of a rate)");
   return 1.0;
 }
 

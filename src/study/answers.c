@@ -156,24 +156,38 @@ static bool find_error(const baum_i_row *const *rows, int count, double error, p
   return false;
 }
 
-baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
-                               baum_study_cost cost, double *out)
+/* Costs of some methods at an error. */
+typedef struct levelled {
+  const baum_study *study;
+  double error;
+  baum_study_cost cost;
+  const char *call;
+} levelled;
+
+static baum_status check_levelled(const levelled *at, const double *out, const char *name)
 {
-  const char *call = "baum_study_cost_at";
-  baum_status status = check_cost(study, cost, call);
-  if (status != BAUM_OK) {
-    return status;
+  baum_status status = check_cost(at->study, at->cost, at->call);
+  if (status == BAUM_OK && !out) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", at->call, name);
   }
-  if (!out || method < 0 || method >= study->method_count || !(error > 0.0 && isfinite(error))) {
-    return baum_i_fail(
-      BAUM_ERR_ARGUMENT,
-      "%s: out is NULL, there is no method %d, or error is %g, must be finite and > 0", call,
-      (int)method, error);
+  if (status == BAUM_OK && !(at->error > 0.0 && isfinite(at->error))) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", at->call,
+                         at->error);
+  }
+  return status;
+}
+
+static baum_status find_cost(const levelled *at, int32_t method, double *out)
+{
+  const baum_study *study = at->study;
+  if (method < 0 || method >= study->method_count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d, of %d", at->call, (int)method,
+                       study->method_count);
   }
   const baum_i_row *rows[MOST_ROWS];
   int count = baum_i_study_usable(study, method, rows, MOST_ROWS);
   place p;
-  if (!find_error(rows, count, error, &p)) {
+  if (!find_error(rows, count, at->error, &p)) {
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 0; k < count; k++) {
@@ -182,23 +196,32 @@ baum_status baum_study_cost_at(const baum_study *study, int32_t method, double e
     }
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: %s has been measured with errors from %.2g to %.2g, not near %.2g",
-                       call, study->methods[method].name, least, most, error);
+                       at->call, study->methods[method].name, least, most, at->error);
   }
-  double a = cost_of(p.coarse, cost);
-  *out = a * pow(cost_of(p.fine, cost) / a, p.share);
+  double a = cost_of(p.coarse, at->cost);
+  *out = a * pow(cost_of(p.fine, at->cost) / a, p.share);
   return BAUM_OK;
+}
+
+baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
+                               baum_study_cost cost, double *out)
+{
+  const levelled at = {study, error, cost, "baum_study_cost_at"};
+  baum_status status = check_levelled(&at, out, "out");
+  return status == BAUM_OK ? find_cost(&at, method, out) : status;
 }
 
 baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                baum_study_cost cost, double *ratio)
 {
+  const levelled at = {study, error, cost, "baum_study_compare"};
   double costs[2] = {(double)NAN, (double)NAN};
-  if (!ratio) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_compare: ratio is NULL");
-  }
-  baum_status status = baum_study_cost_at(study, a, error, cost, &costs[0]);
+  baum_status status = check_levelled(&at, ratio, "ratio");
   if (status == BAUM_OK) {
-    status = baum_study_cost_at(study, b, error, cost, &costs[1]);
+    status = find_cost(&at, a, &costs[0]);
+  }
+  if (status == BAUM_OK) {
+    status = find_cost(&at, b, &costs[1]);
   }
   if (status == BAUM_OK) {
     *ratio = costs[0] / costs[1];

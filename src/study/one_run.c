@@ -5,6 +5,7 @@
 #include <time.h>
 
 #include "base/alloc.h"
+#include "base/text.h"
 #include "integrate/integrator.h"
 #include "study/study.h"
 
@@ -30,6 +31,11 @@ double baum_i_wall_seconds(void)
 bool baum_i_watch_stops(const baum_i_watch *watch)
 {
   return atomic_load(&watch->study->cancelled) != 0 || baum_i_wall_seconds() >= watch->deadline;
+}
+
+void baum_i_say_too_long(double limit, char *text, size_t size)
+{
+  baum_i_print(text, size, "it takes more than %g s", limit);
 }
 
 static int look(const baum_simulation *simulation, double t, void *user)
@@ -93,7 +99,8 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
-static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome *out)
+static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool with_account,
+                         baum_i_outcome *out)
 {
   const double none = (double)NAN;
   out->account = (baum_energy_account){.violation = none, .projection = none, .gains = none};
@@ -101,7 +108,9 @@ static void read_outcome(baum_simulation *run, bool with_account, baum_i_outcome
   if (with_account) {
     (void)baum_simulation_energy_account(run, &out->account, sizeof out->account);
   }
-  if (out->status < BAUM_OK) {
+  if (watch->timed_out) {
+    baum_i_say_too_long(watch->limit, out->message, sizeof out->message);
+  } else if (out->status < BAUM_OK) {
     (void)snprintf(out->message, sizeof out->message, "%s", baum_simulation_message(run));
   } else if (out->counters.warnings > 0) {
     (void)baum_simulation_warning(run, 0, out->message, sizeof out->message);
@@ -128,7 +137,7 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *
     return;
   }
   out->status = rows ? sample(task, run, rows) : advance(task, run);
-  read_outcome(run, o.energy_account, out);
+  read_outcome(run, watch, o.energy_account, out);
   baum_simulation_destroy(run);
   out->cpu = baum_i_thread_seconds() - watch->begin;
 }

@@ -110,10 +110,6 @@ static baum_status join(baum_study *study, const baum_simulation_options *o, bau
     return outcome.status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : BAUM_STOP_CANCELLED;
   }
   if (outcome.status < BAUM_OK || outcome.status == BAUM_STOP_CANCELLED) {
-    if (outcome.status == BAUM_STOP_CANCELLED) {
-      (void)snprintf(outcome.message, sizeof outcome.message, "it takes more than %g s",
-                     watch->limit);
-    }
     describe_failure(o, &outcome, out);
     out->failed = true;
     return BAUM_OK;
@@ -135,8 +131,8 @@ static void describe(const baum_study *study, const attempt *a, found *out)
     baum_simulation_options o = setting(study, a, k, 0);
     baum_i_name_method(&o, names[k], sizeof names[k]);
   }
-  (void)snprintf(out->text, sizeof out->text, "%s and %s, with rtol %g and half of it,", names[0],
-                 names[1], a->rtol);
+  baum_i_print(out->text, sizeof out->text, "%s and %s, with rtol %g and half of it,", names[0],
+               names[1], a->rtol);
 }
 
 /* Four runs, the reference first. Leaves study->reference.rows as it was. */
@@ -319,10 +315,13 @@ static baum_status give_one(const baum_study *study, const baum_i_layout *l, int
     fill(row + l->lambda, r->given[2] ? r->given[2] + (size_t)k * l->nc : NULL, l->nc);
     return BAUM_OK;
   }
+  baum_i_listen();
   int answer = r->solution(r->course.times[k], row, row + l->v, row + l->lambda, r->user);
-  return answer == 0 ? BAUM_OK
-                     : baum_i_fail(BAUM_ERR_CALLBACK, "study: the solution returned %d at t = %g s",
-                                   answer, r->course.times[k]);
+  const char *said = baum_i_heard();
+  return answer == 0
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_CALLBACK, "study: the solution returned %d at t = %g s%s%s",
+                         answer, r->course.times[k], said ? ": " : "", said ? said : "");
 }
 
 static void trust_given(baum_study *study)
@@ -339,8 +338,8 @@ static void trust_given(baum_study *study)
   r->out.uncertainty_energy = least * kinetic;
   r->out.digits = r->digits;
   r->out.trusted = true;
-  (void)snprintf(r->text, sizeof r->text, "%s, trusted to %.1f digits",
-                 r->solution ? "a solution by formulas" : "given", r->digits);
+  baum_i_print(r->text, sizeof r->text, "%s, trusted to %.1f digits",
+               r->solution ? "a solution by formulas" : "given", r->digits);
 }
 
 static baum_status take_given(baum_study *study)

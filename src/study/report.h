@@ -139,6 +139,9 @@ void baum_i_put_messages(const baum_i_survey *survey, baum_i_buffer *out);
 
 /* ---- files ---- */
 
+/* Is there something that is no regular file, such as a pipe? Links are followed. */
+bool baum_i_is_no_file(const char *path);
+
 /* All of it or nothing, see baum_study_write(). */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
 

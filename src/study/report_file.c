@@ -8,6 +8,12 @@
 #include "base/alloc.h"
 #include "study/report.h"
 
+bool baum_i_is_no_file(const char *path)
+{
+  struct stat found;
+  return stat(path, &found) == 0 && !S_ISREG(found.st_mode);
+}
+
 static baum_status fail(const char *path, const char *what, int reason)
 {
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
@@ -20,12 +26,13 @@ static bool is_special(const char *path)
   return lstat(path, &found) == 0 && !S_ISREG(found.st_mode);
 }
 
-static baum_status write_in_place(const char *path, const char *mode, const char *bytes,
-                                  size_t size)
+/* Into the file itself or, exclusively, the one beside it; sentences name the one that was asked for. */
+static baum_status write_bytes(const char *into, const char *mode, const char *path,
+                               const char *bytes, size_t size)
 {
-  FILE *file = fopen(path, mode);
+  FILE *file = fopen(into, mode);
   if (!file) {
-    return fail(path, "opened", errno);
+    return fail(path, "written", errno);
   }
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
   if (fclose(file) != 0 && reason == 0) {
@@ -38,7 +45,7 @@ static baum_status write_in_place(const char *path, const char *mode, const char
 static baum_status write_part(const char *part, const char *path, const char *bytes, size_t size)
 {
   (void)remove(part);
-  baum_status status = write_in_place(part, "wx", bytes, size);
+  baum_status status = write_bytes(part, "wx", path, bytes, size);
   if (status == BAUM_OK && rename(part, path) != 0) {
     status = fail(path, "replaced", errno);
   }
@@ -51,7 +58,7 @@ static baum_status write_part(const char *part, const char *path, const char *by
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
 {
   if (is_special(path)) {
-    return write_in_place(path, "w", bytes, size);
+    return write_bytes(path, "w", path, bytes, size);
   }
   size_t length = strlen(path) + sizeof ".part";
   char *part = baum_i_alloc(length, 1);

@@ -89,9 +89,6 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
   out->status = outcome->status;
   out->untrusted = !study->reference.out.trusted;
   (void)snprintf(row->message, sizeof row->message, "%s", outcome->message);
-  if (out->state == BAUM_STUDY_TIMED_OUT) {
-    (void)snprintf(row->message, sizeof row->message, "it takes more than %g s", watch->limit);
-  }
   take_motion(outcome, out);
   if (out->state == BAUM_STUDY_DONE && study->reference.course.rows) {
     baum_i_differences d = baum_i_study_compare(study, &study->reference.course, samples);
@@ -151,7 +148,7 @@ static void pass_over(const crew *c, baum_i_row *row)
   row->out.status = BAUM_STOP_CANCELLED;
   row->out.untrusted = !c->study->reference.out.trusted;
   row->limit = c->study->options.row_limit;
-  (void)snprintf(row->message, sizeof row->message, "it takes more than %g s", row->limit);
+  baum_i_say_too_long(row->limit, row->message, sizeof row->message);
   row->measured = true;
 }
 

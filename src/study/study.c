@@ -12,22 +12,32 @@
 #include "integrate/integrator.h"
 #include "mechanism/definition.h"
 #include "simulate/options.h"
+#include "simulate/run.h"
 #include "study/study.h"
 
 /* ---- making and ending ---- */
 
+enum { NAMED = 3 }; /* channels, in words */
+
 static void describe_error(baum_study *study)
 {
+  char *text = study->error_text;
   size_t size = sizeof study->error_text;
-  study->error_text[0] = '\0';
-  if (study->channel_count > 0) {
-    baum_i_append(study->error_text, size, "largest error of %d channel%s over all samples, by %g",
-                  study->channel_count, study->channel_count > 1 ? "s" : "", study->unit);
-  } else {
-    baum_i_append(study->error_text, size,
-                  "largest error of all positions over all samples, lengths by %.4g, angles in rad",
-                  study->mechanism->length);
+  if (study->channel_count == 0) {
+    baum_i_print(text, size,
+                 "largest error of all positions over all samples, lengths by %.4g, angles in rad",
+                 study->mechanism->length);
+    return;
   }
+  baum_i_print(text, size, "largest error of ");
+  for (int k = 0; k < study->channel_count && k < NAMED; k++) {
+    baum_i_append(text, size, "%s", k > 0 ? ", " : "");
+    baum_i_append_channel(study->mechanism, &study->channels[k], text, size);
+  }
+  if (study->channel_count > NAMED) {
+    baum_i_append(text, size, " and %d more", study->channel_count - NAMED);
+  }
+  baum_i_append(text, size, " over all samples, by %g", study->unit);
 }
 
 baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double t1,
@@ -126,6 +136,9 @@ static baum_status check_options(const baum_study_options *o)
       return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %g s, must be > 0", times[k],
                          time[k]);
     }
+  }
+  if (o->file && o->file[0] == '\0') {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: file is empty; NULL stands for none");
   }
   return BAUM_OK;
 }

@@ -96,7 +96,7 @@ struct baum_study {
   baum_channel *channels; /* (channel_count) of the user; none: positions */
   int channel_count;
   double unit;
-  char error_text[BAUM_I_NOTE_SIZE];
+  char error_text[BAUM_I_TEXT_SIZE];
 
   baum_i_study_reference reference;
   baum_i_course rehearsals[BAUM_I_REHEARSALS];
@@ -196,6 +196,9 @@ typedef struct baum_i_task {
  * samples are taken. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
                           baum_i_outcome *out);
+
+/* What is said of a run that takes longer than that [s]. */
+void baum_i_say_too_long(double limit, char *text, size_t size);
 
 /* Cancelled, or the budget spent? */
 bool baum_i_watch_stops(const baum_i_watch *watch);

@@ -24,7 +24,7 @@
 #include "base/digest.h"
 #include "base/text.h"
 #include "mechanism/fingerprint.h"
-#include "study/report_buffer.h"
+#include "study/report.h"
 #include "study/study.h"
 #include "study/study_line.h"
 
@@ -324,6 +324,9 @@ static baum_status take_present(baum_i_study_file *file, baum_study *study, bool
 {
   *is_new = true;
   *whole = true;
+  if (baum_i_is_no_file(file->path)) {
+    return baum_i_fail(BAUM_ERR_FILE, "study: file %s is no regular file", file->path);
+  }
   errno = 0;
   file->stream = fopen(file->path, "r");
   if (!file->stream) {

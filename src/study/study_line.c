@@ -214,5 +214,6 @@ bool baum_i_study_unseal(char *line, uint64_t seed)
   char *end = NULL;
   uint64_t sum = strtoull(mark + 1, &end, 16);
   mark[-1] = '\0';
-  return end == mark + 17 && strcmp(end, "\n") == 0 && sum == sum_of(line, seed);
+  bool is_whole = end == mark + 17 && strcmp(end + (*end == '\r'), "\n") == 0;
+  return is_whole && sum == sum_of(line, seed);
 }

@@ -130,6 +130,8 @@ static void options_out_of_range_are_refused_by_name(void **state)
     ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT, wrong[k].says);
   }
   baum_study_options o = baum_study_options_default();
+  o.file = "";
+  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT, "file is empty");
   o.struct_size = 3;
   ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STRUCT, "struct_size is 3");
   baum_study_destroy(study);
@@ -212,6 +214,26 @@ static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
   assert_int_equal(study_row(study, 0).state, BAUM_STUDY_TIMED_OUT);
   assert_int_equal(study_row(study, 1).state, BAUM_STUDY_REFUSED);
   assert_int_equal(study_row(study, 2).state, BAUM_STUDY_REFUSED);
+  baum_study_destroy(study);
+}
+
+static void what_error_means_is_told_by_name(void **state)
+{
+  const model *m = *state;
+  baum_study *study = make(m);
+  const baum_channel pose = {.quantity = BAUM_BODY_POSE, .body = m->bodies[0]};
+  const baum_channel row = {.quantity = BAUM_PHI, .joint = m->joints[0]};
+  const baum_channel channels[5] = {pose, row, {.quantity = BAUM_ENERGY}, pose, row};
+  assert_string_equal(
+    baum_study_error_text(study),
+    "largest error of all positions over all samples, lengths by 1, angles in rad");
+  assert_int_equal(baum_study_set_error(study, channels, 2, 1e-3), BAUM_OK);
+  assert_string_equal(baum_study_error_text(study),
+                      "largest error of pose of body 1 \"bob\", violation of joint 1 \"rod\" over "
+                      "all samples, by 0.001");
+  assert_int_equal(baum_study_set_error(study, channels, 5, 2.0), BAUM_OK);
+  assert_non_null(
+    strstr(baum_study_error_text(study), ", energy and 2 more over all samples, by 2"));
   baum_study_destroy(study);
 }
 
@@ -412,6 +434,7 @@ int main(void)
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
     cmocka_unit_test(progress_cannot_change_what_is_under_way),
     cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
+    cmocka_unit_test(what_error_means_is_told_by_name),
     cmocka_unit_test(what_is_not_known_yet_is_refused),
     cmocka_unit_test(what_rows_depend_on_stays_once_they_are_run),
     cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),

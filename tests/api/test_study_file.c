@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -280,6 +281,41 @@ static void a_file_of_another_study_is_refused_with_what_differs(void **state)
   end_scene(&s);
 }
 
+/* As an editor or a version control may leave them. */
+static void lines_may_end_as_on_other_systems(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  int first = 0;
+  baum_study *want = run_to_the_end(&s, &first);
+  char *text = read_file(s.path);
+  FILE *stream = fopen(s.path, "w");
+  assert_non_null(stream);
+  for (const char *at = text; *at; at++) {
+    (void)fprintf(stream, *at == '\n' ? "\r\n" : "%c", *at);
+  }
+  (void)fclose(stream);
+  baum_study *got = run_to_the_end(&s, &first);
+  assert_same_rows(got, want);
+  assert_true(study_row(got, 0).cpu == study_row(want, 0).cpu); /* taken from the file */
+  test_free(text);
+  baum_study_destroy(got);
+  baum_study_destroy(want);
+  end_scene(&s);
+}
+
+static void what_is_no_regular_file_is_refused(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  assert_int_equal(remove(s.path), 0);
+  assert_int_equal(mkfifo(s.path, 0600), 0);
+  baum_study *study = study_of(&s);
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "is no regular file");
+  baum_study_destroy(study);
+  end_scene(&s);
+}
+
 static void a_full_disk_and_a_missing_folder_are_statuses(void **state)
 {
   (void)state;
@@ -318,6 +354,8 @@ int main(void)
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
     cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
+    cmocka_unit_test(lines_may_end_as_on_other_systems),
+    cmocka_unit_test(what_is_no_regular_file_is_refused),
     cmocka_unit_test(a_full_disk_and_a_missing_folder_are_statuses),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

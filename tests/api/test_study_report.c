@@ -273,7 +273,7 @@ static void a_folder_that_is_not_there_is_told(void **state)
 {
   (void)state;
   ASSERT_SAYS(baum_study_write(scene.study, BAUM_REPORT_PAGE, NULL, "no/such/folder.html"),
-              BAUM_ERR_FILE, "no/such/folder.html|opened|No such file");
+              BAUM_ERR_FILE, "no/such/folder.html: cannot be written: No such file");
 }
 
 static void what_a_killed_program_has_left_is_no_hindrance(void **state)

@@ -316,6 +316,9 @@ static void cost_at_an_error_lies_between_that_of_rows_and_compares_methods(void
   assert_int_equal(baum_study_cost_at(study, method, 1e-30, BAUM_STUDY_WORK, &cost),
                    BAUM_ERR_ARGUMENT);
   assert_non_null(strstr(baum_message(), "has been measured with errors from"));
+  assert_int_equal(baum_study_compare(study, method, 99, 1e-6, BAUM_STUDY_WORK, &ratio),
+                   BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "baum_study_compare: there is no method 99"));
   baum_study_destroy(study);
   model_destroy(&m);
 }

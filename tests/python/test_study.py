@@ -176,6 +176,16 @@ class Running(unittest.TestCase):
         with self.assertWarnsRegex(baum.Warning, "returned -1.*NameError.*lenght"):
             study.run()
         self.assertEqual(study.rows[0].state, "failed")
+        self.assertRegex(study.rows[0].message, r"returned -1 \(stop\): NameError\('lenght'\)")
+
+    def test_a_reference_goes_with_its_digits(self):
+        m = rod_pendulum()
+        known = ([0.5, 1.0], [[1.0, 0.0], [0.0, -1.0]])
+        for options in ({"reference": known}, {"solution": lambda t: None}, {"digits": 9}):
+            with self.assertRaisesRegex(TypeError, "digits.*go together"):
+                baum.study(m, 0, 1, **options)
+        with self.assertRaisesRegex(baum.Error, "file is empty"):
+            baum.study(m, 0, 1, file="")
 
     def test_a_study_goes_on_from_its_file(self):
         with tempfile.TemporaryDirectory() as folder:

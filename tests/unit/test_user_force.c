@@ -23,6 +23,7 @@ typedef struct spring {
   double k;
   double d;
   int answer;
+  const char *says; /* of its answer */
 } spring;
 
 static int spring_force(double t, const double *q, const double *v, const double *inputs,
@@ -36,6 +37,9 @@ static int spring_force(double t, const double *q, const double *v, const double
   out[B] = f * cos(q[B]);
   out[Y] = -f;
   out[X] = -s->d * v[X] * v[X] * v[X];
+  if (s->says) {
+    (void)baum_fail(BAUM_ERR_CALLBACK, s->says);
+  }
   return s->answer;
 }
 
@@ -225,6 +229,13 @@ static void failing_functions_are_named(void **state)
   assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
   assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
   assert_false(p.point.retry);
+  f.spring.says = "the table ends at 3 m";
+  assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(),
+                      "force 1 \"spring\": force() returned -1 (stop): the table ends at 3 m");
+  f.spring.says = NULL; /* what was said before is not of this call */
+  assert_int_equal(baum_i_mechanism_force(&p.point, out), BAUM_ERR_CALLBACK);
+  assert_string_equal(baum_message(), "force 1 \"spring\": force() returned -1 (stop)");
   const baum_i_force_blocks blocks[] = {{.force_q = out}, {.force_v = out}};
   for (int i = 0; i < 2; i++) {
     assert_int_equal(baum_i_mechanism_linearize_forces(&p.point, &blocks[i]), BAUM_ERR_CALLBACK);

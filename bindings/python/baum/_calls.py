@@ -40,7 +40,6 @@ def make(function, *arguments):
     _here.error = None
     status = function(*arguments)
     error, _here.error = _here.error, None
-    _here.dropped = error
     if error is not None and (status in STOPPED or not isinstance(error, Exception)):
         if status < 0 and hasattr(error, "add_note"):
             error.add_note(f"baum: {message()}")
@@ -48,12 +47,6 @@ def make(function, *arguments):
     if status < 0:
         raise errors.Error(status, message()) from error
     return errors.as_status(status)
-
-
-def dropped():
-    """What a callback raised in this thread's last call that got over it, or None."""
-    error, _here.dropped = _here.dropped, None
-    return error
 
 
 def message():

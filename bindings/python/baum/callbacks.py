@@ -18,7 +18,8 @@ import ctypes
 import numpy as np
 
 from . import _abi, _calls
-from .errors import Retry
+from ._lib import lib
+from .errors import Retry, Status
 
 FINE, RETRY, STOP = 0, 1, -1
 CACHED = 64
@@ -193,6 +194,7 @@ def _answer(error):
     """What the library is told about an exception."""
     asks_again = isinstance(error, Retry)
     _calls.raise_later(None if asks_again else error)
+    lib.baum_fail(Status.ERR_CALLBACK, repr(error).encode(errors="replace"))
     return RETRY if asks_again else STOP
 
 

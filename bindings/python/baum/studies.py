@@ -140,6 +140,9 @@ class Study:
         self._set_options(progress, file, dict(options, threads=threads))
         if error is not None:
             self._set_error(error, unit)
+        if (reference is None and solution is None) != (digits is None):
+            raise TypeError("reference or solution and digits, which says how many of its digits "
+                            "can be trusted, go together")
         if reference is not None:
             self._set_reference(reference, number(digits, "digits"))
         if solution is not None:
@@ -259,8 +262,8 @@ class Study:
     def run(self):
         """Make the reference and run the rows that are not done; without any the standard grid is
         added first. A reference that is not to be trusted, and a budget that is spent, are Python
-        warnings. Where a function of the mechanism raises, the row fails; the warning tells what it
-        raised when the reference was made. Returns the study."""
+        warnings. Where a function of the mechanism raises, the row fails, and its message tells
+        what was raised. Returns the study."""
         if len(self) == 0:
             self.add_standard()
         status, sentence = self._long(lib.baum_study_run)
@@ -277,10 +280,7 @@ class Study:
         here, whichever thread it was called from."""
 
         def call():
-            status = self._owner.call(function, *arguments)
-            raised = _calls.dropped()
-            note = "" if raised is None else f" ({raised!r} was raised)"
-            return status, _calls.message() + note
+            return self._owner.call(function, *arguments), _calls.message()
 
         self._error = None
         try:
@@ -356,7 +356,10 @@ class Study:
 
     def compare(self, a, b, error, cost="work"):
         """Cost of method a over that of method b at the same error."""
-        return self.cost_at(a, error, cost) / self.cost_at(b, error, cost)
+        out = ctypes.c_double()
+        self._owner.call(lib.baum_study_compare, integer(a, "a"), integer(b, "b"),
+                         number(error, "error"), _cost(cost), ctypes.byref(out))
+        return out.value
 
     def recommend(self, error, cost="work"):
         """The cheapest setting for an error, which holds for starts nearby and twice the span too:

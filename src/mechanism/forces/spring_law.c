@@ -23,10 +23,7 @@ static baum_status call(const baum_i_spring_law *spring, const baum_i_local *at,
                         double out[ENTRIES])
 {
   baum_i_user_function f = function(spring);
-  out[VALUE] = 0.0;
-  out[BY_LENGTH] = 0.0;
-  out[BY_RATE] = 0.0;
-  at->point->asking = true;
+  baum_i_begin_call(&f, at, out);
   return baum_i_judge(&f, at, spring->law(at->q[0], at->v[0], out, spring->user), out);
 }
 

@@ -160,8 +160,7 @@ static baum_status law_at(const baum_i_joint *joint, const baum_i_local *at, dou
     return BAUM_OK;
   }
   baum_i_user_function user = function(joint);
-  memset(f, 0, LAW_SIZE * sizeof *f);
-  at->point->asking = true;
+  baum_i_begin_call(&user, at, f);
   return baum_i_judge(&user, at, def->law(at->q[0], f, def->user), f);
 }
 

@@ -75,8 +75,7 @@ static baum_status curve_at(const baum_i_joint *joint, const baum_i_local *at, d
 {
   const baum_planar_curve_def *def = joint->element.def;
   baum_i_user_function f = function(joint);
-  memset(out, 0, CURVE_SIZE * sizeof *out);
-  at->point->asking = true;
+  baum_i_begin_call(&f, at, out);
   return baum_i_judge(&f, at, def->curve(at->q, out, def->user), out);
 }
 

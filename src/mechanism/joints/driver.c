@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 #include "mechanism/joints/driven.h"
+#include "mechanism/user_function.h"
 
 static const baum_driver_def defaults = {.struct_size = sizeof(baum_driver_def)};
 
@@ -41,15 +42,6 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 
 /* ---- the law ---- */
 
-static baum_status refuse_return(const baum_i_joint *joint, baum_i_point *point, int code)
-{
-  char label[BAUM_I_LABEL_SIZE];
-  point->retry = code > 0;
-  return baum_i_fail(BAUM_ERR_CALLBACK, "%s: law() returned %d (%s)",
-                     baum_i_label(&joint->element, "joint", label), code,
-                     code > 0 ? "retry" : "stop");
-}
-
 /* The user's. */
 static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[3])
 {
@@ -57,11 +49,12 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
   s[0] = 0.0;
   s[1] = 0.0;
   s[2] = 0.0;
+  baum_i_listen();
   point->asking = true;
   int code = def->law(point->t, s, def->user);
   point->asking = false;
   return code == 0 ? baum_i_check_motion(joint, point, "law()", s)
-                   : refuse_return(joint, point, code);
+                   : baum_i_fail_returned(&joint->element, "joint", "law", code, point);
 }
 
 /* ---- type ---- */

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Where the locale writes numbers with a comma the library's texts keep their point."""
+
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+COMMA = """LC_NUMERIC
+decimal_point ","
+thousands_sep ""
+grouping -1
+END LC_NUMERIC
+"""
+
+PROGRAM = """
+import locale
+import baum
+locale.setlocale(locale.LC_NUMERIC, "comma")
+assert locale.localeconv()["decimal_point"] == ","
+study = baum.study(baum.catalog.build("pendulum"), 0, 0.5, samples=5, repeats=1)
+study.add("rk8", step=0.0125).add("rk4", formulation="baumgarte", gains=baum.fixed(1.5, 2.5), step=0.0125)
+study.run()
+texts = [row.name for row in study.rows] + [study.error_text, study.reference.text]
+texts += [study.recommend(1e-3).why, study.report("csv"), study.report("json"), study.report("text")]
+try:
+    baum.study(baum.catalog.build("pendulum"), 0.5, 0.5)
+except baum.Error as error:
+    texts.append(str(error))
+print("\\n".join(texts))
+"""
+
+
+@unittest.skipUnless(shutil.which("localedef"), "localedef makes the locale")
+class Commas(unittest.TestCase):
+    def test_no_number_has_one(self):
+        with tempfile.TemporaryDirectory() as folder:
+            source = os.path.join(folder, "source")
+            with open(source, "w", encoding="ascii") as file:
+                file.write(COMMA)
+            subprocess.run(["localedef", "-c", "-i", source, os.path.join(folder, "comma")],
+                           capture_output=True)  # it warns of what is left out
+            done = subprocess.run([sys.executable, "-c", PROGRAM], capture_output=True, text=True,
+                                  env=dict(os.environ, LOCPATH=folder))
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("rk8 projection, step 0.0125 s", done.stdout)
+        self.assertIn("alpha 1.5 beta 2.5 1/s", done.stdout)
+        self.assertIn("t0 is 0.5 s", done.stdout)
+        self.assertNotRegex(done.stdout.replace('",', ' '), r"[ (]\d+,\d+( |$)")
+
+
+if __name__ == "__main__":
+    unittest.main()
