@@ -150,6 +150,19 @@ class Reports(unittest.TestCase):
                 self.study.write(os.path.join(folder, "none", "study.csv"))
             self.assertEqual(raised.exception.status, baum.Status.ERR_FILE)
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no device that is always full")
+    def test_a_full_disk_is_told(self):
+        full = "/dev/full"
+        with tempfile.TemporaryDirectory() as folder:
+            for suffix in ("txt", "csv", "json", "html"):
+                path = os.path.join(folder, f"study.{suffix}")
+                os.symlink(full, path)
+                with self.assertRaisesRegex(baum.Error, "written: No space left") as raised:
+                    self.study.write(path)
+                self.assertEqual(raised.exception.status, baum.Status.ERR_FILE)
+                self.assertIn(path, str(raised.exception))
+                self.assertTrue(os.path.islink(path))
+
     def test_unknown_forms_are_refused(self):
         with self.assertRaisesRegex(ValueError, "there are: text, csv, json, page"):
             self.study.report("pdf")
