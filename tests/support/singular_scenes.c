@@ -281,6 +281,11 @@ singular_result singular_run(const singular_scene *scene, const singular_setting
     .name = (text), .integrator = baum_rk8, .formulation = BAUM_FORMULATION_PROJECTION, \
     .rtol = (tolerance)                                                                 \
   }
+#define BDF(text, tolerance)                                                                  \
+  {                                                                                           \
+    .name = (text), .integrator = baum_cvode_bdf, .formulation = BAUM_FORMULATION_PROJECTION, \
+    .rtol = (tolerance)                                                                       \
+  }
 #define GAINS(text, method, gain)                                                      \
   {                                                                                    \
     .name = (text), .integrator = (method), .formulation = BAUM_FORMULATION_BAUMGARTE, \
@@ -305,5 +310,7 @@ const singular_setting SINGULAR_SETTINGS[] = {
   GAINS("cvode-adams, alpha = 1", baum_cvode_adams, 1.0),
   GAINS("cvode-adams, alpha = 10", baum_cvode_adams, 10.0),
   GAINS("cvode-adams, alpha = 100", baum_cvode_adams, 100.0),
+  BDF("cvode-bdf rtol = 1e-7, proj.", 1e-7),
+  BDF("cvode-bdf rtol = 1e-9, proj.", 1e-9),
   {.name = NULL},
 };
