@@ -121,7 +121,9 @@ typedef struct baum_study_grid {
                           1000 times the rate of the motion. Default: 2. */
   double coarsest; /**< [s] > 0, longest step of order 2 and more. Default: NaN, by the rate of the
                         motion. */
-  double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: 1e-13. */
+  double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: NaN, 1e-13, or
+                        1e-11 where a constraint of the user has neither jacobian nor gamma: what
+                        differences leave there. */
 } baum_study_grid;
 
 /** Set the default grid; writes at most caller_size bytes.
@@ -295,6 +297,9 @@ typedef struct baum_study_row {
     error_rehearsed; /**< [-] largest error over twice the span and from starts nearby; infinite
                                where it fails there. NaN: not rehearsed, as rows that cost far more than
                                others that are as exact. */
+  double
+    alpha; /**< [1/s] of the gains that the run used, whatever their rule; 0: none, NaN: not run. */
+  double beta; /**< [1/s] likewise. */
 } baum_study_row;
 
 /** Number of rows; 0 for NULL. */

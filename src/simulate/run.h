@@ -162,6 +162,9 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
 /* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
 
+/* Relative error of derivatives that user constraints do not give; 0: they give all. */
+double baum_i_difference_noise(const baum_mechanism *mechanism);
+
 /* Bring the counters of work up to date. */
 void baum_i_run_count(baum_simulation *run);
 

@@ -93,7 +93,7 @@ static baum_status warn_redundancy(baum_simulation *run)
   return BAUM_OK;
 }
 
-static double difference_noise(const baum_mechanism *m)
+double baum_i_difference_noise(const baum_mechanism *m)
 {
   double noise = 0.0;
   for (int k = 0; k < m->joint_count; k++) {
@@ -107,7 +107,7 @@ static double difference_noise(const baum_mechanism *m)
 
 static baum_status warn_settings(baum_simulation *run)
 {
-  double noise = difference_noise(run->workspace->mechanism);
+  double noise = baum_i_difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
     baum_i_run_warn(
       run,

@@ -384,6 +384,15 @@ static void add_margin(const baum_study *study, const place *p, const question *
   add_rival(study, p, *q, why, size);
 }
 
+/* Within the span of the rows it may well be the cheapest. */
+static void add_drift(const baum_simulation_options *o, char *why, size_t size)
+{
+  if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
+    baum_i_append(why, size,
+                  "; nothing holds the constraints: their violation grows with the span");
+  }
+}
+
 static baum_status deliver(const baum_study *study, const baum_simulation_options *o,
                            baum_simulation_options *best, size_t caller_size)
 {
@@ -455,6 +464,7 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
   if (why && size > 0) {
     explain(&p, &o, why, size);
     add_margin(study, &p, &q, why, size);
+    add_drift(&o, why, size);
   }
   return deliver(study, &o, best, caller_size);
 }
@@ -533,6 +543,7 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   if (why && size > 0) {
     explain(&p, &o, why, size);
     baum_i_append(why, size, "; a fifth of %.3g ms is left, for times vary", 1e3 * seconds);
+    add_drift(&o, why, size);
   }
   return deliver(study, &o, best, caller_size);
 }

@@ -23,11 +23,12 @@
 
 enum { MOST_SETTINGS = 64, MOST_CONSTANTS = 4, LOOKS = 20 };
 static const double LARGEST_RTOL = 1e-2;
+static const double LEAST_RTOL = 1e-13;
 
 void baum_study_grid_init(baum_study_grid *grid, size_t caller_size)
 {
   const baum_study_grid defaults = {
-    .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = 1e-13};
+    .settings = 8, .constants = 2, .coarsest = BAUM_I_NOT_GIVEN, .finest = BAUM_I_NOT_GIVEN};
   if (baum_i_takes_sized(grid, caller_size)) {
     baum_i_give_sized(grid, caller_size, &defaults, sizeof defaults);
   }
@@ -47,7 +48,7 @@ static baum_status check_grid(const baum_study_grid *g)
     return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: coarsest is %g s, must be finite and > 0",
                        g->coarsest);
   }
-  if (!(g->finest > 0.0 && g->finest < LARGEST_RTOL)) {
+  if (!isnan(g->finest) && !(g->finest > 0.0 && g->finest < LARGEST_RTOL)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "study grid: finest is %g, must be > 0 and < %g",
                        g->finest, LARGEST_RTOL);
   }
@@ -104,10 +105,18 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
+/* Below the noise of differences, which stand for derivatives that constraints lack, tolerances cannot be met. */
+static double finest_of(const grid *g)
+{
+  double finest = g->wanted->finest;
+  double noise = baum_i_difference_noise(g->study->mechanism);
+  return isnan(finest) ? fmax(LEAST_RTOL, noise) : finest;
+}
+
 static double rtol_at(const grid *g, int k)
 {
   int last = g->wanted->settings > 1 ? g->wanted->settings - 1 : 1;
-  double rtol = LARGEST_RTOL * pow(g->wanted->finest / LARGEST_RTOL, (double)k / last);
+  double rtol = LARGEST_RTOL * pow(finest_of(g) / LARGEST_RTOL, (double)k / last);
   double decade = pow(10.0, floor(log10(rtol) + 1e-9));
   return decade * round(rtol / decade);
 }

@@ -24,6 +24,8 @@ const baum_i_column baum_i_columns[] = {
   IS("gains", "", NULL, "rule of the gains", TEXT, gains),
   IS("gain_1", "of the rule", NULL, "first number of the rule", NUMBER, gain[0]),
   IS("gain_2", "of the rule", NULL, "second number of the rule", NUMBER, gain[1]),
+  IS("alpha", "1/s", NULL, "of the gains in use", NUMBER, row.alpha),
+  IS("beta", "1/s", NULL, "likewise", NUMBER, row.beta),
   IS("method", "", NULL, "index in methods", INDEX, row.method),
   IS("step", "s", NULL, "", NUMBER, row.step),
   IS("rtol", "1", NULL, "", NUMBER, row.rtol),

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where the gains of the rows lie in the regions of stability of their methods (Fig. 1 of Flores et al. 2008), one map for
- * each integrator of fixed step whose rows have gains. What lies outside of a map is drawn at its edge. Gains of the rule
- * auto are small and not drawn: they are chosen when a run is made. */
+ * each integrator of fixed step whose rows have gains. What lies outside of a map is drawn at its edge. Drawn are
+ * the gains that a run has used; those of rows that were refused by their rule, but for auto, which is of a run. */
 #include <math.h>
 #include <stdint.h>
 
@@ -42,6 +42,9 @@ static bool give(double a, double b, double out[2])
 static bool find_gains(const map *m, const baum_study_row *row, double out[2])
 {
   const double h = fabs(row->step);
+  if (isfinite(row->alpha)) {
+    return give(fabs(row->alpha) * h, row->beta * h * row->beta * h, out);
+  }
   const double *value = row->gains.value;
   double beta_h = 2.0 * PI * value[0] * h;
   bool is_default = row->gains.rule == BAUM_GAINS_DEFAULT;
@@ -222,9 +225,7 @@ static const char HEADING[] =
   "(spectral radius below 1, 0.75, 0.5). Discs: the motion is right. Diamonds: it is another one, "
   "as "
   "with steps that are too long for the motion, however stable the gains. Crosses: refused or "
-  "failed. What lies outside of a map is drawn at its edge. Gains of the rule auto are small and "
-  "not "
-  "drawn.</p>\n<div class=\"maps\">\n";
+  "failed. What lies outside of a map is drawn at its edge.</p>\n<div class=\"maps\">\n";
 
 void baum_i_put_stability_maps(const baum_i_survey *survey, baum_i_buffer *out)
 {

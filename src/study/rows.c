@@ -18,6 +18,7 @@ static void clear(baum_study_row *row)
   row->max_phi = row->max_phi_rate = none;
   row->violation_work = row->projection_work = row->gains_work = none;
   row->work = row->cpu = row->cpu_spread = row->error_rehearsed = none;
+  row->alpha = row->beta = none;
 }
 
 /* The formulation that DEFAULT stands for. */

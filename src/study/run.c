@@ -78,6 +78,8 @@ static void take_motion(const baum_i_outcome *outcome, baum_study_row *row)
     row->violation_work = outcome->account.violation;
     row->projection_work = outcome->account.projection;
     row->gains_work = outcome->account.gains;
+    row->alpha = c->alpha;
+    row->beta = c->beta;
   }
 }
 

@@ -64,6 +64,8 @@ static const baum_i_study_field MEASURED[] = {
   ROW(warnings, COUNT),
   ROW(near_singular_intervals, COUNT),
   ROW(branch_warnings, COUNT),
+  ROW(alpha, NUMBER),
+  ROW(beta, NUMBER),
 };
 
 static const baum_i_study_field TIMED[] = {

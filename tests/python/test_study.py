@@ -178,6 +178,30 @@ class Running(unittest.TestCase):
         self.assertEqual(study.rows[0].state, "failed")
         self.assertRegex(study.rows[0].message, r"returned -1 \(stop\): NameError\('lenght'\)")
 
+    def test_a_recommendation_without_stabilization_says_what_that_means(self):
+        whys = []
+        for formulation in ("unstabilized", "projection"):
+            study = baum.study(rod_pendulum(), 0, 1, samples=5, repeats=1)
+            study.add("rk4", formulation=formulation, step=0.01).run()
+            whys.append(study.recommend(1e-2).why)
+        self.assertIn("violation grows with the span", whys[0])
+        self.assertNotIn("violation grows", whys[1])
+
+    def test_tolerances_of_the_grid_end_where_differences_do(self):
+        for mechanism, least in ((rod_pendulum(), 1e-13), (pendulum(circle), 1e-11)):
+            study = baum.study(mechanism, 0, 1).add_standard("rk8", settings=3)
+            found = min(row.rtol for row in study.rows if row.rtol == row.rtol)
+            self.assertAlmostEqual(found / least, 1)
+
+    def test_rows_hold_the_gains_in_use(self):
+        study = baum.study(pendulum(circle), 0, 0.3, samples=5, repeats=1)
+        for gains in (baum.auto(), baum.fixed(3, 4)):
+            study.add("rk4", formulation="baumgarte", gains=gains, step=0.01)
+        auto, fixed, none = study.add("rk4", formulation="projection", step=0.01).run().rows
+        self.assertTrue(0 < auto.alpha * 0.01 < 1 and auto.alpha == auto.beta)
+        self.assertEqual((fixed.alpha, fixed.beta, none.alpha, none.beta), (3, 4, 0, 0))
+        self.assertIn("<title>rk4 baumgarte auto, step 0.01 s\nαh", study.report("page"))
+
     def test_a_reference_goes_with_its_digits(self):
         m = rod_pendulum()
         known = ([0.5, 1.0], [[1.0, 0.0], [0.0, -1.0]])

@@ -52,6 +52,9 @@ static void assert_same_numbers(const baum_study_row *a, const baum_study_row *b
                       b->gains_work,   b->violation_work, b->projection_work, b->error_rehearsed,
                       b->work};
   assert_memory_equal(x, y, sizeof x);
+  const double g[] = {a->alpha, a->beta, a->error_v_final};
+  const double h[] = {b->alpha, b->beta, b->error_v_final};
+  assert_memory_equal(g, h, sizeof g);
   const int64_t i[] = {a->steps,    a->rejected, a->evaluations, a->factorizations,
                        a->warnings, a->at_floor, a->off,         a->untrusted};
   const int64_t j[] = {b->steps,    b->rejected, b->evaluations, b->factorizations,

@@ -696,6 +696,8 @@ class baum_study_row(Structure):
         ("cpu_spread", c_double),
         ("repeats", c_int32),
         ("error_rehearsed", c_double),
+        ("alpha", c_double),
+        ("beta", c_double),
     ]
 
 
