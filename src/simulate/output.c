@@ -303,6 +303,20 @@ static int put_channel(const baum_workspace *w, const baum_i_state *state, const
   }
 }
 
+/* Velocities of a point far out overflow, or reactions. Energies and the account are filled afterwards. */
+static baum_status check_channel(const baum_channel *c, int k, const double *out, int width)
+{
+  facts f = facts_of(c->quantity);
+  bool is_there = f.of != OF_ENERGY && f.of != OF_ACCOUNT && f.of != OF_NOTHING;
+  for (int i = 0; i < width && is_there; i++) {
+    if (!isfinite(out[i])) {
+      return baum_i_fail(BAUM_ERR_NOT_FINITE, "channel %d: number %d of the %s is %g", k, i, f.word,
+                         out[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status put_energies(baum_simulation *run, const baum_i_state *state,
                                 const baum_channel *channels, int count, double *row)
 {
@@ -326,7 +340,9 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
   baum_status status = evaluate(w, state, channels, count);
   double *place = row;
   for (int k = 0; k < count && status == BAUM_OK; k++) {
-    place += put_channel(w, state, &channels[k], place);
+    int width = put_channel(w, state, &channels[k], place);
+    status = check_channel(&channels[k], k, place, width);
+    place += width;
   }
   return status == BAUM_OK ? put_energies(run, state, channels, count, row) : status;
 }

@@ -11,6 +11,7 @@
 #include "assert_near.h"
 #include "every_element.h"
 #include "models.h"
+#include "sentence.h"
 
 static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
                                double step)
@@ -219,6 +220,23 @@ static void what_follows_from_the_state_calls_nothing(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+/* A point so far out that its velocity is no number any more. */
+static void what_overflows_is_told(void **state)
+{
+  (void)state;
+  double row[ROW];
+  every_element parts = every_element_make(NULL);
+  baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
+  baum_channel channels[2] = {{.quantity = BAUM_Q},
+                              {.quantity = BAUM_BODY_VELOCITY, .body = parts.crank}};
+  assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
+  channels[1].point[0] = -1.79e308; /* it turns with 2 rad/s */
+  ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_NOT_FINITE,
+              "channel 1|of the velocity is -inf");
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -227,6 +245,7 @@ int main(void)
     cmocka_unit_test(the_power_of_a_driver_is_the_change_of_energy),
     cmocka_unit_test(a_sample_costs_a_solution_only_when_it_asks_for_one),
     cmocka_unit_test(what_follows_from_the_state_calls_nothing),
+    cmocka_unit_test(what_overflows_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
