@@ -313,7 +313,7 @@ static const struct {
   const char *sentence;
 } FAULTS[] = {
   {-3, BAUM_ERR_CALLBACK, "returned -3 (stop)"},
-  {4, BAUM_ERR_CALLBACK, "returned 4 (retry)"},
+  {4, BAUM_ERR_CALLBACK, "returned 4 (retry"},
   {0, BAUM_ERR_NOT_FINITE, "nan"},
 };
 enum { FAULT_COUNT = 3 };
@@ -455,6 +455,7 @@ static void a_run_is_not_made_or_stops_and_goes_on(void **state)
     for (int solver = 0; solver < 2; solver++) {
       baum_simulation_options o = step_mode_options(step_mode_at(k), 2e-3, 1e-4);
       o.solver = solver == 0 ? BAUM_SOLVER_AUTO : BAUM_SOLVER_KLU;
+      o.energy_account = solver == 1;
       check_every_call(&o, (variant){.hoops = 1, .constant_mass = o.integrator == baum_rattle()});
     }
   }
@@ -470,6 +471,90 @@ static void so_does_kinematics(void **state)
   }
 }
 
+/* ---- what is read of a run ---- */
+
+typedef baum_status read_fn(baum_simulation *run, fault *f);
+
+static baum_status read_channels(baum_simulation *run, fault *f)
+{
+  (void)f;
+  static const baum_channel channels[] = {
+    {.quantity = BAUM_A},        {.quantity = BAUM_LAMBDA}, {.quantity = BAUM_PHI},
+    {.quantity = BAUM_PHI_RATE}, {.quantity = BAUM_ENERGY}, {.quantity = BAUM_ENERGY_ACCOUNT},
+  };
+  double row[32];
+  return baum_simulation_get(run, channels, 6, row);
+}
+
+static baum_status read_counters(baum_simulation *run, fault *f)
+{
+  (void)f;
+  baum_counters out;
+  return baum_simulation_counters(run, &out, sizeof out);
+}
+
+static baum_status read_account(baum_simulation *run, fault *f)
+{
+  (void)f;
+  baum_energy_account out;
+  return baum_simulation_energy_account(run, &out, sizeof out);
+}
+
+static int height(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  out[0] = q[1];
+  return answer(user, out);
+}
+
+static baum_status add_event(baum_simulation *run, fault *f)
+{
+  baum_event_def def = baum_event_def_default();
+  def.name = "level";
+  def.function = height;
+  def.user = f;
+  return baum_simulation_add_event(run, &def, NULL);
+}
+
+static void what_is_read_of_a_run_fails_with_the_function(void **state)
+{
+  (void)state;
+  static read_fn *const READS[] = {read_channels, read_counters, read_account, add_event};
+  fault f = {.from = 0};
+  baum_mechanism *m = make_bead((variant){.hoops = 1}, &f);
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  o.energy_account = true;
+  check(baum_simulation_create(m, &o, &run));
+  check(baum_simulation_step(run, 3));
+  for (int i = 0; i < 4; i++) {
+    f.calls = 0;
+    check(READS[i](run, &f));
+    int64_t calls = f.calls;
+    assert_true(calls > 0);
+    for (int64_t n = 1; n <= calls; n++) {
+      for (int k = 0; k < FAULT_COUNT; k++) {
+        f = (fault){.answer = FAULTS[k].answer, .from = n};
+        baum_status status = READS[i](run, &f);
+        f.from = 0;
+        if (!is_of_fault(status, k)) {
+          fail_msg("read %d, call %lld of %lld, answer %d: %s: %s", i, (long long)n,
+                   (long long)calls, FAULTS[k].answer, baum_status_name(status), baum_message());
+        }
+        check(READS[i](run, &f));
+      }
+    }
+  }
+  check(baum_simulation_step(run, 3));
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -477,6 +562,7 @@ int main(void)
     cmocka_unit_test(so_does_one_with_redundant_rows),
     cmocka_unit_test(a_run_is_not_made_or_stops_and_goes_on),
     cmocka_unit_test(so_does_kinematics),
+    cmocka_unit_test(what_is_read_of_a_run_fails_with_the_function),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
