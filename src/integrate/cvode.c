@@ -423,6 +423,7 @@ static const baum_integrator BDF = {
   .formulations = BDF_FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_BDF,
+  .seen = 60.0 / 137.0,
   .create = create_bdf,
   .destroy = destroy,
   .advance = advance,

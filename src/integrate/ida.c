@@ -554,6 +554,7 @@ static const baum_integrator IDA = {
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_BDF,
+  .seen = 1.0,
   .tests_multipliers = true,
   .solves_residuals = true,
   .create = create,

@@ -56,6 +56,7 @@ struct baum_integrator {
   baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
   baum_i_method method;                 /* amplification */
   baum_i_method_family family;          /* of methods without one */
+  double seen; /* BDF: share of what a step adds to the error of a motion, that is tested */
   bool
     predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
   bool solves_residuals; /* of the whole system; else it goes by accelerations or poses */
@@ -115,6 +116,9 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
  * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
+
+/* Portion of rtol and atol that the error test of a method is given, <= 1. */
+double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
 /* Does a run remember steps, so that it has to be told when it begins anew? */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);

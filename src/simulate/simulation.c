@@ -41,6 +41,7 @@ static baum_status choose_problem(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
   const baum_i_state *start = &run->trial;
+  double portion = baum_i_integrator_portion(o->integrator, o->rtol);
   baum_i_problem *p = &run->problem;
   *p = (baum_i_problem){
     .workspace = run->workspace,
@@ -50,9 +51,9 @@ static baum_status choose_problem(baum_simulation *run)
     .rtol = o->rtol,
     .atol = isnan(o->atol) ? 0.0 : o->atol,
     .max_step = isnan(o->max_step) ? (double)INFINITY : o->max_step,
-    .tolerance_q = o->tolerance_q,
-    .tolerance_v = o->tolerance_v,
-    .tolerance_lambda = o->tolerance_lambda,
+    .tolerance_q = portion * o->tolerance_q,
+    .tolerance_v = portion * o->tolerance_v,
+    .tolerance_lambda = portion * o->tolerance_lambda,
   };
   baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
   if (status != BAUM_OK) {

@@ -129,15 +129,11 @@ static void closes_with_the_order(void **state)
 
 /* ---- steps of the method's choice ---- */
 
-/* 100, in units of rtol. Orders of BDF and IDA end at 5, so that their own errors fall by 6.8 per decade of rtol only:
- * below 1e-6 they have that much more (what_is_left_is_the_error_of_the_motion). Index 3 of IDA, whose velocities are
- * outside of its error test, is far above its tolerance in all else too. */
+/* In units of rtol. Index 3 of IDA, whose velocities are outside of its error test, is far above its tolerance in all
+ * else too: measured at most 197, and 340 with other last digits. */
 static double allowed(const baum_simulation_options *options)
 {
-  double decades = fmax(-6.0 - log10(options->rtol), 0.0);
-  bool ends_at_5 = options->integrator == baum_cvode_bdf() || options->integrator == baum_ida();
-  double index3 = options->formulation == BAUM_FORMULATION_INDEX3 ? 20.0 : 1.0;
-  return 100.0 * index3 * (ends_at_5 ? pow(10.0 / 6.8, decades) : 1.0);
+  return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
 }
 
 static void observe_tolerance(const account_scene *scene, baum_simulation_options options)
@@ -253,7 +249,7 @@ static void what_is_left_is_the_error_of_the_motion(void **state)
     printf(" %9.2e %9.2e %9.2e\n", got.residual / options.rtol, got.works / options.rtol,
            got.error / options.rtol);
     assert_true(got.works <= 0.05 * got.residual);
-    assert_true(got.residual <= 2.0 * got.error); /* 0.7 to 1 times */
+    assert_true(got.residual <= 2.0 * got.error); /* 0.7 to 1.3 times */
   }
   baum_mechanism_destroy(m);
 }
