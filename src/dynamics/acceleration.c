@@ -53,10 +53,16 @@ static baum_status solve(baum_workspace *w)
 
 static baum_status fail_blocks(const baum_workspace *w)
 {
+  int joint = baum_i_smallest_pivot_joint(w);
+  char label[BAUM_I_LABEL_SIZE] = "no joint";
+  if (joint >= 0) {
+    (void)baum_i_joint_label(w->mechanism, joint, label);
+  }
   return baum_i_fail(BAUM_ERR_SINGULAR,
-                     "t = %.9g s: pivots by blocks are too small: the pose is close to a singular "
-                     "one, or masses are too uneven; the solver auto goes on with klu and qr",
-                     w->point.t);
+                     "t = %.9g s: pivots by blocks are too small, most of all in %s: the pose is "
+                     "close to a singular one, or masses are too uneven; the solver auto goes on "
+                     "with klu and qr",
+                     w->point.t, label);
 }
 
 /* By the solver of the whole system. */

@@ -423,30 +423,33 @@ static bool has_cancelled(const baum_i_block *block)
   return before > CANCELLED * after;
 }
 
-static baum_i_pivots factor(baum_i_block_path *path)
+static baum_i_pivots factor(baum_workspace *w)
 {
+  baum_i_block_path *path = w->path;
   path->kernel->couple(path->block);
   path->factorizations++;
+  w->eliminated_by = path;
   return path->kernel->eliminate(path->block);
 }
 
 /* last: nobody corrects the result, so that its residual is looked at. */
-static baum_status solve(baum_i_block_path *path, bool last, double *lambda)
+static baum_status solve(baum_workspace *w, bool last)
 {
+  baum_i_block_path *path = w->path;
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
-  baum_i_pivots pivots = factor(path);
+  baum_i_pivots pivots = factor(w);
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
-  kernel->substitute(block, lambda);
+  kernel->substitute(block, w->lambda);
   bool look = last || pivots != BAUM_I_PIVOTS_GOOD || path->always_check ||
               (path->uneven && has_cancelled(block));
   if (!look) {
     return BAUM_OK;
   }
   baum_status status = refine(path, pivots);
-  kernel->read_lambda(block, lambda);
+  kernel->read_lambda(block, w->lambda);
   return status;
 }
 
@@ -462,6 +465,7 @@ static baum_status set(baum_workspace *w, double t, const double *q, const doubl
                        const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
+  w->eliminated_by = NULL;
   w->jacobian_ready = false; /* half of it is overwritten where a function fails */
   baum_status status = evaluate_joints(w, right->bending != 0.0);
   if (status == BAUM_OK) {
@@ -486,7 +490,7 @@ baum_status baum_i_block_path_factor(baum_workspace *w, double t, const double *
   const baum_i_right_side nothing = {0};
   baum_status status = set(w, t, q, NULL, &nothing);
   if (status == BAUM_OK) {
-    (void)factor(w->path);
+    (void)factor(w);
   }
   return status;
 }
@@ -499,7 +503,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
     return status;
   }
   /* Positions are projected by several solutions, velocities by one. */
-  status = solve(w->path, v && !right->force, w->lambda);
+  status = solve(w, v && !right->force);
   if (status == BAUM_OK) {
     bool finite = w->path->kernel->read_motion(w->path->block, w->a);
     clear_dropped(w);

@@ -56,11 +56,12 @@ struct baum_workspace {
   baum_i_kkt_structure structure;
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
-  baum_i_block_path *path;      /* NULL: every solution is kkt's */
-  baum_i_block_verdict verdict; /* of baum_i_use_blocks() */
-  bool blocks_only;             /* nothing is handed over */
-  baum_i_immobile *immobile;    /* NULL: nothing is left out of baum_i_motion() */
-  baum_i_block_path *solved_by; /* of the last solution; NULL: kkt */
+  baum_i_block_path *path;          /* NULL: every solution is kkt's */
+  baum_i_block_verdict verdict;     /* of baum_i_use_blocks() */
+  bool blocks_only;                 /* nothing is handed over */
+  baum_i_immobile *immobile;        /* NULL: nothing is left out of baum_i_motion() */
+  baum_i_block_path *solved_by;     /* of the last solution; NULL: kkt */
+  baum_i_block_path *eliminated_by; /* whose pivots are of now, whoever has solved; NULL: none */
   baum_i_redundancy redundancy;
   bool mass_ready;     /* a constant M has been evaluated */
   bool jacobian_ready; /* the last evaluation has set all blocks of J */

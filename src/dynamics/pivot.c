@@ -5,7 +5,8 @@
  * how its axes lie, of other pairs of rows, which may depend on each other, the product of the diagonal of
  * S = J M^-1 J^T. Of other solvers the reciprocal condition of the scaled matrix. Either is free of units and falls with
  * the square of the distance from a singular pose, for its multipliers' part is S. Sizes of the two differ: compare each
- * with what it usually is.
+ * with what it usually is. A body that turns easily makes blocks hand over in some directions of its arms only, where it is no
+ * nearer to singular than in others.
  */
 #include <math.h>
 
@@ -28,6 +29,13 @@ static double pivot_of_full(const baum_i_block *block, int k)
   return 1.0 / fabs(node->inverse * node->size);
 }
 
+/* What is no number comes from a zero before. */
+static bool is_smaller(double *pivot, double than)
+{
+  *pivot = isnan(*pivot) ? 0.0 : *pivot;
+  return *pivot < than;
+}
+
 /* And its first row, -1: none below 1. */
 static double smallest_of_blocks(const baum_i_block *block, int *row)
 {
@@ -35,37 +43,49 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   *row = -1;
   for (int k = 0; k < block->pin_count; k++) {
     double pivot = pivot_of_pin(block, k);
-    if (!(pivot >= smallest)) {
+    if (is_smaller(&pivot, smallest)) {
       smallest = pivot;
       *row = block->pins[k].row;
     }
   }
   for (int k = 0; k < block->full_count; k++) {
     double pivot = pivot_of_full(block, k);
-    if (!(pivot >= smallest)) {
+    if (is_smaller(&pivot, smallest)) {
       smallest = pivot;
       *row = block->fulls[k].row[0];
     }
   }
-  return isfinite(smallest) ? smallest : 0.0;
+  return smallest;
+}
+
+/* Blocks that have handed over are asked all the same, but where masses are so uneven that small pivots are the rule, only
+ * as long as rounding leaves something of them. */
+static bool blocks_tell(const baum_workspace *w, double *pivot, int *row)
+{
+  static const double NOISE = 1e-10;
+  if (!w->eliminated_by) {
+    return false;
+  }
+  *pivot = smallest_of_blocks(w->eliminated_by->block, row);
+  return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
 }
 
 double baum_i_smallest_pivot(const baum_workspace *w)
 {
   int row = -1;
-  if (w->mechanism->nc == 0) {
-    return 1.0;
+  double pivot = 1.0;
+  if (w->mechanism->nc == 0 || blocks_tell(w, &pivot, &row)) {
+    return pivot;
   }
-  return w->solved_by ? smallest_of_blocks(w->solved_by->block, &row) : baum_i_kkt_rcond(w->kkt);
+  return baum_i_kkt_rcond(w->kkt);
 }
 
 /* With other solvers the largest multiplier is all there is to name a joint by. */
 int baum_i_smallest_pivot_joint(const baum_workspace *w)
 {
   int row = -1;
-  if (w->solved_by) {
-    (void)smallest_of_blocks(w->solved_by->block, &row);
-  } else {
+  double pivot = 1.0;
+  if (!blocks_tell(w, &pivot, &row)) {
     row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
   }
   return row < 0 ? -1 : baum_i_row_joint(w->mechanism, row);
@@ -79,7 +99,10 @@ baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, cons
   }
   baum_i_block_path *whole = baum_i_enter_motion(w);
   baum_status status = baum_i_block_path_factor(w, t, q);
-  w->solved_by = w->path;
   baum_i_leave_motion(w, whole);
-  return status;
+  int row = -1;
+  double pivot = 1.0;
+  w->solved_by = NULL;
+  return status == BAUM_OK && !blocks_tell(w, &pivot, &row) ? baum_i_motion(w, t, q, v, 0.0, 0.0)
+                                                            : status;
 }

@@ -26,7 +26,7 @@
 enum { NEIGHBOURS = 4 };
 /* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that
  * only come near dependence at a generic pose are told apart down to this. */
-static const double RANK_TOLERANCE = 1e-9;
+static const double RANK_TOLERANCE = 1e-10;
 /* Above this rows are independent without doubt, and do not blow up rounding to that tolerance. */
 static const double CLEAR = 1e-5;
 /* Rows that are farther apart are kept before others: what dependent rows disagree by, 1e-14 as assembled, comes into the

@@ -25,6 +25,10 @@ enum { MOST_REFINEMENTS = 3 };
 
 /* Below it more effort is made, and if that does not help the matrix is called near singular. */
 static const double trusted_rcond = 1e-10;
+/* Kept pivots are given up where rcond is below the first and has fallen to the second share of what it was when they were
+ * chosen: it tells neither the accuracy nor the distance from a singular pose any more. */
+static const double doubtful_rcond = 1e-6;
+static const double fallen = 0.01;
 /* Below it even careful LU has nothing left to say. */
 static const double least_rcond = 1e-15;
 /* How far rows that depend on each other may contradict each other, against the right side. */
@@ -36,6 +40,7 @@ typedef struct kkt_solver {
   const baum_i_kkt_ops *ops;
   void *self;
   bool has_pivots;
+  double chosen_rcond; /* when they were chosen */
 } kkt_solver;
 
 struct baum_i_kkt {
@@ -182,13 +187,21 @@ static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
   kkt->counters.full_factorizations += rung != RUNG_KEEP;
   baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, effort_of(rung));
   solver->has_pivots = status == BAUM_OK && solver->ops->keeps_pivots;
+  if (status == BAUM_OK && rung != RUNG_KEEP) {
+    solver->chosen_rcond = present_rcond(kkt);
+  }
   return status;
 }
 
 static bool is_trusted(const baum_i_kkt *kkt)
 {
+  double rcond = present_rcond(kkt);
+  if (kkt->present_rung == RUNG_KEEP && rcond < doubtful_rcond &&
+      rcond < fallen * kkt->present->chosen_rcond) {
+    return false;
+  }
   bool is_careful = kkt->present_rung >= RUNG_CAREFUL;
-  return present_rcond(kkt) >= (is_careful ? least_rcond : trusted_rcond);
+  return rcond >= (is_careful ? least_rcond : trusted_rcond);
 }
 
 static baum_i_kkt_quality judge(const baum_i_kkt *kkt, baum_status status)
@@ -207,6 +220,9 @@ static baum_status climb(baum_i_kkt *kkt, ladder_rung start)
   while (kkt->present_rung < kkt->top_rung &&
          (status == BAUM_ERR_SINGULAR || (status == BAUM_OK && !is_trusted(kkt)))) {
     status = factor_at(kkt, kkt->present_rung + 1);
+  }
+  if (status == BAUM_OK && kkt->present->ops->keeps_pivots && present_rcond(kkt) < least_rcond) {
+    status = BAUM_ERR_SINGULAR; /* LU divides by rounding, and no residual would tell */
   }
   kkt->quality = judge(kkt, status);
   return status;
