@@ -23,8 +23,6 @@ static const double MORE_WORK = 1.15;        /* what a margin may cost */
 static const double MARGINS[2] = {2.0, 4.0}; /* least and largest */
 static const double SPEED_MARGIN = 1.25;     /* on times, which vary from run to run */
 
-enum { MOST_ROWS = 256 };
-
 /* ---- front ---- */
 
 static double cost_of(const baum_i_row *row, baum_study_cost cost)
@@ -184,8 +182,8 @@ static baum_status find_cost(const levelled *at, int32_t method, double *out)
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d, of %d", at->call, (int)method,
                        study->method_count);
   }
-  const baum_i_row *rows[MOST_ROWS];
-  int count = baum_i_study_usable(study, method, rows, MOST_ROWS);
+  const baum_i_row *rows[BAUM_I_METHOD_ROWS];
+  int count = baum_i_study_usable(study, method, rows);
   place p;
   if (!find_error(rows, count, at->error, &p)) {
     double least = (double)INFINITY;
@@ -291,8 +289,8 @@ static bool find_best(const baum_study *study, const question *q, place *best)
 {
   *best = (place){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
-    const baum_i_row *rows[MOST_ROWS];
-    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
+    const baum_i_row *rows[BAUM_I_METHOD_ROWS];
+    int count = baum_i_study_usable(study, m, rows);
     place p;
     if (count == 0 || rows[0]->out.unstable || rows[0]->options.integrator == q->without) {
       continue;
@@ -504,8 +502,8 @@ static double find_most_exact(const baum_study *study, double seconds, place *be
   double quickest = (double)INFINITY;
   *best = (place){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
-    const baum_i_row *rows[MOST_ROWS];
-    int count = baum_i_study_usable(study, m, rows, MOST_ROWS);
+    const baum_i_row *rows[BAUM_I_METHOD_ROWS];
+    int count = baum_i_study_usable(study, m, rows);
     if (count > 0 && !rows[0]->out.unstable) {
       quickest = fmin(quickest, rows[0]->out.cpu);
       find_affordable(rows, count, seconds, best);

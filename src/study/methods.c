@@ -15,8 +15,6 @@
 
 static const double FLOOR = 3.0;
 
-enum { MOST_ROWS = 256 };
-
 int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row)
 {
   uint64_t key = baum_i_options_key(options, false);
@@ -44,21 +42,25 @@ static int by_setting(const void *a, const void *b)
   return (x < y) - (x > y);
 }
 
-bool baum_i_study_is_answer(const baum_i_row *row)
+static bool is_usable(const baum_i_row *row)
 {
   const baum_study_row *r = &row->out;
-  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && !r->unstable &&
-         isfinite(r->error) && r->error > 0.0;
+  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && isfinite(r->error) &&
+         r->error > 0.0;
 }
 
-int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity)
+bool baum_i_study_is_answer(const baum_i_row *row)
+{
+  return is_usable(row) && !row->out.unstable;
+}
+
+int baum_i_study_usable(const baum_study *study, int method,
+                        const baum_i_row *rows[BAUM_I_METHOD_ROWS])
 {
   int count = 0;
-  for (int k = 0; k < study->row_count && count < capacity; k++) {
+  for (int k = 0; k < study->row_count && count < BAUM_I_METHOD_ROWS; k++) {
     const baum_i_row *row = study->rows[k];
-    bool usable = row->out.method == method && row->out.state == BAUM_STUDY_DONE && row->timed &&
-                  !row->out.off && row->out.error > 0.0 && isfinite(row->out.error);
-    if (usable) {
+    if (row->out.method == method && is_usable(row)) {
       rows[count++] = row;
     }
   }
@@ -88,10 +90,10 @@ static double slope_of(const double *x, const double *y, int count)
 /* Slopes over the rows between coarse and floor. */
 static void fit(const baum_i_row *const *rows, int count, baum_study_method *out)
 {
-  double setting[MOST_ROWS];
-  double error[MOST_ROWS];
-  double work[MOST_ROWS];
-  double cpu[MOST_ROWS];
+  double setting[BAUM_I_METHOD_ROWS];
+  double error[BAUM_I_METHOD_ROWS];
+  double work[BAUM_I_METHOD_ROWS];
+  double cpu[BAUM_I_METHOD_ROWS];
   int used = 0;
   for (int k = 0; k < count; k++) {
     const baum_study_row *row = &rows[k]->out;
@@ -152,8 +154,8 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
                              .slope = none,
                              .work_per_digit = none,
                              .cpu_per_digit = none};
-  const baum_i_row *rows[MOST_ROWS];
-  whole.usable = baum_i_study_usable(study, k, rows, MOST_ROWS);
+  const baum_i_row *rows[BAUM_I_METHOD_ROWS];
+  whole.usable = baum_i_study_usable(study, k, rows);
   for (int i = 0; i < study->row_count; i++) {
     whole.rows += study->rows[i]->out.method == k;
   }

@@ -131,7 +131,8 @@ int32_t baum_study_row_count(const baum_study *study)
   return study ? study->row_count : 0;
 }
 
-static baum_status check_index(const baum_study *study, int32_t k, const char *call)
+static baum_status check_read(const baum_study *study, int32_t k, const void *out,
+                              size_t caller_size, const char *call)
 {
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
@@ -140,17 +141,13 @@ static baum_status check_index(const baum_study *study, int32_t k, const char *c
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k,
                        study->row_count - 1);
   }
-  return BAUM_OK;
+  return baum_i_check_sized(out, caller_size, call);
 }
 
 baum_status baum_study_row_at(const baum_study *study, int32_t k, baum_study_row *out,
                               size_t caller_size)
 {
-  const char *call = "baum_study_row_at";
-  baum_status status = check_index(study, k, call);
-  if (status == BAUM_OK) {
-    status = baum_i_check_sized(out, caller_size, call);
-  }
+  baum_status status = check_read(study, k, out, caller_size, "baum_study_row_at");
   if (status == BAUM_OK) {
     baum_study_row whole = study->rows[k]->out;
     whole.name = study->rows[k]->name;
@@ -163,11 +160,7 @@ baum_status baum_study_row_at(const baum_study *study, int32_t k, baum_study_row
 baum_status baum_study_row_options(const baum_study *study, int32_t k, baum_simulation_options *out,
                                    size_t caller_size)
 {
-  const char *call = "baum_study_row_options";
-  baum_status status = check_index(study, k, call);
-  if (status == BAUM_OK) {
-    status = baum_i_check_sized(out, caller_size, call);
-  }
+  baum_status status = check_read(study, k, out, caller_size, "baum_study_row_options");
   if (status == BAUM_OK) {
     baum_i_give_sized(out, caller_size, &study->rows[k]->options, sizeof(baum_simulation_options));
   }

@@ -257,7 +257,9 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
 /* Done, timed, with an error of the motion that is asked for, and gains that damp: what may be recommended. */
 bool baum_i_study_is_answer(const baum_i_row *row);
 
-/* Rows of a method that are done, timed and not off, from coarse to fine; returns how many. */
-int baum_i_study_usable(const baum_study *study, int method, const baum_i_row **rows, int capacity);
+/* Rows of a method that are done, timed and not off, from coarse to fine; returns how many. Of more the first ones count. */
+enum { BAUM_I_METHOD_ROWS = 256 };
+int baum_i_study_usable(const baum_study *study, int method,
+                        const baum_i_row *rows[BAUM_I_METHOD_ROWS]);
 
 #endif

@@ -281,7 +281,6 @@ static void a_file_of_another_study_is_refused_with_what_differs(void **state)
   end_scene(&s);
 }
 
-<<<<<<< Updated upstream
 /* As an editor or a version control may leave them. */
 static void lines_may_end_as_on_other_systems(void **state)
 {
@@ -317,10 +316,7 @@ static void what_is_no_regular_file_is_refused(void **state)
   end_scene(&s);
 }
 
-static void a_full_disk_and_a_missing_folder_are_statuses(void **state)
-=======
 static void a_missing_folder_is_a_status(void **state)
->>>>>>> Stashed changes
 {
   (void)state;
   scene s = make_scene();
@@ -376,14 +372,10 @@ int main(void)
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),
     cmocka_unit_test(lines_of_another_study_are_run_again),
     cmocka_unit_test(a_file_of_another_study_is_refused_with_what_differs),
-<<<<<<< Updated upstream
     cmocka_unit_test(lines_may_end_as_on_other_systems),
     cmocka_unit_test(what_is_no_regular_file_is_refused),
-    cmocka_unit_test(a_full_disk_and_a_missing_folder_are_statuses),
-=======
     cmocka_unit_test(a_missing_folder_is_a_status),
     cmocka_unit_test(a_full_disk_is_a_status_and_loses_nothing),
->>>>>>> Stashed changes
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

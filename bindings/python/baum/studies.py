@@ -407,7 +407,7 @@ class Study:
 
     def report(self, form="text", title=None):
         """A report as a string: "text", "csv", "json", or "page" in HTML."""
-        how = (_form(form), None if title is None else title.encode())
+        how = (_form(form), _title(title))
         size = ctypes.c_size_t()
         self._owner.call(lib.baum_study_print, *how, None, 0, ctypes.byref(size))
         text = ctypes.create_string_buffer(size.value + 1024)  # its date is another one
@@ -420,8 +420,12 @@ class Study:
         suffix = os.path.splitext(os.fspath(path))[1]
         if suffix not in SUFFIXES:
             raise ValueError(f"{path}: the name of a report ends with {', '.join(SUFFIXES)}")
-        title = None if title is None else title.encode()
-        self._owner.call(lib.baum_study_write, _form(SUFFIXES[suffix]), title, os.fsencode(path))
+        self._owner.call(lib.baum_study_write, _form(SUFFIXES[suffix]), _title(title),
+                         os.fsencode(path))
+
+
+def _title(text):
+    return None if text is None else text.encode()
 
 
 def _form(word):
