@@ -80,11 +80,34 @@ static void gamma_that_overflows_is_refused(void **state)
   close_scene(&s);
 }
 
+/* An arm of 1e200 m over the root of an inertia of 1e-300 kg m^2: each is a number, the size of the row is none. */
+static void rows_whose_size_overflows_are_refused(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  baum_mobility mobility;
+  baum_planar_body_def body = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  body.inertia = 1e-300;
+  body.position[0] = 1e200;
+  pin.body_a = BAUM_GROUND;
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &pin.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  ASSERT_SAYS(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_ERR_NOT_FINITE,
+              "numbers of the equations are too large for double precision");
+  baum_mechanism_destroy(m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(forces_and_energies_that_overflow_are_refused),
     cmocka_unit_test(gamma_that_overflows_is_refused),
+    cmocka_unit_test(rows_whose_size_overflows_are_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
