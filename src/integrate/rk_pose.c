@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "integrate/limit.h"
+
 /* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
@@ -23,10 +25,6 @@ static const double LOOK = 1e-4;
 /* Below this pivot a start may be singular; what is usual is then seen so many radians further on. */
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
-/* A start in a pose takes its acceleration from four states so many radians apart: cut off at the fourth power, while
- * rounding there is 1e-16 over the square. Slower ones, in relation to what gravity makes, have no way on to look at. */
-static const double APART = 0.003;
-static const double SLOW = 0.1;
 
 /* Near a pose so many steps in a row that are followed by one of less than so many radians, or tries that are as short, are
  * the last. Steps that are free to grow do so sixfold; of these 1e8 would make a radian. */
@@ -80,36 +78,12 @@ static void look_further(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i
   }
 }
 
-/* Accelerations dt behind the start, on a way that begins with its velocity. */
-static baum_status look_behind(const baum_i_rk *rk, const baum_i_problem *problem, double t,
-                               double dt)
+/* The first rate of a start in a pose. */
+static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, double t)
 {
-  const double one = 1.0;
-  double *v = rk->point + rk->nv;
-  baum_i_rk_combine(rk, 1, &one, dt, rk->point);
-  baum_status status = baum_i_project(problem->workspace, t + dt, rk->point, v);
-  return status == BAUM_OK ? baum_i_problem_motion(problem, t + dt, rk->point, v) : status;
-}
-
-/* In a pose the equations allow the accelerations of all branches. Those of the motion that goes on as its velocity says
- * are the limit of what is behind it, by a cubic through four states. Where one fails they stay as they are. */
-static void extrapolate_start(const baum_i_rk *rk, const baum_i_problem *problem, double t)
-{
-  static const double WEIGHT[] = {4.0, -6.0, 4.0, -1.0};
-  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  const baum_i_state start = {.t = t, .q = rk->start, .v = rk->start + rk->nv};
   double *limit = baum_i_rk_rate(rk, 1);
-  baum_status status = BAUM_OK;
-  if (!(rate > SLOW * problem->rate)) {
-    return;
-  }
-  memset(limit, 0, (size_t)rk->nv * sizeof *limit);
-  for (int k = 0; k < 4 && status == BAUM_OK; k++) {
-    status = look_behind(rk, problem, t, problem->direction * (k + 1) * APART / rate);
-    for (int i = 0; i < rk->nv; i++) {
-      limit[i] += WEIGHT[k] * problem->workspace->a[i];
-    }
-  }
-  if (status == BAUM_OK) {
+  if (baum_i_limit_acceleration(problem, &start, rk->point, limit)) {
     memcpy(baum_i_rk_rate(rk, 0) + rk->nv, limit, (size_t)rk->nv * sizeof *limit);
   }
 }
@@ -124,8 +98,8 @@ void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_
     look_further(pose, rk, problem, t);
   }
   pose->pivot = pose->usual > 0.0 ? pivot / pose->usual : 0.0;
-  if (pose->pivot < SHORT * SHORT) {
-    extrapolate_start(rk, problem, t);
+  if (pose->pivot < BAUM_I_PIVOT_IN_POSE) {
+    take_limit(rk, problem, t);
   }
 }
 
@@ -151,7 +125,7 @@ void baum_i_rk_pose_look(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i
   pose->ahead = find_ahead(pose, rk, problem, t);
   pose->over = STEP_OVER / find_rate(rk, problem);
   pose->least = 0.0;
-  if (pose->pivot < SHORT * SHORT) {
+  if (pose->pivot < BAUM_I_PIVOT_IN_POSE) {
     pose->least = pose->over; /* whatever begins here */
   } else if (pose->pivot < BAUM_I_NEAR_PIVOT) {
     pose->least = SHORT / find_rate(rk, problem);

@@ -65,8 +65,11 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   memcpy(run->acceleration, run->workspace->a,
          (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
   baum_i_run_copy(run, state, trial);
-  status =
-    run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
+  status = baum_i_passages_accelerate(run);
+  if (status == BAUM_OK) {
+    status =
+      run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
+  }
   trial->t = t_next;
   if (status == BAUM_OK) {
     status = check_finite(run, trial);

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "integrate/limit.h"
 #include "mechanism/definition.h"
 
 /* Least pivot of a passage: distances within a thirtieth of those of ordinary poses. */
@@ -318,6 +319,15 @@ void baum_i_passages_look(baum_simulation *run)
 
 /* ---- projection ---- */
 
+/* Where blocks have refused, the pivot is that of another solver, and larger. */
+static bool is_in_pose(const baum_simulation *run)
+{
+  const baum_workspace *w = run->workspace;
+  bool refused = w->path && !w->solved_by;
+  double limit = refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE;
+  return baum_i_smallest_pivot(w) < limit * run->passages->usual;
+}
+
 /* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
  * step of order k errors of about (h w)^(k+1) / 100. */
 static bool is_beyond_rounding(const baum_simulation *run, double h)
@@ -329,20 +339,55 @@ static bool is_beyond_rounding(const baum_simulation *run, double h)
   return pivot < 1e-4 && pivot * error < DBL_EPSILON;
 }
 
+/* Where the projection is beyond rounding, it may not converge either. */
+static bool stays_unprojected(const baum_simulation *run, baum_status status, double h)
+{
+  if (status == BAUM_ERR_CONVERGENCE) {
+    return is_in_pose(run);
+  }
+  return status == BAUM_OK && is_beyond_rounding(run, h);
+}
+
 baum_status baum_i_passages_project(baum_simulation *run, double t)
 {
   baum_i_passages *p = run->passages;
   size_t bytes = (size_t)run->workspace->mechanism->nv * sizeof(double);
-  if (p) {
-    memcpy(p->between.q, run->trial.q, bytes);
-    memcpy(p->between.v, run->trial.v, bytes);
+  if (!p) {
+    return baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  memcpy(p->between.q, run->trial.q, bytes);
+  memcpy(p->between.v, run->trial.v, bytes);
   baum_status status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
-  if (status == BAUM_OK && p && is_beyond_rounding(run, t - run->state.t)) {
+  if (stays_unprojected(run, status, t - run->state.t)) {
     memcpy(run->trial.q, p->between.q, bytes);
     memcpy(run->trial.v, p->between.v, bytes);
+    status = baum_i_message_settle(BAUM_OK, &kept);
   }
   return status;
+}
+
+/* ---- accelerations ---- */
+
+/* Methods may read the workspace at the start of a step: it is left as it was. */
+baum_status baum_i_passages_accelerate(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  baum_workspace *w = run->workspace;
+  const baum_i_state *state = &run->state;
+  if (!p || !is_in_pose(run)) {
+    return BAUM_OK;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  int64_t near_singular = w->near_singular;
+  if (baum_i_limit_acceleration(&run->problem, state, p->between.q, p->at.q)) {
+    memcpy(run->acceleration, p->at.q, (size_t)p->nv * sizeof *p->at.q);
+  }
+  baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
+  w->near_singular = near_singular;
+  return status == BAUM_OK ? baum_i_message_settle(BAUM_OK, &kept) : status;
 }
 
 /* ---- steps of variable length ---- */
@@ -399,9 +444,8 @@ void baum_i_passages_step(baum_simulation *run, const baum_i_state *end)
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   int64_t near_singular = w->near_singular;
-  baum_status status = run->integrator->solves_residuals
-                         ? baum_i_find_pivot(w, end->t, end->q, end->v)
-                         : BAUM_OK;
+  baum_status status =
+    run->integrator->solves_residuals ? baum_i_find_pivot(w, end->t, end->q, end->v) : BAUM_OK;
   double pivot = baum_i_smallest_pivot(w);
   int joint = baum_i_smallest_pivot_joint(w);
   int pieces = status == BAUM_OK ? count_pieces(run, end, pivot) : 1;

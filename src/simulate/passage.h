@@ -56,7 +56,11 @@ void baum_i_passages_look(baum_simulation *run);
  * that rounding would move it by more than the step's error it stays. Statuses of baum_i_project(). */
 baum_status baum_i_passages_project(baum_simulation *run, double t);
 
-/* Likewise a step of variable length that has just been taken. May evaluate; look at the end afterwards. */
+/* A step of fixed length begins: in a singular pose run->acceleration is replaced by its limit. Statuses of an
+ * evaluation at the present state, which is made again. */
+baum_status baum_i_passages_accelerate(baum_simulation *run);
+
+/* A step of variable length that has just been taken. May evaluate; look at the end afterwards. */
 void baum_i_passages_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: what has become of the motion, from the clear states before to the last recent one, into *out. */

@@ -83,6 +83,31 @@ static void recommended_setting_is_accurate(void **state)
   }
 }
 
+/* The first flat pose of the second start is 5e-7 rad from the end of a step: an acceleration as the equations have it there,
+ * of no digit, made the run wrong by 1.1 rad. In the ninth of 20 windows projection did not converge. Others are off by 4e-6. */
+static void fixed_steps_may_end_in_a_pose(void **state)
+{
+  (void)state;
+  static const struct {
+    int loops;
+    int start;
+  } MET[] = {{2, 2}, {20, 9}};
+  const singular_setting setting = {
+    .integrator = baum_rk4, .formulation = BAUM_FORMULATION_PROJECTION, .step = 1e-2};
+  for (int k = 0; k < 2; k++) {
+    uint64_t seed = 4711;
+    singular_scene scene = singular_open(SINGULAR_N_FOUR_BAR, MET[k].loops, &seed);
+    for (int start = 1; start < MET[k].start; start++) {
+      singular_close(&scene);
+      scene = singular_open(SINGULAR_N_FOUR_BAR, MET[k].loops, &seed);
+    }
+    singular_result r = singular_run(&scene, &setting);
+    assert_true(r.status >= BAUM_OK);
+    assert_true(r.error <= 1e-4);
+    singular_close(&scene);
+  }
+}
+
 /* An interval as it is at the first flat pose of a four-bar: time, joint, branch. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
@@ -195,6 +220,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(recommended_setting_is_accurate),
+    cmocka_unit_test(fixed_steps_may_end_in_a_pose),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
     cmocka_unit_test(mechanisms_away_from_singular_poses_are_silent),
     cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "integrate/limit.h"
+
+#include <string.h>
+
+/* [rad] between states: what a cubic cuts off is of their fourth power, while rounding there is 1e-16 over the square. */
+static const double APART = 0.003;
+/* Of the rate that gravity makes: slower ones have no way on to look at. */
+static const double SLOW = 0.1;
+
+static baum_status look_behind(const baum_i_problem *problem, const baum_i_state *state, double dt,
+                               double *room)
+{
+  int nv = problem->workspace->mechanism->nv; /* nq = nv so far */
+  for (int i = 0; i < nv; i++) {
+    room[i] = state->q[i] + dt * state->v[i];
+    room[nv + i] = state->v[i];
+  }
+  baum_status status = baum_i_project(problem->workspace, state->t + dt, room, room + nv);
+  return status == BAUM_OK ? baum_i_problem_motion(problem, state->t + dt, room, room + nv)
+                           : status;
+}
+
+bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,
+                               double *room, double *limit)
+{
+  static const double WEIGHT[] = {4.0, -6.0, 4.0, -1.0};
+  const baum_workspace *w = problem->workspace;
+  int nv = w->mechanism->nv;
+  double rate = baum_i_scaled_size(w->mechanism, state->v);
+  bool found = rate > SLOW * problem->rate;
+  memset(limit, 0, (size_t)nv * sizeof *limit);
+  for (int k = 0; k < 4 && found; k++) {
+    double dt = problem->direction * (k + 1) * APART / rate;
+    found = look_behind(problem, state, dt, room) == BAUM_OK;
+    for (int i = 0; i < nv; i++) {
+      limit[i] += WEIGHT[k] * w->a[i];
+    }
+  }
+  return found;
+}
