@@ -20,13 +20,13 @@ enum { DECADES = 6, PER_DECADE = 4, TOLERANCES = DECADES * PER_DECADE + 1, REFER
 enum { MIDDLE = TOLERANCES / 2 };
 
 /* Least fall of the error per decade, the geometric mean of all mechanisms. An error like rtol
- * falls tenfold; at order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5,
- * would have 6.8 if it were always there. */
+ * falls tenfold. */
 static const double LEAST_FALL = 7.0;
-/* IDA is at order 5 nearly always, and its four fits are what BDF promises with their scatter:
- * measured 6.3 to 7.4 here, and 6.4 in the mean of 40 start poses or ends of each mechanism
- * (CVODE's BDF, 6.5). Order 3 would have 5.6, and an error that stops falling less. */
-static const double LEAST_FALL_OF_IDA = 6.0;
+/* At order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5, has 6.8 if it is
+ * always there: measured 7.0 (CVODE) and 7.2 to 7.3 (IDA) here, and 6.5 and 6.4 in the mean of 40
+ * start poses or ends of each mechanism. Order 3 would have 5.6, and an error that stops falling
+ * less. */
+static const double LEAST_FALL_OF_BDF = 6.0;
 /* Of a single mechanism, where a lucky run at one end weighs more. */
 static const double LEAST_SINGLE_FALL = 5.5;
 
@@ -137,28 +137,28 @@ static void the_error_of_bdf_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_cvode_bdf(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL);
+  compare_falls(baum_cvode_bdf(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL_OF_BDF);
 }
 
 static void the_error_of_ida_at_index_1_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_ida(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL_OF_IDA);
+  compare_falls(baum_ida(), BAUM_FORMULATION_BAUMGARTE, LEAST_FALL_OF_BDF);
 }
 
 static void the_error_of_ida_with_ggl_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_ida(), BAUM_FORMULATION_GGL, LEAST_FALL_OF_IDA);
+  compare_falls(baum_ida(), BAUM_FORMULATION_GGL, LEAST_FALL_OF_BDF);
 }
 
 static void the_error_of_ida_at_index_2_falls_with_its_tolerance(void **state)
 {
   (void)state;
   need_sundials();
-  compare_falls(baum_ida(), BAUM_FORMULATION_INDEX2, LEAST_FALL_OF_IDA);
+  compare_falls(baum_ida(), BAUM_FORMULATION_INDEX2, LEAST_FALL_OF_BDF);
 }
 
 static void the_error_of_pairs_falls_with_their_tolerance(void **state)
