@@ -378,6 +378,24 @@ static void fixed_step_methods_have_their_order(void **state)
   for_each(observe_order);
 }
 
+/* ---- tolerances ---- */
+
+/* Down to 1e-13, below which steps only become many; the rest are rounding. */
+static void bdf_is_given_a_portion_of_rtol(void **state)
+{
+  (void)state;
+  for (int32_t k = 0; BAUM_HAVE_SUNDIALS && baum_integrator_at(k); k++) {
+    const baum_integrator *integrator = baum_integrator_at(k);
+    double portion = integrator == baum_cvode_bdf() ? 20.0 / 137.0 : 1.0;
+    portion = integrator == baum_ida() ? 1.0 / 3.0 : portion;
+    ASSERT_NEAR(baum_i_integrator_portion(integrator, 1e-2), portion, 1e-15, 0.0);
+    ASSERT_NEAR(baum_i_integrator_portion(integrator, 1e-12), portion, 1e-15, 0.0);
+    ASSERT_NEAR(baum_i_integrator_portion(integrator, 2e-13), fmax(portion, 0.5), 1e-15, 0.0);
+    assert_true(baum_i_integrator_portion(integrator, 1e-13) == 1.0);
+    assert_true(baum_i_integrator_portion(integrator, 1e-15) == 1.0);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -392,6 +410,7 @@ int main(void)
     cmocka_unit_test(too_small_tolerances_are_an_error_of_the_step),
     cmocka_unit_test(a_step_lost_in_the_rounding_of_time_is_an_error),
     cmocka_unit_test(fixed_step_methods_have_their_order),
+    cmocka_unit_test(bdf_is_given_a_portion_of_rtol),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
