@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length, put together piece by piece, and numbers that do not depend on the locale. */
+/* Texts of any length, put together piece by piece, and numbers as text. */
 #include "study/report_buffer.h"
 
 #include <locale.h>
@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/text.h"
 
 void baum_i_buffer_clear(baum_i_buffer *buffer)
 {
@@ -52,10 +53,10 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...)
   va_list again;
   va_start(arguments, format);
   va_copy(again, arguments);
-  int count = vsnprintf(NULL, 0, format, arguments);
+  int count = baum_i_format(NULL, 0, format, arguments);
   char *to = count < 0 ? NULL : place(buffer, (size_t)count);
   if (to) {
-    (void)vsnprintf(to, (size_t)count + 1, format, again);
+    (void)baum_i_format(to, (size_t)count + 1, format, again);
     buffer->used += (size_t)count;
   }
   va_end(again);
@@ -169,23 +170,11 @@ void baum_i_put_csv(baum_i_buffer *buffer, const char *text)
 
 /* ---- numbers ---- */
 
-/* What is none of the characters of a number is the locale's point, of any length. */
-void baum_i_mend_point(char *text)
-{
-  size_t digits = strspn(text, "+-0123456789e");
-  size_t point = strcspn(text + digits, "0123456789e");
-  if (point > 0) {
-    text[digits] = '.';
-    memmove(text + digits + 1, text + digits + point, strlen(text + digits + point) + 1);
-  }
-}
-
 baum_i_number baum_i_fixed(double x, int digits)
 {
   baum_i_number out;
   double capped = fmax(-1e15, fmin(x, 1e15));
-  (void)snprintf(out.text, sizeof out.text, "%.*f", digits, capped);
-  baum_i_mend_point(out.text);
+  (void)baum_i_print(out.text, sizeof out.text, "%.*f", digits, capped);
   return out;
 }
 
@@ -195,8 +184,7 @@ baum_i_number baum_i_short(double x, int digits)
   if (fabs(x) >= 1e3 && fabs(x) < 1e7) {
     (void)snprintf(out.text, sizeof out.text, "%.0f", x);
   } else if (isfinite(x)) {
-    (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
-    baum_i_mend_point(out.text);
+    (void)baum_i_print(out.text, sizeof out.text, "%.*g", digits, x);
   } else if (isinf(x)) {
     (void)snprintf(out.text, sizeof out.text, "%sinfinite", x < 0.0 ? "-" : "");
   }
@@ -211,10 +199,10 @@ baum_i_number baum_i_exact(double x, const char *otherwise)
     return out;
   }
   int digits = 15;
+  double back = 0.0;
   do {
-    (void)snprintf(out.text, sizeof out.text, "%.*g", digits, x);
-  } while (strtod(out.text, NULL) != x && digits++ < 17);
-  baum_i_mend_point(out.text);
+    (void)baum_i_print(out.text, sizeof out.text, "%.*g", digits, x);
+  } while (baum_i_read_number(out.text, &back) && back != x && digits++ < 17);
   return out;
 }
 

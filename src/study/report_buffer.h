@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of any length, put together piece by piece, and numbers that do not depend on the locale. */
+/* Texts of any length, put together piece by piece, and numbers as text. */
 #ifndef BAUM_I_STUDY_REPORT_BUFFER_H
 #define BAUM_I_STUDY_REPORT_BUFFER_H
 
@@ -18,7 +18,6 @@ typedef struct baum_i_buffer {
 
 void baum_i_buffer_clear(baum_i_buffer *buffer);
 void baum_i_put(baum_i_buffer *buffer, const char *text);
-/* Not for floating point, whose point may be a comma: give baum_i_short() and the like as texts. */
 void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2, 3);
 /* A text at the left of a column of so many characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
@@ -43,9 +42,6 @@ baum_i_number baum_i_short(double x, int digits);
 baum_i_number baum_i_exact(double x, const char *otherwise);
 /* Read what baum_i_exact() has written, up to a blank; returns where it ends, or NULL when there is no number. */
 const char *baum_i_read_number(const char *text, double *out);
-
-/* The point of whatever locale becomes a point. */
-void baum_i_mend_point(char *text);
 
 /* Characters of a UTF-8 text. */
 int baum_i_length(const char *text);

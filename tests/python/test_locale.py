@@ -17,12 +17,18 @@ END LC_NUMERIC
 
 PROGRAM = """
 import locale
+import os
 import baum
 locale.setlocale(locale.LC_NUMERIC, "comma")
 assert locale.localeconv()["decimal_point"] == ","
-study = baum.study(baum.catalog.build("pendulum"), 0, 0.5, samples=5, repeats=1)
-study.add("rk8", step=0.0125).add("rk4", formulation="baumgarte", gains=baum.fixed(1.5, 2.5), step=0.0125)
-study.run()
+def make():
+    file = os.path.join(os.environ["LOCPATH"], "a.study")
+    made = baum.study(baum.catalog.build("pendulum"), 0, 0.5, samples=5, repeats=1, file=file)
+    made.add("rk8", step=0.0125)
+    return made.add("rk4", formulation="baumgarte", gains=baum.fixed(1.5, 2.5), step=0.0125).run()
+
+study = make()
+assert [row.cpu for row in make().rows] == [row.cpu for row in study.rows]  # read from the file
 texts = [row.name for row in study.rows] + [study.error_text, study.reference.text]
 texts += [study.recommend(1e-3).why, study.report("csv"), study.report("json"), study.report("text")]
 try:

@@ -99,25 +99,6 @@ static void short_numbers_are_for_people(void **state)
   assert_int_equal(strlen(baum_i_fixed(1e300, 1).text), strlen("1000000000000000.0"));
 }
 
-/* Locales with a comma are rarely installed: here is what snprintf() gives in one. */
-static void points_do_not_depend_on_the_locale(void **state)
-{
-  (void)state;
-  const char *const texts[][2] = {{"1,5e-06", "1.5e-06"},
-                                  {"-12\xd9\xab"
-                                   "25",
-                                   "-12.25"},
-                                  {"1.5", "1.5"},
-                                  {"17", "17"},
-                                  {"1e+10", "1e+10"}};
-  for (size_t k = 0; k < sizeof texts / sizeof texts[0]; k++) {
-    char text[16];
-    memcpy(text, texts[k][0], strlen(texts[k][0]) + 1);
-    baum_i_mend_point(text);
-    assert_string_equal(text, texts[k][1]);
-  }
-}
-
 static void columns_are_as_wide_as_characters(void **state)
 {
   (void)state;
@@ -137,7 +118,6 @@ int main(void)
     cmocka_unit_test(what_is_no_utf8_is_replaced),
     cmocka_unit_test(exact_numbers_are_read_back),
     cmocka_unit_test(short_numbers_are_for_people),
-    cmocka_unit_test(points_do_not_depend_on_the_locale),
     cmocka_unit_test(columns_are_as_wide_as_characters),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
