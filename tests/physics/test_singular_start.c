@@ -88,7 +88,6 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
   (void)state;
   run_all(1, 0.0, 0.0, (double)NAN);
   run_all(2, 0.0, 0.0, (double)NAN);
-  run_all(5, 0.0, 0.0, (double)NAN);
 }
 
 /* ---- slider-crank of equal links ---- */
