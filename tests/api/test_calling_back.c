@@ -18,7 +18,7 @@
 #include "sentence.h"
 #include "step_mode.h"
 
-enum { GOOD = 5, STEPS = 20, BYTES = 1 << 16 };
+enum { GOOD = 5, STEPS = 10, BYTES = 1 << 16 };
 
 static baum_simulation *start(asked *b, step_mode mode)
 {
@@ -161,7 +161,7 @@ static void try_to_change(const asked *b)
 /* Evaluates at the present state; progress may. */
 static void look(const asked *b, baum_status want)
 {
-  bool unique = false;
+  bool unique[ASKED_NC];
   double x[2];
   baum_counters counters;
   baum_energy_account account;
@@ -169,7 +169,7 @@ static void look(const asked *b, baum_status want)
   assert_int_equal(baum_simulation_get(b->run, &energy, 1, x), want);
   assert_int_equal(baum_simulation_counters(b->run, &counters, sizeof counters), want);
   assert_int_equal(baum_simulation_energy_account(b->run, &account, sizeof account), want);
-  assert_int_equal(baum_simulation_unique_multipliers(b->run, &unique), want);
+  assert_int_equal(baum_simulation_unique_multipliers(b->run, unique), want);
 }
 
 static void read_run(const asked *b)

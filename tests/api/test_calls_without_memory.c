@@ -40,7 +40,7 @@ typedef struct scene {
   double times[TIMES];
   int32_t n[GRID];
   size_t size;
-  bool flag;
+  bool unique[EVERY_NC];
   char text[TEXT];
   unsigned char bytes[BYTES];
   baum_dae dae;
@@ -100,7 +100,7 @@ typedef struct scene {
   X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \
   X(baum_simulation_near_singular, (s->run, 0, &s->passage, sizeof s->passage))              \
   X(baum_simulation_warning, (s->run, 0, s->text, TEXT))                                     \
-  X(baum_simulation_unique_multipliers, (s->run, &s->flag))                                  \
+  X(baum_simulation_unique_multipliers, (s->run, s->unique))                                 \
   X(baum_simulation_save, (s->run, s->bytes, BYTES, &s->size))                               \
   X(baum_simulation_restore, (s->run, s->bytes, s->size))                                    \
   X(baum_stability_at, (baum_rk4(), 1.0, 1.0, &s->amplification, sizeof s->amplification))   \
