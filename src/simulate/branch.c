@@ -28,6 +28,8 @@ static const double KICK = 5e-4;
 static const double SURELY = 50.0;
 static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
 static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
+/* A violation opens a gap whose least pivot is some five times as large, by an example. */
+static const double OPENED = 30.0;
 static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing branches is 0 */
 
 /* ---- least pivot of the motion ---- */
@@ -111,7 +113,7 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_passages *p = run->passages;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
-  return last->pivot > GAP && last->pivot > 10.0 * violation_at(run, last);
+  return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
 /* Between states: a violation that is not the run's own, nor the polynomial's. */
@@ -128,7 +130,7 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   p->at.t = t;
   double violation = violation_at(run, &p->at);
   double noise = GAP + 10.0 * (own + error);
-  return violation > noise || (pivot > noise && pivot > 10.0 * violation);
+  return violation > noise || (pivot > noise && pivot > OPENED * violation);
 }
 
 /* ---- jump ---- */
