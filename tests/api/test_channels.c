@@ -5,6 +5,8 @@
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
 
 #include <cmocka.h>
 
@@ -237,6 +239,50 @@ static void what_overflows_is_told(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
+static int never_asked(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)out;
+  (void)user;
+  fail();
+  return 0;
+}
+
+static int never_pushed(double t, const double *q, const double *v, const double *inputs,
+                        double *out, void *user)
+{
+  (void)v;
+  (void)inputs;
+  return never_asked(t, q, out, user);
+}
+
+/* 10000 columns each; the count is refused, and nothing is written or evaluated for it. */
+static void more_columns_than_can_be_counted_are_refused(void **state)
+{
+  (void)state;
+  enum { MANY = 214749 };
+  baum_mechanism *m = NULL;
+  baum_coordinates_def def = baum_coordinates_def_default();
+  baum_channel *channels = calloc(MANY, sizeof *channels);
+  assert_non_null(channels);
+  for (int k = 0; k < MANY; k++) {
+    channels[k].quantity = BAUM_Q;
+  }
+  def.size = 10000;
+  def.mass = never_asked;
+  def.force = never_pushed;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  assert_int_equal(baum_channels_width(m, channels, MANY - 1), 2147480000);
+  assert_int_equal(baum_channels_width(m, channels, MANY), -1);
+  assert_non_null(strstr(baum_message(), "channel 214748"));
+  assert_non_null(strstr(baum_message(), "more columns than an int can count"));
+  baum_mechanism_destroy(m);
+  free(channels);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -245,6 +291,7 @@ int main(void)
     cmocka_unit_test(the_power_of_a_driver_is_the_change_of_energy),
     cmocka_unit_test(a_sample_costs_a_solution_only_when_it_asks_for_one),
     cmocka_unit_test(what_follows_from_the_state_calls_nothing),
+    cmocka_unit_test(more_columns_than_can_be_counted_are_refused),
     cmocka_unit_test(what_overflows_is_told),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
