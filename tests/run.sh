@@ -58,7 +58,7 @@ stage_asan() {
   need_venv
   build asan asan -DBAUM_WERROR=ON
   ASAN_OPTIONS=detect_leaks=1:detect_stack_use_after_return=1 \
-    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan -LE 'layout|sweep'
+    UBSAN_OPTIONS=print_stacktrace=1 run_tests asan -LE 'layout|sweep|grid'
 }
 
 stage_minimal() {
@@ -128,13 +128,13 @@ stage_coverage() {
 stage_sweeps() {
   need_venv
   build asan asan -DBAUM_WERROR=ON
-  run_tests asan -L sweep
+  run_tests asan -L 'sweep|grid'
 }
 
 stage_valgrind() {
   need_venv
   build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;--quiet;--error-exitcode=99;--leak-check=full"
-  run_tests valgrind -LE 'layout|python|sweep'
+  run_tests valgrind -LE 'layout|python|sweep|grid'
 }
 
 stage_thread() {
