@@ -471,6 +471,12 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   memcpy(copy + nv, v, nv * sizeof *v);
   status = baum_i_project(workspace, t, copy, copy + nv);
   if (status == BAUM_OK) {
+    status = baum_i_check_velocities(workspace, "projected pose", copy);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_velocities(workspace, "projected velocity", copy + nv);
+  }
+  if (status == BAUM_OK) {
     status = baum_i_check_left_out(workspace, t, copy, copy + nv,
                                    baum_i_scaled_size(workspace->mechanism, v));
   }
