@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "drawn.h"
@@ -36,6 +37,15 @@ static void draw_integer(fuzz_bytes *b, const element_field *f, unsigned char *a
   }
 }
 
+/* Without max_steps, as of an older version, a run might go on for a billion steps. */
+static size_t draw_size(fuzz_bytes *b)
+{
+  const size_t least = offsetof(baum_simulation_options, max_steps) + sizeof(int64_t);
+  const size_t nonsense = sizeof(size_t);
+  size_t size = fuzz_below(b, 4) == 0 ? (size_t)fuzz_byte(b) : sizeof(baum_simulation_options);
+  return size > nonsense && size < least ? least : size;
+}
+
 static void draw_field(fuzz_bytes *b, baum_simulation_options *o)
 {
   const element_field *f = &option_fields[fuzz_below(b, OPTION_FIELDS)];
@@ -46,7 +56,7 @@ static void draw_field(fuzz_bytes *b, baum_simulation_options *o)
   case FIELD_INTEGER: draw_integer(b, f, at); break;
   case FIELD_FLAG: *at = (unsigned char)fuzz_below(b, 2); break;
   case FIELD_GAINS: o->gains = (baum_gains){fuzz_below(b, 10) - 1, {x, fuzz_number(b)}}; break;
-  case FIELD_SIZE: o->struct_size = fuzz_below(b, 4) == 0 ? (size_t)fuzz_byte(b) : sizeof *o; break;
+  case FIELD_SIZE: o->struct_size = draw_size(b); break;
   case FIELD_FUNCTION: /* integrator, progress, user, row_gains: by others */
   case FIELD_NAME:
   case FIELD_ID:
