@@ -297,10 +297,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || (status == BAUM_WARNED && sealed));
+  /* A forged line may call a row done that cannot be run: then the study says so when it takes its time. */
+  FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);
-  } else {
+  } else if (status >= BAUM_OK) {
     if (!sealed) {
       check_same_rows(t->study, study, false);
     }
