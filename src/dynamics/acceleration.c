@@ -53,7 +53,8 @@ static baum_status solve(baum_workspace *w)
 
 static baum_status fail_blocks(const baum_workspace *w)
 {
-  int joint = baum_i_smallest_pivot_joint(w);
+  int joint = -1;
+  (void)baum_i_smallest_pivot(w, &joint);
   char label[BAUM_I_LABEL_SIZE] = "no joint";
   if (joint >= 0) {
     (void)baum_i_joint_label(w->mechanism, joint, label);

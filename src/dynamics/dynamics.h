@@ -157,10 +157,9 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 #define BAUM_I_NEAR_PIVOT 0.02
 
 /* How far from singular the last solution was: 1 for no rows, 0 for singular, and falling with the square of the
- * distance. Its size depends on mechanism and solver: it is to be compared with itself. */
-double baum_i_smallest_pivot(const baum_workspace *workspace);
-/* The joint that has it, -1: none. */
-int baum_i_smallest_pivot_joint(const baum_workspace *workspace);
+ * distance. Its size depends on mechanism and solver: it is to be compared with itself. *joint,
+ * unless NULL: the one that has it, -1: none. */
+double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 /* Of a state that needs no solution: a, lambda and what was evaluated are not to be read. Blocks stay with blocks, so that
  * pivots go on without a jump where others solve. Statuses of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,

@@ -70,25 +70,19 @@ static bool blocks_tell(const baum_workspace *w, double *pivot, int *row)
   return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
 }
 
-double baum_i_smallest_pivot(const baum_workspace *w)
-{
-  int row = -1;
-  double pivot = 1.0;
-  if (w->mechanism->nc == 0 || blocks_tell(w, &pivot, &row)) {
-    return pivot;
-  }
-  return baum_i_kkt_rcond(w->kkt);
-}
-
 /* With other solvers the largest multiplier is all there is to name a joint by. */
-int baum_i_smallest_pivot_joint(const baum_workspace *w)
+double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;
   double pivot = 1.0;
-  if (!blocks_tell(w, &pivot, &row)) {
-    row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
+  if (w->mechanism->nc > 0 && !blocks_tell(w, &pivot, &row)) {
+    pivot = baum_i_kkt_rcond(w->kkt);
+    row = joint ? baum_i_largest(w->lambda, w->mechanism->nc, NULL) : -1;
   }
-  return row < 0 ? -1 : baum_i_row_joint(w->mechanism, row);
+  if (joint) {
+    *joint = row < 0 ? -1 : baum_i_row_joint(w->mechanism, row);
+  }
+  return pivot;
 }
 
 /* Without blocks a solution costs little more than its factors. */

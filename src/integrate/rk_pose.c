@@ -41,7 +41,7 @@ static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
 /* Of the last evaluation. */
 static double see_pivot(baum_i_rk_pose *pose, const baum_i_problem *problem)
 {
-  double pivot = baum_i_smallest_pivot(problem->workspace);
+  double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
   pose->usual = fmax(pose->usual, pivot);
   return pivot / pose->usual;
 }
@@ -91,7 +91,7 @@ static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, doubl
 void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
                           double t)
 {
-  double pivot = baum_i_smallest_pivot(problem->workspace);
+  double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
   pose->usual = pivot; /* no step before counts */
   pose->held = 0;
   if (pivot < PIVOT_OF_START) {
@@ -115,7 +115,7 @@ static double find_ahead(const baum_i_rk_pose *pose, const baum_i_rk *rk,
   baum_i_rk_combine(rk, 1, &one, dt, rk->point);
   baum_status status = baum_i_problem_motion(problem, t + dt, rk->point, rk->point + rk->nv);
   double now = sqrt(pose->pivot);
-  double then = sqrt(baum_i_smallest_pivot(problem->workspace) / pose->usual);
+  double then = sqrt(baum_i_smallest_pivot(problem->workspace, NULL) / pose->usual);
   return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;
 }
 

@@ -35,15 +35,17 @@ static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing
 /* ---- least pivot of the motion ---- */
 
 /* Of the usual one, at t of the motion through knots. */
-static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t)
+static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
+                       int *joint)
 {
   baum_i_passages *p = run->passages;
+  *joint = -1;
   baum_i_hermite(knots, count, p->nv, t, p->at.q, p->at.v);
   p->at.t = t;
   if (baum_i_find_pivot(run->workspace, t, p->at.q, p->at.v) != BAUM_OK) {
     return run->workspace->point.retry ? (double)INFINITY : 0.0;
   }
-  return baum_i_smallest_pivot(run->workspace) / p->usual;
+  return baum_i_smallest_pivot(run->workspace, joint) / p->usual;
 }
 
 /* The motion that is looked at, and the joint of its least pivot so far. */
@@ -58,10 +60,11 @@ typedef struct look {
 static double look_at(void *user, double t)
 {
   look *in = user;
-  double pivot = pivot_at(in->run, in->knots, in->count, t);
+  int joint = -1;
+  double pivot = pivot_at(in->run, in->knots, in->count, t, &joint);
   if (pivot < in->least) {
     in->least = pivot;
-    in->joint = baum_i_smallest_pivot_joint(in->run->workspace);
+    in->joint = joint;
   }
   return pivot;
 }

@@ -129,8 +129,9 @@ static void note(baum_simulation *run, const baum_i_state *state, double pivot, 
 void baum_i_passages_note(baum_simulation *run, const baum_i_state *state)
 {
   if (run->passages) {
-    const baum_workspace *w = run->workspace;
-    note(run, state, baum_i_smallest_pivot(w), baum_i_smallest_pivot_joint(w));
+    int joint = -1;
+    double pivot = baum_i_smallest_pivot(run->workspace, &joint);
+    note(run, state, pivot, joint);
   }
 }
 
@@ -278,7 +279,16 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* The last state but one is clear. */
+/* A passage has neither begun nor been jumped over. */
+static void keep_last_but_one(baum_simulation *run)
+{
+  const baum_i_passages *p = run->passages;
+  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  if (p->recent_count >= 2 && !is_near(last - 1)) {
+    keep_clear(run, last - 1);
+  }
+}
+
 static void look_outside(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
@@ -288,9 +298,7 @@ static void look_outside(baum_simulation *run)
     close_passage(run);
     return;
   }
-  if (p->recent_count >= 2 && !is_near(last - 1)) {
-    keep_clear(run, last - 1);
-  }
+  keep_last_but_one(run);
   if (is_near(last)) {
     begin(p, p->recent_count >= 2 ? last[-1].t : last->t);
     see_turn(run);
@@ -298,17 +306,12 @@ static void look_outside(baum_simulation *run)
   }
 }
 
-void baum_i_passages_look(baum_simulation *run)
+static void look(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
-  if (!p || !p->unseen) {
-    return;
-  }
-  p->unseen = false;
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   int64_t near_singular = run->workspace->near_singular; /* of the motion, not of looks at it */
-  if (p->open) {
+  if (run->passages->open) {
     look_inside(run);
   } else {
     look_outside(run);
@@ -317,15 +320,35 @@ void baum_i_passages_look(baum_simulation *run)
   (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
+/* Most states have nothing to look for. */
+void baum_i_passages_look(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  if (!p || !p->unseen) {
+    return;
+  }
+  p->unseen = false;
+  if (p->open || is_near(&p->recent[p->recent_count - 1]) || may_have_jumped(p)) {
+    look(run);
+  } else {
+    keep_last_but_one(run);
+  }
+}
+
 /* ---- projection ---- */
 
-/* Where blocks have refused, the pivot is that of another solver, and larger. */
-static bool is_in_pose(const baum_simulation *run)
+/* Of the last solution. Where blocks have refused, the pivot is that of another solver, and larger. */
+static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
   bool refused = w->path && !w->solved_by;
-  double limit = refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE;
-  return baum_i_smallest_pivot(w) < limit * run->passages->usual;
+  return pivot < (refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE);
+}
+
+/* Of the usual one, of the last solution. */
+static double find_pivot(const baum_simulation *run)
+{
+  return baum_i_smallest_pivot(run->workspace, NULL) / run->passages->usual;
 }
 
 /* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
@@ -335,7 +358,7 @@ static bool is_beyond_rounding(const baum_simulation *run, double h)
   const baum_i_passages *p = run->passages;
   double rate = baum_i_scaled_size(run->workspace->mechanism, p->between.v);
   double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
-  double pivot = baum_i_smallest_pivot(run->workspace) / p->usual;
+  double pivot = find_pivot(run);
   return pivot < 1e-4 && pivot * error < DBL_EPSILON;
 }
 
@@ -343,7 +366,7 @@ static bool is_beyond_rounding(const baum_simulation *run, double h)
 static bool stays_unprojected(const baum_simulation *run, baum_status status, double h)
 {
   if (status == BAUM_ERR_CONVERGENCE) {
-    return is_in_pose(run);
+    return is_in_pose(run, find_pivot(run));
   }
   return status == BAUM_OK && is_beyond_rounding(run, h);
 }
@@ -370,13 +393,21 @@ baum_status baum_i_passages_project(baum_simulation *run, double t)
 
 /* ---- accelerations ---- */
 
+/* Of the present state, which has mostly just been noted. */
+static double find_present_pivot(const baum_simulation *run)
+{
+  const baum_i_passages *p = run->passages;
+  const baum_i_knot *last = p->recent_count > 0 ? &p->recent[p->recent_count - 1] : NULL;
+  return last && last->t == run->state.t ? last->pivot : find_pivot(run);
+}
+
 /* Methods may read the workspace at the start of a step: it is left as it was. */
 baum_status baum_i_passages_accelerate(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
   baum_workspace *w = run->workspace;
   const baum_i_state *state = &run->state;
-  if (!p || !is_in_pose(run)) {
+  if (!p || !is_in_pose(run, find_present_pivot(run))) {
     return BAUM_OK;
   }
   baum_i_sentence kept;
@@ -446,8 +477,8 @@ void baum_i_passages_step(baum_simulation *run, const baum_i_state *end)
   int64_t near_singular = w->near_singular;
   baum_status status =
     run->integrator->solves_residuals ? baum_i_find_pivot(w, end->t, end->q, end->v) : BAUM_OK;
-  double pivot = baum_i_smallest_pivot(w);
-  int joint = baum_i_smallest_pivot_joint(w);
+  int joint = -1;
+  double pivot = baum_i_smallest_pivot(w, &joint);
   int pieces = status == BAUM_OK ? count_pieces(run, end, pivot) : 1;
   double start = pieces > 1 ? p->recent[p->recent_count - 1].t : end->t;
   for (int k = 1; k < pieces; k++) {

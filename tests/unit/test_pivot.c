@@ -30,9 +30,9 @@ static double pivot_of(const baum_mechanism *m)
   check(baum_i_use_blocks(w));
   const double v[9] = {0.0};
   check(baum_i_acceleration(w, 0.0, m->drawn_q, v, 0.0, 0.0));
-  double pivot = baum_i_smallest_pivot(w);
+  double pivot = baum_i_smallest_pivot(w, NULL);
   check(baum_i_find_pivot(w, 0.0, m->drawn_q, v));
-  assert_true(baum_i_smallest_pivot(w) == pivot);
+  assert_true(baum_i_smallest_pivot(w, NULL) == pivot);
   baum_workspace_destroy(w);
   return pivot;
 }
