@@ -224,6 +224,11 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
+/* The change of v that takes all of -Phi' away, into workspace->a. BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ * BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY. */
+baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
+                                        const double *v);
+
 /* Whether rows that were left out as redundant are met by a state that has been projected: also BAUM_ERR_INCONSISTENT. Runs
  * watch them by themselves. speed: scaled size of the velocities before. */
 baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,

@@ -73,8 +73,7 @@ static baum_status change_of_positions(baum_workspace *w, double t, const double
   return least_change(w);
 }
 
-/* Likewise of the velocities, which takes all of -Phi' away. */
-static baum_status change_of_velocities(baum_workspace *w, double t, const double *q,
+baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const double *q,
                                         const double *v)
 {
   static const baum_i_right_side right = {.damping = 1.0};
@@ -122,7 +121,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
 
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
 {
-  baum_status status = change_of_velocities(w, t, q, v);
+  baum_status status = baum_i_change_of_velocities(w, t, q, v);
   if (status == BAUM_OK) {
     (void)apply(w->mechanism, w->a, v);
   }

@@ -121,6 +121,10 @@ void baum_i_run_resolve(baum_simulation *run);
  * the present state is untouched. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
+/* Of the trial state, when the rows to leave out are known: BAUM_ERR_INCONSISTENT, or a warning, where rows are met that
+ * hold hardly by velocities that are far from what they ask for. */
+baum_status baum_i_run_check_velocities(baum_simulation *run);
+
 /* Energy of the trial state; leaves Phi and Phi' there in the workspace. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 

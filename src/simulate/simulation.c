@@ -195,8 +195,9 @@ static baum_status accept_start(baum_simulation *run)
 
 /* One after the other, each on what the ones before have made. */
 static baum_status (*const STAGES[])(baum_simulation *run) = {
-  make_states,   start_as_drawn,  choose_solver,   choose_problem, make_account,
-  make_passages, make_integrator, warn_redundancy, warn_settings,  accept_start,
+  make_states,     start_as_drawn, choose_solver, baum_i_run_check_velocities,
+  choose_problem,  make_account,   make_passages, make_integrator,
+  warn_redundancy, warn_settings,  accept_start,
 };
 
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)

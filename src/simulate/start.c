@@ -132,6 +132,84 @@ static baum_status check_exact(baum_simulation *run)
                            : status;
 }
 
+/* ---- velocities that rows hold hardly ---- */
+
+/* Rows may agree with velocities to their last digits and still not tell them: two pins a nanometre apart are met within
+ * a nanometre per second by any rate between their bodies. Accelerations are then open by as much as projection would
+ * change the velocities. */
+static const double OPEN = 1e-6;        /* of their size; more of it is told, */
+static const double CONTRADICTS = 1e-3; /* and of this is refused */
+static const double ROUNDING = 1e-13;   /* of the rows at these velocities, likewise */
+
+/* Share of the size by which the row is off that is off the most. */
+static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
+{
+  double nu = 0.0;
+  baum_i_row_displacements(w, w->work_c);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    nu = fmax(nu, fabs(w->nu[i]) / w->work_c[i]);
+    w->work_c[i] = w->phi_rate[i] / w->work_c[i];
+  }
+  double worst = 0.0;
+  *size = fmax(nu, baum_i_scaled_size(w->mechanism, state->v));
+  *row = baum_i_largest(w->work_c, w->mechanism->nc, &worst);
+  return *size > 0.0 ? worst / *size : 0.0;
+}
+
+static baum_status tell_open(baum_simulation *run, int row, double rate, double change)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
+  if (change > CONTRADICTS) {
+    return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                       "t = %.9g s: the given velocities and the constraints contradict each "
+                       "other in %s: it is off by %.3g per s, and holds so hardly that the "
+                       "velocities would be open within %.1e of their size",
+                       run->trial.t, label, rate, change);
+  }
+  baum_i_run_warn(run,
+                  "t = %.9g s: %s is off by %.3g per s at the given velocities, and holds so "
+                  "hardly that these are open within %.1e of their size, and accelerations too",
+                  run->trial.t, label, rate, change);
+  return BAUM_OK;
+}
+
+/* Share of their size by which projection would change the velocities; all, where it does not get along. A pose that has lost
+ * rows altogether asks for none. */
+static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
+                               double *change)
+{
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_status status = baum_i_change_of_velocities(w, state->t, state->q, state->v);
+  if (status == BAUM_ERR_SINGULAR) {
+    *change = baum_i_kkt_rcond(w->kkt) > 0.0 ? 1.0 : 0.0;
+    return baum_i_message_settle(BAUM_OK, &kept);
+  }
+  *change = baum_i_scaled_size(w->mechanism, w->a) / size;
+  return status;
+}
+
+baum_status baum_i_run_check_velocities(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  const baum_i_state *trial = &run->trial;
+  if (w->mechanism->nc == 0 || run->options.start == BAUM_START_AS_GIVEN) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
+  int row = -1;
+  double size = 0.0;
+  if (status != BAUM_OK || !(find_worst_rate(trial, w, &row, &size) > ROUNDING)) {
+    return status;
+  }
+  double rate = fabs(w->phi_rate[row]);
+  double change = 0.0;
+  status = find_change(w, trial, size, &change);
+  return status == BAUM_OK && change > OPEN ? tell_open(run, row, rate, change) : status;
+}
+
 /* ---- the whole ---- */
 
 /* Take a state as it is, free velocities zero. */
@@ -268,6 +346,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
     start_as_given(simulation, t, q, v);
   } else {
     status = baum_i_run_start(simulation, t, q, v);
+    status = status == BAUM_OK ? baum_i_run_check_velocities(simulation) : status;
   }
   if (status == BAUM_OK) {
     status = baum_i_run_measure(simulation, &energy);

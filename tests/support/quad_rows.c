@@ -317,3 +317,17 @@ bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, c
   finish(&s);
   return done;
 }
+
+bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
+                       const double *v, double *projected, quad_rows *out)
+{
+  system_of_rows s;
+  bool done = begin(&s, nv, nc) && baum_workspace_mass(workspace, t, q, s.mass) == BAUM_OK &&
+              baum_workspace_jacobian(workspace, t, q, s.jacobian) == BAUM_OK;
+  for (int i = 0; i < nv * nv && done; i++) {
+    s.force[i / nv] += s.mass[i] * v[i % nv];
+  }
+  done = done && solve(&s, projected, out);
+  finish(&s);
+  return done;
+}

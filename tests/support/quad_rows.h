@@ -27,4 +27,9 @@ static const double QUAD_DEPENDENT = 1e-10;
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out);
 
+/* Likewise the velocities nearest to v, in the metric of M, that fulfil constraints which do not depend on time; as
+ * accelerations without bending, M v for forces. */
+bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
+                       const double *v, double *projected, quad_rows *out);
+
 #endif
