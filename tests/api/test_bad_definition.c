@@ -431,6 +431,41 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+/* It lay on `point` when the slot was added; where it is drawn now, freezing can tell. */
+static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
+{
+  (void)state;
+  baum_mechanism *mechanism = NULL;
+  baum_joint_id id;
+  int32_t nc = -1;
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  baum_planar_particle_def bead = baum_planar_particle_def_default();
+  baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
+  bead.name = "bead";
+  assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &bead, &slot.body_b), BAUM_OK);
+  slot.name = "slot";
+  slot.body_a = BAUM_GROUND;
+  slot.point[0] = 0.0;
+  slot.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_pin_in_slot(mechanism, &slot, &id), BAUM_OK);
+  bead.position[0] = 0.5; /* along the slot: its row would hold */
+  assert_int_equal(baum_mechanism_set_planar_particle(mechanism, slot.body_b, &bead), BAUM_OK);
+  for (int again = 0; again < 2; again++) {
+    ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT,
+                "joint 1 \"slot\": point is (0, 0) m, must be at the particle body 1 \"bead\", "
+                "drawn at (0.5, 0) m");
+    assert_false(baum_mechanism_is_frozen(mechanism));
+    assert_int_equal(baum_mechanism_sizes(mechanism, NULL, NULL, &nc), BAUM_ERR_STATE);
+    assert_int_equal(nc, -1);
+  }
+  slot.point[0] = 0.5;
+  assert_int_equal(baum_mechanism_set_planar_pin_in_slot(mechanism, id, &slot), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  assert_int_equal(baum_mechanism_sizes(mechanism, NULL, NULL, &nc), BAUM_OK);
+  assert_int_equal(nc, 1);
+  baum_mechanism_destroy(mechanism);
+}
+
 /* ---- more numbers than an int can count ---- */
 
 static int never_mass(double t, const double *q, double *out, void *user)
@@ -522,6 +557,7 @@ int main(void)
     cmocka_unit_test(nothing_is_added_or_set_after_freeze),
     cmocka_unit_test(gravity_and_scale_out_of_range_are_refused),
     cmocka_unit_test(freezing_refuses_points_that_do_not_fit),
+    cmocka_unit_test(freezing_refuses_a_slot_whose_particle_was_moved_off_it),
     cmocka_unit_test(freezing_refuses_matrices_too_large_to_count),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
