@@ -9,7 +9,7 @@ import argparse
 import json
 import math
 
-import baum
+from baum import library_version
 
 
 class Report:
@@ -20,7 +20,7 @@ class Report:
         for option, explanation in {"json": "write tables and checks there", **options}.items():
             parser.add_argument(f"--{option}", metavar="FILE", help=explanation)
         self.options = parser.parse_args()
-        self._tables = {"example": name, "version": baum.library_version}
+        self._tables = {"example": name, "version": library_version}
         self._checks = []
 
     def table(self, name, columns, rows):

@@ -34,6 +34,6 @@ class Folder(tempfile.TemporaryDirectory):
         """Path of a program."""
         return self._compile(source, "program")
 
-    def library(self, source, name="libtest.so"):
+    def shared_object(self, source, name="libtest.so"):
         """Path of a shared library."""
         return self._compile(source, name, "-shared", "-fPIC")

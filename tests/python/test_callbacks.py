@@ -250,7 +250,7 @@ class Compiled(unittest.TestCase):
     def setUpClass(cls):
         folder = Folder()
         cls.addClassCleanup(folder.cleanup)
-        cls.circle = ctypes.CDLL(folder.library(COMPILED)).circle
+        cls.circle = ctypes.CDLL(folder.shared_object(COMPILED)).circle
 
     def test_function_pointers_and_addresses_are_taken(self):
         class Jitted:

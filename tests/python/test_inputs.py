@@ -246,7 +246,7 @@ class Compiled(unittest.TestCase):
     def test_a_compiled_force_is_given_all_inputs(self):
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        push = ctypes.CDLL(folder.library(COMPILED)).push
+        push = ctypes.CDLL(folder.shared_object(COMPILED)).push
         m = several(force=push).freeze()
         np.testing.assert_array_equal(force(baum.Workspace(m)), [10, 100])
 

@@ -99,7 +99,7 @@ class Compiled(unittest.TestCase):
     def test_a_compiled_law_is_taken_with_its_user(self):
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        law = ctypes.CDLL(folder.library(COMPILED)).law
+        law = ctypes.CDLL(folder.shared_object(COMPILED)).law
         m = pair()
         m.torsion_spring("clock", "a", "b", law=law, user=ctypes.pointer(ctypes.c_double(7.0)))
         self.assertEqual(force(m)[2], 14.0)

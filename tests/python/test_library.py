@@ -8,7 +8,7 @@ import sys
 import unittest
 
 import baum
-from baum import _abi, _lib
+from baum import _abi, _lib, library_version
 from compiler import CC, Folder
 
 STAND_IN = """
@@ -29,7 +29,7 @@ def import_with(library):
 class Library(unittest.TestCase):
     def test_versions_agree(self):
         self.assertEqual(baum.__version__, _abi.VERSION)
-        self.assertEqual(baum.library_version.split(".")[:2], baum.__version__.split(".")[:2])
+        self.assertEqual(library_version.split(".")[:2], baum.__version__.split(".")[:2])
 
     def test_has_tells_what_is_built_in(self):
         self.assertIn(baum.has("sundials"), (True, False))
@@ -45,7 +45,7 @@ class Library(unittest.TestCase):
     def test_another_version_is_refused_with_both_versions(self):
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        said = import_with(folder.library(STAND_IN.format(version="7.3.1")))
+        said = import_with(folder.shared_object(STAND_IN.format(version="7.3.1")))
         self.assertIn("ImportError: baum: the library", said)
         self.assertIn("has version 7.3.1", said)
         self.assertIn(f"has version {_abi.VERSION}", said)
@@ -54,8 +54,8 @@ class Library(unittest.TestCase):
     def test_another_library_is_refused(self):
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        self.assertIn("is not the library baum", import_with(folder.library("int other;\n")))
-        partly = folder.library(STAND_IN.format(version=_abi.VERSION), "libpartly.so")
+        self.assertIn("is not the library baum", import_with(folder.shared_object("int other;\n")))
+        partly = folder.shared_object(STAND_IN.format(version=_abi.VERSION), "libpartly.so")
         self.assertIn("has no function baum_", import_with(partly))
 
     def test_structs_that_have_grown_are_taken(self):
@@ -86,7 +86,7 @@ class Library(unittest.TestCase):
                 source += f"extern int {name};\nint {name};\n"
         folder = Folder()
         self.addCleanup(folder.cleanup)
-        said = import_with(folder.library(source))
+        said = import_with(folder.shared_object(source))
         self.assertRegex(said, "ImportError: baum: baum_coordinates_def has 1 bytes in the library")
 
 
