@@ -12,6 +12,7 @@
 
 #include "every_element.h"
 #include "sentence.h"
+#include "user_models.h"
 
 static const any_id SENTINEL = {77, 88};
 
@@ -468,24 +469,6 @@ static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state
 
 /* ---- more numbers than an int can count ---- */
 
-static int never_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)out;
-  (void)user;
-  fail();
-  return 0;
-}
-
-static int never_force(double t, const double *q, const double *v, const double *inputs,
-                       double *out, void *user)
-{
-  (void)v;
-  (void)inputs;
-  return never_mass(t, q, out, user);
-}
-
 enum { HUGE_BODIES = 22, HUGE_SIZE = 10000 };
 
 static baum_mechanism *make_huge(int count, baum_body_id *ids)
@@ -493,8 +476,8 @@ static baum_mechanism *make_huge(int count, baum_body_id *ids)
   baum_mechanism *mechanism = NULL;
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = HUGE_SIZE;
-  def.mass = never_mass;
-  def.force = never_force;
+  def.mass = user_never_asked;
+  def.force = user_never_pushed;
   assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
   for (int k = 0; k < count; k++) {
     assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, &ids[k]), BAUM_OK);
@@ -525,7 +508,7 @@ static void freezing_refuses_matrices_too_large_to_count(void **state)
   rows.bodies = ids;
   rows.body_count = 1;
   rows.row_count = HUGE_SIZE;
-  rows.phi = never_mass;
+  rows.phi = user_never_asked;
   for (int k = 0; k < HUGE_BODIES; k++) {
     assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &rows, NULL), BAUM_OK);
   }
@@ -536,7 +519,7 @@ static void freezing_refuses_matrices_too_large_to_count(void **state)
   baum_user_force_def force = baum_user_force_def_default();
   force.bodies = ids;
   force.body_count = 3;
-  force.force = never_force;
+  force.force = user_never_pushed;
   assert_int_equal(baum_mechanism_add_user_force(mechanism, &force, NULL), BAUM_OK);
   check_too_large(mechanism, "force 1 ");
 }

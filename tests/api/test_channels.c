@@ -14,6 +14,7 @@
 #include "every_element.h"
 #include "models.h"
 #include "sentence.h"
+#include "user_models.h"
 
 static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integrator *integrator,
                                double step)
@@ -239,24 +240,6 @@ static void what_overflows_is_told(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-static int never_asked(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)out;
-  (void)user;
-  fail();
-  return 0;
-}
-
-static int never_pushed(double t, const double *q, const double *v, const double *inputs,
-                        double *out, void *user)
-{
-  (void)v;
-  (void)inputs;
-  return never_asked(t, q, out, user);
-}
-
 /* 10000 columns each; the count is refused, and nothing is written or evaluated for it. */
 static void more_columns_than_can_be_counted_are_refused(void **state)
 {
@@ -270,8 +253,8 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
     channels[k].quantity = BAUM_Q;
   }
   def.size = 10000;
-  def.mass = never_asked;
-  def.force = never_pushed;
+  def.mass = user_never_asked;
+  def.force = user_never_pushed;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);

@@ -12,6 +12,7 @@
 #include "check.h"
 #include "models.h"
 #include "sentence.h"
+#include "user_models.h"
 
 #define PI 3.14159265358979323846
 
@@ -84,15 +85,6 @@ static baum_mechanism *make_hub(int arms)
   return m;
 }
 
-static int half_a_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
 static int pull(double t, const double *q, const double *v, const double *inputs, double *out,
                 void *user)
 {
@@ -134,7 +126,7 @@ static baum_mechanism *make_massless(void)
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "twin";
   def.size = 2;
-  def.mass = half_a_mass;
+  def.mass = user_mass_of_first;
   def.force = pull;
   def.constant_mass = true;
   check(baum_mechanism_add_coordinates(m, &def, &body));

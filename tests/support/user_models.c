@@ -270,6 +270,15 @@ static int unit_mass_3(double t, const double *q, double *out, void *user)
   return unit_mass(3, out);
 }
 
+int user_mass_of_first(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
 int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user)
 {
@@ -280,6 +289,24 @@ int user_no_force(double t, const double *q, const double *v, const double *inpu
   (void)out;
   (void)user;
   return 0;
+}
+
+int user_never_asked(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)out;
+  (void)user;
+  fail();
+  return 0;
+}
+
+int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user)
+{
+  (void)v;
+  (void)inputs;
+  return user_never_asked(t, q, out, user);
 }
 
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,

@@ -46,9 +46,17 @@ extern const user_kind user_circle;
 extern const user_kind user_loop;
 extern const user_kind user_swing;
 
+/* 1 for the first coordinate, nothing for others. */
+int user_mass_of_first(double t, const double *q, double *out, void *user);
+
 /* Zero. */
 int user_no_force(double t, const double *q, const double *v, const double *inputs, double *out,
                   void *user);
+
+/* The test fails when they are called. */
+int user_never_asked(double t, const double *q, double *out, void *user);
+int user_never_pushed(double t, const double *q, const double *v, const double *inputs, double *out,
+                      void *user);
 
 /* size coordinates with unit mass (2 x 2 and 3 x 3 only), drawn at q, all of one scale. */
 baum_body_id user_add_coordinates(baum_mechanism *mechanism, int size, const double *q,

@@ -17,6 +17,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "sentence.h"
+#include "user_models.h"
 
 /* rk8 at rtol 1e-12, whose errors over a second are some 1e-12. */
 static const double CLOSE = 1e-10;
@@ -173,18 +174,6 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                    void *user)
-{
-  (void)t;
-  (void)q;
-  (void)v;
-  (void)inputs;
-  (void)out;
-  (void)user;
-  return 0;
-}
-
 /* M v' = 0 with v = 1 and M = 1 + q^2, which is no equation of Lagrange's: v^2 (q^2 / 2) comes from M' alone. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
@@ -196,7 +185,7 @@ static void a_varying_mass_is_in_the_account(void **state)
   body.size = 1;
   body.v = rate;
   body.mass = growing_mass;
-  body.force = no_force;
+  body.force = user_no_force;
   check(baum_mechanism_add_coordinates(m, &body, NULL));
   ASSERT_NEAR(run_to_1(m, account_options()).bodies, 0.5, 0.0, CLOSE);
 }

@@ -12,6 +12,7 @@
 #include "dynamics/dynamics.h"
 #include "models.h"
 #include "sentence.h"
+#include "user_models.h"
 
 enum { NV = 9, NC = 8 };
 
@@ -152,27 +153,6 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   baum_mechanism_destroy(m);
 }
 
-static int half_a_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
-static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                    void *user)
-{
-  (void)t;
-  (void)q;
-  (void)v;
-  (void)inputs;
-  (void)out;
-  (void)user;
-  return 0;
-}
-
 static int first_is_three(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -192,8 +172,8 @@ static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
   baum_coordinates_def def = baum_coordinates_def_default();
   def.size = 2;
   def.q = drawn;
-  def.mass = half_a_mass;
-  def.force = no_force;
+  def.mass = user_mass_of_first;
+  def.force = user_no_force;
   assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
   assert_int_equal(baum_mechanism_add_coordinates(m, &def, &body), BAUM_OK);
   baum_user_constraint_def row = baum_user_constraint_def_default();

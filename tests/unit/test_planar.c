@@ -11,6 +11,7 @@
 #include "assert_near.h"
 #include "definitions.h"
 #include "planar_scene.h"
+#include "user_models.h"
 
 static baum_status add(baum_mechanism *mechanism, const void *def)
 {
@@ -24,27 +25,6 @@ static baum_planar_revolute_def pin(baum_body_id a, baum_body_id b)
   def.body_a = a;
   def.body_b = b;
   return def;
-}
-
-static int constant_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  (void)user;
-  out[0] = 1.0;
-  return 0;
-}
-
-static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                    void *user)
-{
-  (void)t;
-  (void)q;
-  (void)v;
-  (void)inputs;
-  (void)user;
-  out[0] = 0.0;
-  return 0;
 }
 
 /* ---- definitions begin alike ---- */
@@ -103,8 +83,8 @@ static void user_coordinates_have_no_place_in_the_plane(void **state)
   baum_coordinates_def coordinates = baum_coordinates_def_default();
   coordinates.name = "theta";
   coordinates.size = 1;
-  coordinates.mass = constant_mass;
-  coordinates.force = no_force;
+  coordinates.mass = user_mass_of_first;
+  coordinates.force = user_no_force;
   baum_body_id theta;
   assert_int_equal(baum_mechanism_add_coordinates(scene.mechanism, &coordinates, &theta), BAUM_OK);
   baum_planar_revolute_def def = pin(scene.link, theta);

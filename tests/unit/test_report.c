@@ -12,6 +12,7 @@
 
 #include "assert_near.h"
 #include "models.h"
+#include "user_models.h"
 
 #define PI 3.14159265358979323846
 
@@ -253,18 +254,6 @@ static int first_is_zero(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static int no_force(double t, const double *q, const double *v, const double *inputs, double *out,
-                    void *user)
-{
-  (void)t;
-  (void)q;
-  (void)v;
-  (void)inputs;
-  (void)out;
-  (void)user;
-  return 0;
-}
-
 /* L y = f and L^T a = y once for the body and once for its row: n^2 each; and for every coordinate a number of J, 6,
  * and of a force that changes. Sides come in threes. */
 static void the_factor_of_a_full_mass_matrix_is_counted(void **state)
@@ -279,7 +268,7 @@ static void the_factor_of_a_full_mass_matrix_is_counted(void **state)
     baum_body_id id;
     body.size = size;
     body.mass = unit_mass;
-    body.force = no_force;
+    body.force = user_no_force;
     body.constant_mass = true;
     body.user = &size;
     must(baum_mechanism_add_coordinates(m, &body, &id));
