@@ -154,7 +154,7 @@ typedef struct kind {
   size_t span;        /* offset of its baum_i_span */
   const baum_i_definition *definition;
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span); /* or NULL */
-  int (*count)(const void *def); /* velocities or rows; or NULL */
+  int (*count)(const void *def); /* velocities or rows; NULL: all of the type have as many */
 } kind;
 
 static kind body_kind(const baum_i_body_type *type)
@@ -352,7 +352,7 @@ void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *t
   baum_i_body *body = item_new(mechanism, &k, def, number);
   if (body) {
     body->type = type;
-    body->nv = type->size(body->element.def);
+    body->nv = type->size ? type->size(body->element.def) : type->nv;
   }
   return body;
 }
@@ -430,7 +430,7 @@ void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type 
   baum_i_joint *joint = item_new(mechanism, &k, def, number);
   if (joint) {
     joint->type = type;
-    joint->rows = type->rows(joint->element.def);
+    joint->rows = type->rows ? type->rows(joint->element.def) : type->row_count;
   }
   return joint;
 }

@@ -223,7 +223,8 @@ struct baum_i_body_type {
   int parameter_count;
   bool scleronomic;             /* mass and force of the type never depend on t */
   bool constant_force;          /* force of the type depends on parameters only */
-  int (*size)(const void *def); /* nv */
+  int nv;                       /* of all of the type; 0: size() tells */
+  int (*size)(const void *def); /* of one; or NULL */
   bool (*constant_mass)(const void *def);
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
@@ -274,7 +275,8 @@ struct baum_i_joint_type {
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
-  int (*rows)(const void *def);
+  int row_count;                /* of all of the type; 0: rows() tells */
+  int (*rows)(const void *def); /* of one; or NULL */
   /* Fills body_count; and bodies if not NULL. */
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
   /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the

@@ -57,12 +57,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return status == BAUM_OK ? check_start(def, label) : status;
 }
 
-static int size(const void *def)
-{
-  (void)def;
-  return 3;
-}
-
 static bool constant_mass(const void *def)
 {
   (void)def;
@@ -119,7 +113,7 @@ static const baum_i_body_type type = {
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
   .constant_force = true,
-  .size = size,
+  .nv = 3,
   .constant_mass = constant_mass,
   .lower = lower,
   .drawn = drawn,

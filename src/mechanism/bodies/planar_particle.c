@@ -41,12 +41,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return status;
 }
 
-static int size(const void *def)
-{
-  (void)def;
-  return 2;
-}
-
 static bool constant_mass(const void *def)
 {
   (void)def;
@@ -99,7 +93,7 @@ static const baum_i_body_type type = {
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
   .constant_force = true,
-  .size = size,
+  .nv = 2,
   .constant_mass = constant_mass,
   .lower = lower,
   .drawn = drawn,

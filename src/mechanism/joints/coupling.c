@@ -79,12 +79,6 @@ static const char *tied(const void *present, const void *next)
   return a->joint_b.index1 == b->joint_b.index1 ? NULL : "joint_b";
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 /* Place of a body among the first `count`; count when it is not there. */
 static int find(const int *bodies, int count, int body)
 {
@@ -322,7 +316,7 @@ static const baum_i_joint_type type = {
                  .tied = tied},
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 1,
   .bodies = bodies,
   .lower = lower,
   .evaluate = evaluate,

@@ -40,12 +40,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return status == BAUM_OK ? baum_i_check_given(label, "curve()", given->curve != NULL) : status;
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 /* ---- the curve ---- */
 
 static baum_i_user_function function(const baum_i_joint *joint)
@@ -247,7 +241,7 @@ static const baum_i_joint_type type = {
   .parameter_count = BAUM_I_PLANAR_NUMBERS,
   .planar = true,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 1,
   .bodies = baum_i_planar_bodies,
   .lower = baum_i_planar_lower_points,
   .evaluate = evaluate,

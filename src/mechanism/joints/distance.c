@@ -40,12 +40,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return baum_i_check_positive(label, "length", "m", given->length);
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
@@ -157,7 +151,7 @@ static const baum_i_joint_type type = {
   .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
   .planar = true,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 1,
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .evaluate = evaluate,

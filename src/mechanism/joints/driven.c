@@ -30,12 +30,6 @@ const char *baum_i_driver_tied(const void *present, const void *next)
   return a->joint.index1 == b->joint.index1 ? NULL : "joint";
 }
 
-int baum_i_driver_rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
 {
   const baum_i_joint *driven = driven_by(mechanism, def);

@@ -51,7 +51,6 @@ baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point
 baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 const char *baum_i_driver_tied(const void *present, const void *next);
-int baum_i_driver_rows(const void *def);
 void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
 baum_status baum_i_driver_linearize(const baum_i_joint_group *group, baum_i_point *point,
                                     const double *w, const double *lambda,

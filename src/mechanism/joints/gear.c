@@ -70,12 +70,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   return status == BAUM_OK ? baum_i_check_optional(label, "offset", "m", def->offset) : status;
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
 {
   const baum_planar_gear_def *def = given;
@@ -163,7 +157,7 @@ static const baum_i_joint_type type = {
                  .check = check},
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 1,
   .bodies = bodies,
   .lower = lower,
   .evaluate = evaluate,

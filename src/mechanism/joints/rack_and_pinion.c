@@ -45,12 +45,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return status == BAUM_OK ? baum_i_check_optional(label, "offset", "m", given->offset) : status;
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 1;
-}
-
 /* Displacement along the rack less what has been rolled off. */
 static double rolled(const baum_i_planar_pair *pair)
 {
@@ -121,7 +115,7 @@ static const baum_i_joint_type type = {
   .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
   .planar = true,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 1,
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .evaluate = evaluate,

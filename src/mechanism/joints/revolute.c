@@ -19,12 +19,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return baum_i_planar_check(mechanism, def, label, true);
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 2;
-}
-
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
@@ -70,7 +64,7 @@ static const baum_i_joint_type type = {
   .planar = true,
   .scleronomic = true,
   .is_pin = true,
-  .rows = rows,
+  .row_count = 2,
   .bodies = baum_i_planar_bodies,
   .lower = baum_i_planar_lower_points,
   .evaluate = evaluate,

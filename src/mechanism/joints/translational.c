@@ -40,12 +40,6 @@ static baum_status check(const baum_mechanism *mechanism, const void *def, const
   return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
 }
 
-static int rows(const void *def)
-{
-  (void)def;
-  return 2;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
@@ -96,7 +90,7 @@ static const baum_i_joint_type type = {
   .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
   .planar = true,
   .scleronomic = true,
-  .rows = rows,
+  .row_count = 2,
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .evaluate = evaluate,
