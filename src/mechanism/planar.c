@@ -255,7 +255,7 @@ void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, co
   for (int k = 0; k < span->body_count; k++) {
     const baum_i_body *body = point->mechanism->bodies[span->bodies[k]];
     for (int i = 0; i < 3; i++) {
-      six[3 * k + i] = i < body->nv ? x[body->v + i] : 0.0;
+      six[3 * k + i] = x && i < body->nv ? x[body->v + i] : 0.0;
     }
   }
 }

@@ -108,7 +108,7 @@ baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
 /* What is said below of six columns holds for the three of a span of one body as well. */
 
 /* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
- * absent. */
+ * absent, all for NULL. */
 void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
                           double *six);
 

@@ -249,9 +249,7 @@ static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point,
     return status;
   }
   double w_wide[BAUM_I_COMPOSED_COLUMNS] = {0.0};
-  if (w) {
-    baum_i_planar_gather(point, &joint->span, w, w_wide);
-  }
+  baum_i_planar_gather(point, &joint->span, w, w_wide);
   for (int i = 0; i < 2; i++) {
     double six[6];
     baum_i_composed_narrow(&s.x[i], w_wide, six);

@@ -151,10 +151,8 @@ static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point,
   if (status != BAUM_OK) {
     return status;
   }
-  double w_six[BAUM_I_PLANAR_COLUMNS] = {0.0};
-  if (w) {
-    baum_i_planar_gather(point, &joint->span, w, w_six);
-  }
+  double w_six[BAUM_I_PLANAR_COLUMNS];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
   for (int i = 0; i < 2; i++) {
     baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
   }

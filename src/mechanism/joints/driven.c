@@ -143,10 +143,8 @@ baum_status baum_i_driver_linearize(const baum_i_joint_group *group, baum_i_poin
   for (int i = 0; i < group->count; i++) {
     const baum_i_joint *joint = group->joints[i];
     const baum_i_joint *driven = driven_by(mechanism, joint->element.def);
-    double w_six[6] = {0.0};
-    if (w) {
-      baum_i_planar_gather(point, &joint->span, w, w_six);
-    }
+    double w_six[6];
+    baum_i_planar_gather(point, &joint->span, w, w_six);
     baum_i_coordinate_blocks six;
     driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0,
                                        &six);

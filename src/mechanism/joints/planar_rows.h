@@ -161,10 +161,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint_group *grou
   for (int i = 0; i < group->count; i++) {
     const baum_i_joint *joint = group->joints[i];
     baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-    double w_six[BAUM_I_PLANAR_COLUMNS] = {0.0};
-    if (w) {
-      baum_i_planar_gather(point, &joint->span, w, w_six);
-    }
+    double w_six[BAUM_I_PLANAR_COLUMNS];
+    baum_i_planar_gather(point, &joint->span, w, w_six);
     baum_i_planar_blocks six = {.jw_q = {0.0}};
     kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
     baum_i_planar_put(joint, point->mechanism, &six, blocks);
