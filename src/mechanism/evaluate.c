@@ -115,7 +115,9 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
   baum_status status = BAUM_OK;
   for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
     const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    status = group->type->linearize(group, point, w, lambda, blocks);
+    for (int i = 0; group->type->linearize && i < group->count && status == BAUM_OK; i++) {
+      status = group->type->linearize(group->joints[i], point, w, lambda, blocks);
+    }
   }
   return status;
 }
@@ -194,8 +196,8 @@ baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double 
   baum_status status = BAUM_OK;
   for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
-    if (group->type->linearize) {
-      status = group->type->linearize(group, point, a, blocks);
+    for (int i = 0; group->type->linearize && i < group->count && status == BAUM_OK; i++) {
+      status = group->type->linearize(group->bodies[i], point, a, blocks);
     }
   }
   return status;
@@ -210,7 +212,9 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
   baum_status status = BAUM_OK;
   for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
     const baum_i_force_group *group = &mechanism->force_groups[k];
-    status = group->type->linearize(group, point, blocks);
+    for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+      status = group->type->linearize(group->forces[i], point, blocks);
+    }
   }
   return status;
 }

@@ -238,8 +238,8 @@ struct baum_i_body_type {
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
   /* Adds; NULL: 0. */
   baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum);
-  /* NULL: all blocks are zero. a (nv). */
-  baum_status (*linearize)(const baum_i_body_group *group, baum_i_point *point, const double *a,
+  /* One body. a (nv); blocks arrive zeroed. NULL: they stay so. */
+  baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
   /* Adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and M' = 0. */
   baum_status (*power)(const baum_i_body_group *group, baum_i_point *point,
@@ -286,8 +286,8 @@ struct baum_i_joint_type {
   /* Sets its rows and blocks of what is wanted. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
-  /* w (nv), lambda (nc); blocks arrive zeroed. */
-  baum_status (*linearize)(const baum_i_joint_group *group, baum_i_point *point, const double *w,
+  /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
+  baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
   /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
@@ -311,8 +311,8 @@ struct baum_i_force_type {
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   /* Adds; NULL: 0. */
   baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
-  /* Blocks arrive zeroed. */
-  baum_status (*linearize)(const baum_i_force_group *group, baum_i_point *point,
+  /* One force. Blocks arrive zeroed. */
+  baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
   /* Adds g^T v without what comes of the potential, by class; or with it, and power_is_whole. */
   baum_status (*power)(const baum_i_force_group *group, baum_i_point *point,

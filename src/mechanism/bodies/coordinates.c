@@ -309,8 +309,8 @@ static baum_status inertia_block(const baum_i_body *body, const baum_i_local *at
   return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, out);
 }
 
-static baum_status linearize_one(const baum_i_body *body, baum_i_point *point, const double *a,
-                                 const baum_i_body_blocks *blocks)
+static baum_status linearize(const baum_i_body *body, baum_i_point *point, const double *a,
+                             const baum_i_body_blocks *blocks)
 {
   baum_i_local at = baum_i_gather(point, &body->span);
   const double *own_a = baum_i_gather_vector(&at, &body->span, a);
@@ -323,16 +323,6 @@ static baum_status linearize_one(const baum_i_body *body, baum_i_point *point, c
   }
   if (blocks->force_v && status == BAUM_OK) {
     status = force_block(body, &at, BAUM_I_VARIABLE_V, blocks->force_v + body->mass);
-  }
-  return status;
-}
-
-static baum_status linearize(const baum_i_body_group *group, baum_i_point *point, const double *a,
-                             const baum_i_body_blocks *blocks)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = linearize_one(group->bodies[i], point, a, blocks);
   }
   return status;
 }

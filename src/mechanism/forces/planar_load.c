@@ -215,11 +215,10 @@ static baum_status power(const baum_i_force_group *group, baum_i_point *point,
 }
 
 /* g does not depend on v. */
-static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
-  for (int i = 0; i < group->count && blocks->force_q; i++) {
-    const baum_i_force *element = group->forces[i];
+  if (blocks->force_q) {
     load l = load_at(element, point);
     double three[9] = {0.0};
     set_force_q(&l, three);

@@ -202,8 +202,8 @@ static baum_status power(const baum_i_force_group *group, baum_i_point *point,
   return status;
 }
 
-static baum_status linearize_one(const baum_i_force *element, baum_i_point *point,
-                                 const baum_i_force_blocks *blocks)
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
 {
   spring s = spring_at(element, point);
   if (s.length == 0.0) {
@@ -223,16 +223,6 @@ static baum_status linearize_one(const baum_i_force *element, baum_i_point *poin
   if (blocks->force_v) {
     set_force_v(&s, &t, six);
     baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
-  }
-  return status;
-}
-
-static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
-                             const baum_i_force_blocks *blocks)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = linearize_one(group->forces[i], point, blocks);
   }
   return status;
 }

@@ -139,17 +139,13 @@ static baum_status power(const baum_i_force_group *group, baum_i_point *point,
   return status;
 }
 
-static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_force *element = group->forces[i];
-    baum_i_tension t;
-    status = torque_at(element, point, &t);
-    put_square(element, point->mechanism, t.by_length, blocks->force_q);
-    put_square(element, point->mechanism, t.by_rate, blocks->force_v);
-  }
+  baum_i_tension t;
+  baum_status status = torque_at(element, point, &t);
+  put_square(element, point->mechanism, t.by_length, blocks->force_q);
+  put_square(element, point->mechanism, t.by_rate, blocks->force_v);
   return status;
 }
 

@@ -137,19 +137,16 @@ static baum_status force_block(const baum_i_force *element, const baum_i_local *
   return baum_i_difference_columns(&field, variable, at, out);
 }
 
-static baum_status linearize(const baum_i_force_group *group, baum_i_point *point,
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
   baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_force *element = group->forces[i];
-    baum_i_local at = baum_i_gather(point, &element->span);
-    if (blocks->force_q) {
-      status = force_block(element, &at, BAUM_I_VARIABLE_Q, blocks->force_q + element->square);
-    }
-    if (blocks->force_v && status == BAUM_OK) {
-      status = force_block(element, &at, BAUM_I_VARIABLE_V, blocks->force_v + element->square);
-    }
+  baum_i_local at = baum_i_gather(point, &element->span);
+  if (blocks->force_q) {
+    status = force_block(element, &at, BAUM_I_VARIABLE_Q, blocks->force_q + element->square);
+  }
+  if (blocks->force_v && status == BAUM_OK) {
+    status = force_block(element, &at, BAUM_I_VARIABLE_V, blocks->force_v + element->square);
   }
   return status;
 }

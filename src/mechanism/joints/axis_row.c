@@ -123,11 +123,11 @@ static void linearize_normal(const baum_i_planar_pair *pair, const double *w, co
   baum_i_axis_row_linearize(pair, pair->numbers + BAUM_I_AXIS_NORMAL, w, lambda[0], out);
 }
 
-baum_status baum_i_axis_joint_linearize(const baum_i_joint_group *group, baum_i_point *point,
+baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
                                         const double *w, const double *lambda,
                                         const baum_i_joint_blocks *blocks)
 {
-  return baum_i_planar_linearize(group, point, w, lambda, linearize_normal, blocks);
+  return baum_i_planar_linearize(joint, point, w, lambda, linearize_normal, blocks);
 }
 
 void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,

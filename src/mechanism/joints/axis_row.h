@@ -116,7 +116,7 @@ void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double dire
 
 enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
 
-baum_status baum_i_axis_joint_linearize(const baum_i_joint_group *group, baum_i_point *point,
+baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
                                         const double *w, const double *lambda,
                                         const baum_i_joint_blocks *blocks);
 void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,

@@ -237,8 +237,8 @@ static bool needs_third(const baum_i_joint *joint, const state *s,
 }
 
 /* w (nv) or NULL. */
-static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                                 const double *lambda, const baum_i_joint_blocks *blocks)
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
 {
   state s;
   baum_status status = state_at(joint, point, &s);
@@ -260,16 +260,6 @@ static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point,
                             lambda ? lambda[joint->row] : 0.0, &wide);
   baum_i_composed_put_blocks(joint, point, &wide, blocks);
   return BAUM_OK;
-}
-
-static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = linearize_one(group->joints[i], point, w, lambda, blocks);
-  }
-  return status;
 }
 
 /* ---- checking what is given ---- */

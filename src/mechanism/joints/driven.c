@@ -135,25 +135,20 @@ static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, 
   }
 }
 
-baum_status baum_i_driver_linearize(const baum_i_joint_group *group, baum_i_point *point,
-                                    const double *w, const double *lambda,
-                                    const baum_i_joint_blocks *blocks)
+baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                                    const double *lambda, const baum_i_joint_blocks *blocks)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    const baum_i_joint *driven = driven_by(mechanism, joint->element.def);
-    double w_six[6];
-    baum_i_planar_gather(point, &joint->span, w, w_six);
-    baum_i_coordinate_blocks six;
-    driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0,
-                                       &six);
-    put_row(joint, mechanism, six.jw_q, blocks->jw_q);
-    put_row(joint, mechanism, six.gamma_q, blocks->gamma_q);
-    put_row(joint, mechanism, six.gamma_v, blocks->gamma_v);
-    if (blocks->jtl_q) {
-      baum_i_planar_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
-    }
+  const baum_i_joint *driven = driven_by(mechanism, joint->element.def);
+  double w_six[6];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_coordinate_blocks six;
+  driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0, &six);
+  put_row(joint, mechanism, six.jw_q, blocks->jw_q);
+  put_row(joint, mechanism, six.gamma_q, blocks->gamma_q);
+  put_row(joint, mechanism, six.gamma_v, blocks->gamma_v);
+  if (blocks->jtl_q) {
+    baum_i_planar_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
   }
   return BAUM_OK;
 }

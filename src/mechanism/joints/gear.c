@@ -138,18 +138,6 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
   return BAUM_OK;
 }
 
-/* Linear: the blocks are zero, as they arrive. */
-static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  (void)group;
-  (void)point;
-  (void)w;
-  (void)lambda;
-  (void)blocks;
-  return BAUM_OK;
-}
-
 static const baum_i_joint_type type = {
   .definition = {.kind = "planar gear",
                  .size = sizeof(baum_planar_gear_def),
@@ -161,7 +149,6 @@ static const baum_i_joint_type type = {
   .bodies = bodies,
   .lower = lower,
   .evaluate = evaluate,
-  .linearize = linearize,
 };
 
 BAUM_I_DEFINE(joint, planar_gear, type)

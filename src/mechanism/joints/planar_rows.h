@@ -151,22 +151,19 @@ BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group
 void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanism,
                        const baum_i_planar_blocks *six, const baum_i_joint_blocks *blocks);
 
-static inline baum_status baum_i_planar_linearize(const baum_i_joint_group *group,
+static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
                                                   const baum_i_point *point, const double *w,
                                                   const double *lambda,
                                                   baum_i_planar_second_kernel *kernel,
                                                   const baum_i_joint_blocks *blocks)
 {
   static const double none[BAUM_I_PLANAR_ROWS] = {0.0};
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_joint *joint = group->joints[i];
-    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
-    double w_six[BAUM_I_PLANAR_COLUMNS];
-    baum_i_planar_gather(point, &joint->span, w, w_six);
-    baum_i_planar_blocks six = {.jw_q = {0.0}};
-    kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
-    baum_i_planar_put(joint, point->mechanism, &six, blocks);
-  }
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  double w_six[BAUM_I_PLANAR_COLUMNS];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_planar_blocks six = {.jw_q = {0.0}};
+  kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
+  baum_i_planar_put(joint, point->mechanism, &six, blocks);
   return BAUM_OK;
 }
 

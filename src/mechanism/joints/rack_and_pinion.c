@@ -101,10 +101,10 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
   return baum_i_planar_evaluate(group, point, &kernels, out);
 }
 
-static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {
-  return baum_i_planar_linearize(group, point, w, lambda, one_linearize, blocks);
+  return baum_i_planar_linearize(joint, point, w, lambda, one_linearize, blocks);
 }
 
 static const baum_i_joint_type type = {

@@ -430,8 +430,8 @@ static double *at_offset(double *blocks, int offset)
   return blocks ? blocks + offset : NULL;
 }
 
-static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                                 const double *lambda, const baum_i_joint_blocks *blocks)
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
 {
   baum_i_local at = baum_i_gather(point, &joint->span);
   double *none = baum_i_take(&at, joint->rows);
@@ -448,16 +448,6 @@ static baum_status linearize_one(const baum_i_joint *joint, baum_i_point *point,
   }
   if (status == BAUM_OK) {
     status = linearize_nu(joint, &at, at_offset(blocks->nu_q, joint->jacobian));
-  }
-  return status;
-}
-
-static baum_status linearize(const baum_i_joint_group *group, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = linearize_one(group->joints[i], point, w, lambda, blocks);
   }
   return status;
 }
