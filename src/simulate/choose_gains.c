@@ -19,6 +19,13 @@ static double swing_rate(const baum_mechanism *m)
   return sqrt(hypot(m->gravity[0], m->gravity[1]) / m->length);
 }
 
+double baum_i_rest_rate(const baum_mechanism *m)
+{
+  static const double OF_SWING = 1e-10;
+  double swing = swing_rate(m);
+  return swing > 0.0 ? OF_SWING * swing : ROUNDING_RATE;
+}
+
 /* At rest in an equilibrium the accelerations are rounding only: then gravity tells how fast the
  * mechanism would swing, and without it nothing does. */
 double baum_i_run_start_rate(const baum_simulation *run)

@@ -140,6 +140,9 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
  * moves nor would under gravity. */
 double baum_i_run_start_rate(const baum_simulation *run);
 
+/* [1/s] Velocities below it are rounding. */
+double baum_i_rest_rate(const baum_mechanism *m);
+
 /* Mean rate [1/s] over a short run from the trial state, whose accelerations are in the workspace. It uses
  * run->ahead and run->state, and leaves another state in the workspace. swing: [1/s] a rate that steps are made for at least. */
 double baum_i_run_pilot(baum_simulation *run, double swing);

@@ -141,7 +141,7 @@ static const double OPEN = 1e-6;        /* of their size; more of it is told, */
 static const double CONTRADICTS = 1e-3; /* and of this is refused */
 static const double ROUNDING = 1e-13;   /* of the rows at these velocities, likewise */
 
-/* Share of the size by which the row is off that is off the most. */
+/* Share of the size by which the row is off that is off the most; 0 where nothing moves. */
 static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
 {
   double nu = 0.0;
@@ -153,7 +153,7 @@ static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int 
   double worst = 0.0;
   *size = fmax(nu, baum_i_scaled_size(w->mechanism, state->v));
   *row = baum_i_largest(w->work_c, w->mechanism->nc, &worst);
-  return *size > 0.0 ? worst / *size : 0.0;
+  return *size > baum_i_rest_rate(w->mechanism) ? worst / *size : 0.0;
 }
 
 static baum_status tell_open(baum_simulation *run, int row, double rate, double change)

@@ -309,12 +309,38 @@ static void a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_no
   baum_mechanism_destroy(m);
 }
 
+/* What projection leaves of velocities where nothing can move, with gravity and without. */
+static void rounding_against_a_lock_is_rest(void **state)
+{
+  (void)state;
+  for (int with_gravity = 0; with_gravity < 2; with_gravity++) {
+    baum_i_parts parts = baum_i_parts_begin();
+    baum_simulation_options options = baum_simulation_options_default();
+    baum_mechanism *m = NULL;
+    baum_simulation *run = NULL;
+    options.integrator = baum_rk8();
+    options.rtol = 1e-8;
+    baum_body_id rod =
+      add_body(&parts, (double[2]){0.5, 0.0}, 0.0, 1.0 / 12, (double[3]){1e-16, -3e-16, 2e-16});
+    for (int end = 0; end < 2; end++) {
+      baum_i_parts_pin(&parts, "end", (baum_i_spot){BAUM_GROUND, {end, 0.0}},
+                       (baum_i_spot){rod, {end - 0.5, 0.0}});
+    }
+    check(baum_mechanism_set_gravity(parts.mechanism, 0.0, with_gravity * -9.81, 0.0));
+    check(baum_i_parts_finish(&parts, &m));
+    check(baum_simulation_create(m, &options, &run));
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(joints_that_are_there_twice_nearly_are_right_or_refused_by_name),
     cmocka_unit_test(they_are_where_the_mechanism_moves),
     cmocka_unit_test(a_rate_against_a_lock_is_told_where_it_is_small_and_refused_where_not),
+    cmocka_unit_test(rounding_against_a_lock_is_rest),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
