@@ -253,6 +253,8 @@ static double spread(int k)
 }
 
 enum { POSE_COUNT = 4 };
+/* [1/s] Velocities, of the scales, that are rounding: what they move is lost in that of q. */
+static const double REST = 1e-12;
 
 /* Pose 0 is the drawn one, with the velocities given; others are beside it and move. */
 static void set_pose(place *p, int pose)
@@ -263,7 +265,7 @@ static void set_pose(place *p, int pose)
     double drawn_v = mechanism->drawn_v[i];
     int k = 3 * i + pose;
     p->q[i] = mechanism->drawn_q[i];
-    p->v[i] = isnan(drawn_v) ? 0.0 : drawn_v;
+    p->v[i] = fabs(drawn_v) > REST * mechanism->scale[i] ? drawn_v : 0.0; /* NaN: free */
     if (pose > 0) {
       p->q[i] += 0.3 * mechanism->scale[i] * spread(k);
       p->v[i] = mechanism->scale[i] * spread(k + 7 * pose + 1);

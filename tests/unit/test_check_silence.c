@@ -8,6 +8,8 @@
 
 #include <cmocka.h>
 
+#include <baum/elements.h>
+
 #include "user_check.h"
 
 static void right_derivatives_pass_in_any_unit_and_at_any_rate(void **state)
@@ -70,6 +72,47 @@ static void what_rounding_hides_raises_no_alarm(void **state)
 {
   (void)state;
   user_check_right(user_make_constraint(faint_phi, faint_jacobian, NULL, NULL, 1.0));
+}
+
+/* The circle x^2 + y^2 = 1. */
+static int circle_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[0] * q[0] + q[1] * q[1] - 1.0;
+  return 0;
+}
+
+static int circle_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = 2.0 * q[0];
+  out[1] = 2.0 * q[1];
+  return 0;
+}
+
+static int circle_gamma(double t, const double *q, const double *v, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = -2.0 * (v[0] * v[0] + v[1] * v[1]);
+  return 0;
+}
+
+/* Such as projection leaves at rest: no step in time moves q by it. */
+static void velocities_that_are_rounding_raise_no_alarm(void **state)
+{
+  (void)state;
+  const double v[2] = {4e-16, -1e-16};
+  baum_coordinates_def def;
+  baum_mechanism *m = user_make_constraint(circle_phi, circle_jacobian, NULL, circle_gamma, 1.0);
+  baum_body_id body = baum_mechanism_body_at(m, 0);
+  assert_int_equal(baum_mechanism_get_coordinates(m, body, &def, sizeof def), BAUM_OK);
+  def.v = v;
+  assert_int_equal(baum_mechanism_set_coordinates(m, body, &def), BAUM_OK);
+  user_check_right(m);
 }
 
 /* Contact that just touches, dry friction at rest. */
@@ -164,6 +207,7 @@ int main(void)
     cmocka_unit_test(right_derivatives_pass_in_any_unit_and_at_any_rate),
     cmocka_unit_test(a_scale_that_is_wrong_by_a_million_raises_no_alarm),
     cmocka_unit_test(what_rounding_hides_raises_no_alarm),
+    cmocka_unit_test(velocities_that_are_rounding_raise_no_alarm),
     cmocka_unit_test(a_kink_in_the_drawn_pose_raises_no_alarm),
     cmocka_unit_test(refused_poses_say_nothing),
     cmocka_unit_test(a_function_that_refuses_everywhere_is_reported),
