@@ -331,7 +331,7 @@ BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buf
  *  must be, too, and cannot be checked, and what these keep for themselves is not saved. Of the options integrator,
  *  formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account must be the same. Gains and
  *  rates that were chosen at the start, and redundant rows, are those of the saved run. Allocates nothing, but for a saved run
- *  that has set drivers, where this one has not, or has more in schedules than this one ever had.
+ *  that has set drivers, where this one has not, has more in schedules than this one ever had, or leaves out other rows.
  *  @param[in] buffer  (size) of any alignment; what is behind its end is not looked at
  *  @param     size    [byte] at least what baum_simulation_save() wrote
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (cut off, damaged, none of a run, of another version,

@@ -111,6 +111,9 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
  * BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED where they do not, but nothing else is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
+/* Leave out these rows (nc), as many as before, from now on. Statuses of baum_i_use_blocks(); unchanged on failure. */
+baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped);
+
 /* How accelerations are solved for, and why so; and why blocks are not used. Without a full stop. */
 enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
@@ -247,6 +250,11 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
+
+/* Which rows to leave out (nc), once the redundancy is known, so that the others are decisively farther apart at (q, t),
+ * near the constraints, than those that are kept; *better: there are such. Also BAUM_ERR_MEMORY. */
+baum_status baum_i_find_better_rows(baum_workspace *workspace, double t, const double *q,
+                                    unsigned char *dropped, bool *better);
 
 /* ---- least_multipliers.c: where rows have been dropped, with M and J in the workspace ---- */
 

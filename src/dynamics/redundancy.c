@@ -212,6 +212,108 @@ static void keep_all(baum_i_redundancy *r, int nc)
   memset(r->dropped, 0, (size_t)nc);
 }
 
+/* ---- better ones at a pose ---- */
+
+/* Rows that are decisively better are apart by so much more than those that are kept. */
+static const double BETTER = 1.25;
+
+static void mark_kept(const search *s)
+{
+  const baum_i_redundancy *r = &s->w->redundancy;
+  for (int i = 0; i < s->w->mechanism->nc; i++) {
+    s->independent[i] = r->dropped[i] ? 0 : 1;
+  }
+}
+
+/* *apart: of the rows found, those that are kept first, as far as they are so much apart. Off the constraints, by a
+ * tolerance, dependent rows are no longer so exactly: below CLEAR nothing is told, and the rank is less. */
+static baum_status find_farthest(search *s, int *rank, double *apart)
+{
+  int wanted = s->w->redundancy.rank;
+  baum_status status = BAUM_OK;
+  *rank = 0;
+  for (double tolerance = 0.5; status == BAUM_OK && *rank < wanted && tolerance > CLEAR;
+       tolerance *= 0.5) {
+    mark_kept(s);
+    status = rank_to(s, tolerance, rank);
+    *apart = tolerance;
+  }
+  return status;
+}
+
+/* Whether the rows just looked at are those that are kept. */
+static bool are_kept(const search *s)
+{
+  const baum_i_redundancy *r = &s->w->redundancy;
+  bool same = true;
+  for (int i = 0; i < s->w->mechanism->nc; i++) {
+    same = same && (s->independent[i] != 0) == (r->dropped[i] == 0);
+  }
+  return same;
+}
+
+static baum_status find_better(search *s, double t, const double *q, unsigned char *dropped,
+                               bool *better)
+{
+  const baum_workspace *w = s->w;
+  int rank = 0;
+  double apart = 0.0;
+  *better = false;
+  baum_status status = baum_i_position_stage(s->w, t, q);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  find_column_scale(s);
+  status = find_farthest(s, &rank, &apart);
+  if (status != BAUM_OK || rank != w->redundancy.rank || are_kept(s)) {
+    return status;
+  }
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    dropped[i] = s->independent[i] ? 0 : 1;
+  }
+  mark_kept(s);
+  status = rank_to(s, apart / BETTER, &rank);
+  *better = status == BAUM_OK && !are_kept(s);
+  return status;
+}
+
+baum_status baum_i_find_better_rows(baum_workspace *w, double t, const double *q,
+                                    unsigned char *dropped, bool *better)
+{
+  *better = false;
+  double *memory = baum_i_alloc((size_t)w->mechanism->nv, sizeof *memory);
+  unsigned char *independent = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  baum_status status = BAUM_ERR_MEMORY;
+  if (memory && independent) {
+    search s = {.w = w, .column_scale = memory, .independent = independent};
+    status = find_better(&s, t, q, dropped, better);
+  } else {
+    status = baum_i_fail_memory();
+  }
+  baum_i_free(memory);
+  baum_i_free(independent);
+  return status;
+}
+
+/* ---- at the start ---- */
+
+/* Of a neighbour rows have been kept, or of those that are apart by FIRST the first ones. */
+static baum_status keep_better(search *s, double t)
+{
+  const baum_workspace *w = s->w;
+  bool better = false;
+  unsigned char *dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  if (!dropped) {
+    return baum_i_fail_memory();
+  }
+  baum_status status = find_better(s, t, s->start, dropped, &better);
+  if (better) {
+    memcpy(w->redundancy.dropped, dropped, (size_t)w->mechanism->nc);
+  }
+  baum_i_free(dropped);
+  return status;
+}
+
 /* The pose to look at is assembled: off the constraints no row depends on others exactly. */
 static baum_status find(search *s, double t, const double *q)
 {
@@ -238,6 +340,9 @@ static baum_status find(search *s, double t, const double *q)
   }
   status = look_around(s, t, s->start);
   r->rank_at_start = is_better(&s->kept, &rank) ? rank.clear : rank.all;
+  if (status == BAUM_OK && r->count > 0) {
+    status = keep_better(s, t);
+  }
   if (status == BAUM_OK && r->count > 0 && !r->kkt) {
     status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
   }

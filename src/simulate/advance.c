@@ -128,7 +128,10 @@ static baum_status watch_step(baum_simulation *run, double t_next)
 
 static baum_status kept_step(baum_simulation *run, double t_next)
 {
-  baum_status status = baum_i_run_try_step(run, t_next, true);
+  baum_status status = baum_i_run_choose_rows(run);
+  if (status == BAUM_OK) {
+    status = baum_i_run_try_step(run, t_next, true);
+  }
   if (status == BAUM_OK) {
     status = watch_step(run, t_next);
   }
@@ -305,6 +308,9 @@ static baum_status next_step(baum_simulation *run, int64_t taken)
 {
   catch_up(run);
   baum_status status = baum_i_run_may_go_on(run, taken);
+  if (status == BAUM_OK) {
+    status = baum_i_run_choose_rows(run);
+  }
   return status == BAUM_OK ? internal_step(run) : status;
 }
 
@@ -454,6 +460,10 @@ static baum_status one_step(baum_simulation *run)
     return status;
   }
   status = pass_breaks(run);
+  if (status == BAUM_OK) {
+    catch_up(run);
+    status = baum_i_run_choose_rows(run);
+  }
   if (status == BAUM_OK) {
     status = internal_step(run);
   }

@@ -9,6 +9,7 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "simulate/account.h"
+#include "simulate/passage.h"
 
 /* ---- warnings ---- */
 
@@ -108,10 +109,17 @@ static void observe_singular(baum_simulation *run, double t)
 }
 
 /* Rows that were left out depend on the others only as long as the constraints agree with each
- * other and the motion stays on its branch. Near a pose where the kept rows alone are singular, the
- * others may be off by the root of what the kept ones are off by; more is a contradiction. */
+ * other and the motion stays on its branch. At a distance d from a pose where the kept rows alone are singular, the
+ * others may be off by 1/d of what the kept ones are off by, and next to it by its root; more is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
-static const double OF_ROOT = 10.0;
+static const double TIMES = 10.0;
+
+static double may_be_off(const baum_simulation *run, double kept)
+{
+  const baum_i_passages *p = run->passages;
+  double pivot = p && p->recent_count > 0 ? p->recent[p->recent_count - 1].pivot : 0.0;
+  return NEGLIGIBLE + TIMES * sqrt(kept * fmin(1.0, kept / pivot));
+}
 
 /* A function of the user that has just answered may fail now; then it will soon be reported. */
 static bool has_jacobian(baum_workspace *w)
@@ -144,7 +152,7 @@ static void observe_redundant(baum_simulation *run, double t)
       row = i;
     }
   }
-  if (left_out > NEGLIGIBLE + OF_ROOT * sqrt(kept)) {
+  if (left_out > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
     (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
     baum_i_run_warn(run,

@@ -133,6 +133,7 @@ static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED
   case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
   case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
   case BAUM_I_SAVED_CHOICE:
+  case BAUM_I_SAVED_ROWS:
   case BAUM_I_SAVED_BOUNDED:
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_JUMPS:
@@ -336,18 +337,16 @@ static baum_status check_text(const baum_i_saved_part *part, const unsigned char
 /* Whether a part may have this length. */
 static bool has_length(const baum_i_saved_part *part, size_t length)
 {
-  switch (part->kind) {
-  case BAUM_I_SAVED_NUMBERS: return length == 0 || length == part->size;
-  case BAUM_I_SAVED_JUMPS: return length % sizeof(baum_i_jump) == 0;
-  case BAUM_I_SAVED_SOME: return length <= part->size && length % part->unit == 0;
-  case BAUM_I_SAVED_NUMBER:
-  case BAUM_I_SAVED_INTEGER:
-  case BAUM_I_SAVED_TEXT_OF:
-  case BAUM_I_SAVED_CHOICE:
-  case BAUM_I_SAVED_STATE:
-  case BAUM_I_SAVED_BOUNDED:
-  default: return length == part->size;
+  if (part->kind == BAUM_I_SAVED_NUMBERS) {
+    return length == 0 || length == part->size;
   }
+  if (part->kind == BAUM_I_SAVED_JUMPS) {
+    return length % sizeof(baum_i_jump) == 0;
+  }
+  if (part->kind == BAUM_I_SAVED_SOME) {
+    return length <= part->size && length % part->unit == 0;
+  }
+  return length == part->size;
 }
 
 static baum_status check_choice(const baum_i_saved_part *part, const unsigned char *at)
@@ -356,6 +355,19 @@ static baum_status check_choice(const baum_i_saved_part *part, const unsigned ch
     return BAUM_OK;
   }
   return refuse("the buffer does not fit: %s is not as it is here", part->name);
+}
+
+/* Flags that are no more and no fewer. */
+static baum_status check_rows(const baum_i_saved_part *part, const unsigned char *at)
+{
+  const unsigned char *here = part->place;
+  int more = 0;
+  bool sound = true;
+  for (size_t i = 0; i < part->size; i++) {
+    sound = sound && at[i] <= 1;
+    more += (int)at[i] - (int)here[i];
+  }
+  return sound && more == 0 ? BAUM_OK : refuse("the buffer is damaged: %s is not told", part->name);
 }
 
 static baum_status check_jumps(const baum_i_saved_part *part, const unsigned char *at,
@@ -379,6 +391,7 @@ static baum_status check_part(const baum_i_saved_part *part, const unsigned char
   case BAUM_I_SAVED_TEXT_OF: return check_text(part, at);
   case BAUM_I_SAVED_BOUNDED: return check_bounds(part, at);
   case BAUM_I_SAVED_CHOICE: return check_choice(part, at);
+  case BAUM_I_SAVED_ROWS: return check_rows(part, at);
   case BAUM_I_SAVED_JUMPS: return check_jumps(part, at, length);
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_NUMBERS:
@@ -472,7 +485,13 @@ static bool is_put_back(const baum_i_saved_part *part)
          part->kind == BAUM_I_SAVED_SOME;
 }
 
-/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
+static bool has_rows(const baum_i_saved_part *rows, const unsigned char *at)
+{
+  return rows->size == 0 || memcmp(rows->place, at, rows->size) == 0;
+}
+
+/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here, and rows that
+ * are left out, others. */
 static baum_status make_room(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
   baum_status status = BAUM_OK;
@@ -482,6 +501,8 @@ static baum_status make_room(baum_simulation *run, const reader *r, const baum_i
       status = baum_i_run_own_parameters(run);
     } else if (kind == BAUM_I_SAVED_JUMPS) {
       status = baum_i_schedule_reserve(&run->schedule, (int)(r->length[k] / sizeof(baum_i_jump)));
+    } else if (kind == BAUM_I_SAVED_ROWS && !has_rows(&list->parts[k], r->at[k])) {
+      status = baum_i_run_take_rows(run, r->at[k]);
     }
   }
   return status;

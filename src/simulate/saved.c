@@ -114,7 +114,9 @@ static void list_structure(const baum_simulation *run, baum_i_saved *list)
   const baum_i_immobile *immobile = w->immobile;
   size_t still = immobile ? (size_t)immobile->count : 0;
   baum_i_saved_compare(list, "the rank of the constraints", w->redundancy.rank);
-  add_choice(list, "which rows are redundant", w->redundancy.dropped, (size_t)w->mechanism->nc);
+  baum_i_saved_part *rows = add(list, "which rows are redundant", BAUM_I_SAVED_ROWS);
+  rows->place = w->redundancy.dropped;
+  rows->size = (size_t)w->mechanism->nc;
   baum_i_saved_compare(list, "whether blocks suit", w->path != NULL);
   add_choice(list, "which bodies cannot move", immobile ? immobile->velocity : NULL,
              still * sizeof *immobile->velocity);
@@ -196,6 +198,9 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "start energy", run->start_energy);
   BAUM_I_SAVED_ADD(list, "largest gamma", run->largest_gamma);
   BAUM_I_SAVED_ADD_COUNT(list, "near singular seen", run->near_singular_seen);
+  BAUM_I_SAVED_ADD(list, "pivot of the rows", run->row_pivot);
+  BAUM_I_SAVED_ADD(list, "rows looked at", run->rows_looked_at);
+  BAUM_I_SAVED_ADD_FLAG(list, "rows are best", run->rows_are_best);
   BAUM_I_SAVED_ADD_FLAG(list, "redundant seen", run->redundant_seen);
   BAUM_I_SAVED_ADD_FLAG(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);

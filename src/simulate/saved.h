@@ -10,7 +10,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 5, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 6, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */
@@ -21,6 +21,7 @@ typedef enum baum_i_saved_kind {
   /* is put back: */
   BAUM_I_SAVED_STATE,   /* bytes */
   BAUM_I_SAVED_BOUNDED, /* a bool, int32_t or int64_t, which must be within bounds */
+  BAUM_I_SAVED_ROWS,    /* flags of rows, of which as many are set */
   BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
   BAUM_I_SAVED_JUMPS,   /* of the run's inputs, as many as there are */
   BAUM_I_SAVED_SOME     /* as many of a list as there are */

@@ -20,7 +20,8 @@ static const struct {
 } VERSIONS[] = {{2, 0x3956a242f9ee4941},
                 {3, 0x3a778c64b5d2095},
                 {4, 0x7fc3c87834ce807a},
-                {5, 0xb02996ce68cf2c81}};
+                {5, 0xb02996ce68cf2c81},
+                {6, 0x80d0ee6f8965ab19}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 
