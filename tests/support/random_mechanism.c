@@ -146,9 +146,9 @@ static int circle(const double xy[2], double out[6], void *user)
 static int sway(double t, double s[3], void *user)
 {
   const double *start = user;
-  s[0] = start[0] + 0.3 * sin(t);
-  s[1] = 0.3 * cos(t);
-  s[2] = -0.3 * sin(t);
+  s[0] = start[0] + 0.3 * sin(t - start[1]);
+  s[1] = 0.3 * cos(t - start[1]);
+  s[2] = -0.3 * sin(t - start[1]);
   return 0;
 }
 
@@ -392,8 +392,26 @@ static void add_rows(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'u', baum_mechanism_add_user_constraint(r->mechanism, &def, &id), id);
 }
 
+/* As it is drawn: points of sliders and slots coincide. */
+static double drawn_coordinate(const random_mechanism *r, int joint)
+{
+  baum_planar_revolute_def def;
+  if (r->joint_kind[joint] != 'r') {
+    return 0.0;
+  }
+  assert_int_equal(
+    baum_mechanism_get_planar_revolute(r->mechanism, r->joints[joint], &def, sizeof def), BAUM_OK);
+  double angle[2] = {0.0, 0.0};
+  for (int i = 1; i < r->body_count; i++) {
+    const random_body *b = &r->bodies[i];
+    angle[0] = b->id.index1 == def.body_a.index1 ? b->q[2] : angle[0];
+    angle[1] = b->id.index1 == def.body_b.index1 ? b->q[2] : angle[1];
+  }
+  return angle[1] - angle[0];
+}
+
 /* Of any joint that has a coordinate. */
-static void add_driver(random_mechanism *r)
+static void add_driver(random_mechanism *r, const random_kind *kind)
 {
   int k = chance_below(&r->chance, r->joint_count + 1) - 1;
   if (k < 0 || !strchr("rts", r->joint_kind[k])) {
@@ -403,6 +421,10 @@ static void add_driver(random_mechanism *r)
   baum_joint_id id;
   random_rows *rows = &r->rows[r->rows_count++];
   rows->at[0] = chance_number(&r->chance, -0.1, 0.1);
+  if (kind->drivers_begin) {
+    rows->at[0] = drawn_coordinate(r, k);
+    rows->at[1] = kind->start;
+  }
   def.joint = r->joints[k];
   def.law = sway;
   def.user = rows->at;
@@ -463,7 +485,7 @@ static void add_joint(random_mechanism *r, const random_kind *kind)
       add_pin(r, b, a);
     }
   } else if (roll % 9 == 0) {
-    add_driver(r);
+    add_driver(r, kind);
   } else if (roll % 9 == 1) {
     add_coupling(r);
   } else if (a->kind == 'c' || b->kind == 'c' || roll % 7 == 0) {
@@ -493,6 +515,29 @@ static void add_load(random_mechanism *r)
   assert_int_equal(baum_mechanism_add_planar_load(r->mechanism, &def, &id), BAUM_OK);
 }
 
+/* Between bodies with points; a particle has them at itself. */
+static void add_spring(random_mechanism *r)
+{
+  chance *c = &r->chance;
+  const random_body *a = &r->bodies[chance_below(c, r->body_count)];
+  const random_body *b = &r->bodies[chance_below(c, r->body_count)];
+  if (a == b || a->kind == 'c' || b->kind == 'c') {
+    return;
+  }
+  double point[2];
+  baum_planar_spring_def def = baum_planar_spring_def_default();
+  baum_force_id id;
+  def.body_a = a->id;
+  def.body_b = b->id;
+  choose_point(r, a, point);
+  to_body(a, a->kind == 'p' ? a->q : point, def.point_a);
+  choose_point(r, b, point);
+  to_body(b, b->kind == 'p' ? b->q : point, def.point_b);
+  def.stiffness = chance_decade(c, 1.0, 100.0);
+  def.damping = chance_below(c, 2) == 0 ? 0.0 : chance_decade(c, 0.01, 10.0);
+  assert_int_equal(baum_mechanism_add_planar_spring(r->mechanism, &def, &id), BAUM_OK);
+}
+
 void random_mechanism_make(random_mechanism *out, uint64_t seed, const random_kind *kind)
 {
   memset(out, 0, sizeof *out);
@@ -508,6 +553,9 @@ void random_mechanism_make(random_mechanism *out, uint64_t seed, const random_ki
   }
   for (int i = 0; i < kind->loads; i++) {
     add_load(out);
+  }
+  for (int i = 0; i < kind->springs; i++) {
+    add_spring(out);
   }
   assert_int_equal(baum_mechanism_freeze(out->mechanism), BAUM_OK);
 }

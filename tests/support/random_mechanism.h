@@ -33,6 +33,9 @@ typedef struct random_kind {
   bool hub;        /* all joints have body 1 as a member */
   double span;     /* masses are from 1/span to span */
   int loads;
+  int springs;        /* tried, with dampers */
+  bool drivers_begin; /* at what they move, as it is drawn, at time `start`; else anywhere */
+  double start;       /* [s] */
 } random_kind;
 
 /* What functions of user coordinates know. */
