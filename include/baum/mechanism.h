@@ -566,11 +566,12 @@ typedef struct baum_report {
 BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                            size_t caller_size);
 
-/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v) with
- *  differences, in the drawn pose and at three poses and other times beside it. An entry is wrong
- *  when it is off by more than 1e-6 of itself and 1e-9 of its row. mass() must be symmetric, and
- *  constant where constant_mass says so. Kinks, and poses that functions refuse, raise no alarm; an
- *  element that refuses all poses gives that failure.
+/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v, and those
+ *  in laws and curves) with differences, in the drawn pose at t = 0 and at three poses beside it, at
+ *  t = 0, 0.37 and 1.3. An entry is wrong when it is off by more than 1e-6 of itself and 1e-9 of its
+ *  row. mass() must be symmetric, and constant where constant_mass says so. Kinks, and poses and
+ *  times that functions refuse, raise no alarm; an element that refuses all poses gives that
+ *  failure, but for the laws of drivers.
  *  Runs by itself when a simulation is created.
  *  @param[in] mechanism  frozen
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both

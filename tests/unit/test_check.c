@@ -351,6 +351,45 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
                    sentence);
 }
 
+/* Law 0 is right; 1 has a wrong rate, 2 a wrong acceleration, 3 ends before it has begun. */
+static int driver_law(double t, double s[3], void *user)
+{
+  int which = *(const int *)user;
+  s[0] = sin(3.0 * t);
+  s[1] = 3.0 * cos(3.0 * t) + (which == 1 ? 0.5 : 0.0);
+  s[2] = -9.0 * sin(3.0 * t) + (which == 2 ? 0.5 : 0.0);
+  return which == 3 ? -1 : 0;
+}
+
+static baum_mechanism *make_driven(int *which)
+{
+  baum_mechanism *mechanism = user_make_empty();
+  baum_planar_body_def arm = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.point[0] = pin.point[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_body(mechanism, &arm, &pin.body_b), BAUM_OK);
+  baum_driver_def motor = baum_driver_def_default();
+  motor.name = "motor";
+  motor.law = driver_law;
+  motor.user = which;
+  assert_int_equal(baum_mechanism_add_planar_revolute(mechanism, &pin, &motor.joint), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_driver(mechanism, &motor, NULL), BAUM_OK);
+  return mechanism;
+}
+
+static void wrong_derivatives_of_a_law_of_a_driver_are_named(void **state)
+{
+  (void)state;
+  int which[] = {0, 1, 2, 3};
+  user_check_right(make_driven(which));
+  user_check_wrong(make_driven(which + 1),
+                   "joint 2 \"motor\": law()[1] is 3.5 but differences of law in t give 3");
+  assert_int_equal(user_check(make_driven(which + 2)), BAUM_ERR_ARGUMENT);
+  assert_non_null(strstr(baum_message(), "law()[2] is 0.5 but differences of law in t give"));
+  user_check_right(make_driven(which + 3));
+}
+
 /* ---- calls ---- */
 
 static void the_mechanism_must_be_there_and_frozen(void **state)
@@ -387,6 +426,7 @@ int main(void)
     cmocka_unit_test(wrong_functions_of_a_body_are_named),
     cmocka_unit_test(a_mass_that_is_not_constant_though_promised_is_found),
     cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
+    cmocka_unit_test(wrong_derivatives_of_a_law_of_a_driver_are_named),
     cmocka_unit_test(the_mechanism_must_be_there_and_frozen),
     cmocka_unit_test(what_has_no_user_functions_passes),
   };
