@@ -179,6 +179,17 @@ class Handle:
         # Not at exit: a call that was left behind may still be using it.
         weakref.finalize(self, destroy, address).atexit = False
 
+    def __reduce__(self):
+        raise TypeError(
+            f"a {self._what}, and what holds one, cannot be pickled; build it in each process, and send "
+            "arrays, such as run.q"
+        )
+
+    @property
+    def busy(self):
+        """Whether a call uses it."""
+        return bool(self._users)
+
     def call(self, function, *arguments):
         """make() with this object as the first argument."""
         # Setting a default in a dict is atomic, and unlike a lock it can be undone wherever Ctrl-C

@@ -9,26 +9,42 @@ import numpy as np
 
 
 def number(value, label):
-    """A float."""
+    """A float; text is none, even where it reads like one."""
     try:
+        if isinstance(value, (str, bytes, bytearray)):
+            raise TypeError
         return float(value)
     except (TypeError, ValueError):
         raise TypeError(f"{label}: a number is wanted, not {value!r}") from None
+    except OverflowError:
+        raise ValueError(f"{label}: the number is too large") from None
 
 
-def integer(value, label):
-    """An int; nothing is rounded."""
+def integer(value, label, bits=32):
+    """An int that the library's type can hold; nothing is rounded or cut."""
     try:
-        return operator.index(value)
+        whole = operator.index(value)
     except TypeError:
         raise TypeError(f"{label}: a whole number is wanted, not {value!r}") from None
+    if not -(2 ** (bits - 1)) <= whole < 2 ** (bits - 1):
+        raise ValueError(f"{label}: {whole} does not fit into {bits} bits")
+    return whole
+
+
+def truth(value, label):
+    """A bool, or 0 or 1; no text, of which "no" would be true."""
+    if not isinstance(value, (bool, np.bool_, int)):
+        raise TypeError(f"{label}: True or False is wanted, not {value!r}")
+    return bool(value)
 
 
 def vector(value, size, label):
     """A new array of `size` doubles; of any length when size is None."""
     try:
+        if np.asarray(value).dtype.kind not in "biufO":
+            raise TypeError
         array = np.array(value, dtype=np.float64, order="C")
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise TypeError(f"{label}: numbers are wanted, not {value!r}") from None
     if array.ndim != 1:
         raise ValueError(

@@ -275,9 +275,10 @@ class Adding:
         )
 
     def constraint(self, name, bodies, rows, phi, *, jacobian=None, nu=None, gamma=None, user=None):
-        """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`: phi(t, q) gives Phi
-        (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows), gamma(t, q, v) the right
-        side of J a = gamma (rows). Only phi is needed; the others are found by differences."""
+        """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`, one or several:
+        phi(t, q) gives Phi (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows),
+        gamma(t, q, v) the right side of J a = gamma (rows). Only phi is needed; the others are
+        found by differences."""
         return self._add(
             "user_constraint",
             name,
@@ -428,6 +429,8 @@ class Adding:
             name = f"{family}{1 + self._count(family)}"
         if not isinstance(name, str):
             raise TypeError(f"the name of {one(family)} is a string, not {name!r}")
+        if not name or "\0" in name:
+            raise ValueError(f"the name of {one(family)} is {name!r}, must have letters, but no NUL")
         if name in self._entries:
             raise ValueError(f'there is already {one(self._entries[name].family)} "{name}"')
         return name

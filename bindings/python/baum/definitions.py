@@ -12,7 +12,7 @@ import numpy as np
 
 from . import _abi, callbacks
 from ._lib import default, lib
-from ._values import address, integer, number, numbers, vector
+from ._values import address, integer, number, numbers, truth, vector
 
 
 @dataclass(frozen=True)
@@ -138,7 +138,7 @@ class Definition:
         elif kind is ctypes.c_int32:
             setattr(self.struct, name, integer(value, label))
         elif kind is ctypes.c_bool:
-            setattr(self.struct, name, bool(value))
+            setattr(self.struct, name, truth(value, label))
         elif kind is ctypes.c_char_p:
             setattr(self.struct, name, str(value).encode())
         elif kind in FAMILIES:
@@ -147,7 +147,8 @@ class Definition:
             setattr(self.struct, name, kind(*vector(value, kind._length_, label)))
 
     def _set_bodies(self, value):
-        handles = [self._find("body", body) for body in value]
+        alone = isinstance(value, str) or hasattr(value, "family")
+        handles = [self._find("body", body) for body in ([value] if alone else value)]
         self.struct.bodies = (_abi.baum_body_id * len(handles))(*(body.id for body in handles))
         self.struct.body_count = len(handles)
 
@@ -162,7 +163,7 @@ class Definition:
 
     def _set_function(self, name, function, inputs):
         nq, nv = self._sizes()
-        rows = self.struct.row_count if self.kind.name == "user_constraint" else nv
+        rows = max(self.struct.row_count, 0) if self.kind.name == "user_constraint" else nv
         shape = {
             "mass": (nv, nv),
             "force_q": (nv, nv),
@@ -185,7 +186,8 @@ class Definition:
     def _sizes(self):
         """Lengths of the q and v that this definition's functions are given."""
         if self.kind.name == "coordinates":
-            return self.struct.size, self.struct.size
+            size = max(self.struct.size, 0)  # the library refuses what is less
+            return size, size
         if "body_count" not in self._types:
             return 0, 0
         count = self.struct.body_count

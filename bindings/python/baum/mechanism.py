@@ -14,6 +14,8 @@ from .elements import CLASSES, GROUND, Element, Entry, one
 from ._lib import lib
 from ._values import number, numbers, vector
 
+LISTED = 30  # names in a sentence
+
 Sizes = namedtuple("Sizes", "nq nv nc")
 Sizes.__doc__ = "Numbers of positions, velocities and constraint rows."
 
@@ -113,8 +115,10 @@ class Mechanism(Adding):
         try:
             entry = self._entries[name]
         except KeyError:
+            known = list(self._entries)
+            more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
             raise KeyError(
-                f"no {name!r} in this mechanism; there are: " + ", ".join(self._entries)
+                f"no {name!r} in this mechanism; there are: {', '.join(known[:LISTED])}{more}"
             ) from None
         return CLASSES[entry.family](self, name, entry)
 
@@ -162,6 +166,8 @@ class Mechanism(Adding):
 
     def change(self, element, fields):
         """Replace some fields of a definition, before freezing. None changes nothing."""
+        if not isinstance(fields, dict):
+            raise TypeError(f'{element.family} "{element.name}": a dict is wanted, not {fields!r}')
         if "name" in fields:
             raise TypeError(f'{element.family} "{element.name}": names stay')
         if element.family == "input":
@@ -210,7 +216,7 @@ class Mechanism(Adding):
 
     @gravity.setter
     def gravity(self, value):
-        given = [number(part, "gravity") for part in value]
+        given = vector(value, None, "gravity").tolist()
         if len(given) not in (2, 3):
             raise ValueError(f"gravity: 2 or 3 numbers are wanted, not {len(given)}")
         _calls.make(lib.baum_mechanism_set_gravity, self.handle, *(given + [0.0])[:3])

@@ -60,6 +60,13 @@ class Run:
         """Names of the recorded channels."""
         return list(self._layout.slices)
 
+    def __iter__(self):
+        return iter(self.keys())
+
+    def __contains__(self, key):
+        name = key.key if isinstance(key, Channel) else key
+        return name in self._layout.slices or self._of_body(name) is not None
+
     def __getitem__(self, key):
         """The columns of a channel, given by itself or by name."""
         name = key.key if isinstance(key, Channel) else key

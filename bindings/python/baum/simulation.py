@@ -8,13 +8,13 @@ import numpy as np
 
 from . import _abi, _calls
 from .callbacks import event_function
-from .channels import Layout, q as ALL_Q, v as ALL_V
+from .channels import Channel, Layout, q as ALL_Q, v as ALL_V
 from .errors import Error, Status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
-from ._values import address, integer, number, vector
+from ._values import address, integer, number, truth, vector
 
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
@@ -38,6 +38,10 @@ def _number(name):
     return lambda value: number(value, name)
 
 
+def _truth(name):
+    return lambda value: truth(value, name)
+
+
 def _gains(value):
     if not isinstance(value, Gains):
         raise TypeError(f"gains: something like baum.fixed(5, 5) is wanted, not {value!r}")
@@ -47,7 +51,7 @@ def _gains(value):
 CONVERT = {
     "formulation": _word(FORMULATIONS, "formulation"),
     "gains": _gains,
-    "allow_unstable": bool,
+    "allow_unstable": _truth("allow_unstable"),
     "step": _number("step"),
     "rtol": _number("rtol"),
     "atol": _number("atol"),
@@ -55,14 +59,20 @@ CONVERT = {
     "start_time": _number("start_time"),
     "start": _word(STARTS, "start"),
     "solver": _word(SOLVERS, "solver"),
-    "check_derivatives": bool,
-    "max_steps": lambda value: integer(value, "max_steps"),
+    "check_derivatives": _truth("check_derivatives"),
+    "max_steps": lambda value: integer(value, "max_steps", 64),
     "progress_interval": _number("progress_interval"),
     "tolerance_q": _number("tolerance_q"),
     "tolerance_v": _number("tolerance_v"),
     "tolerance_lambda": _number("tolerance_lambda"),
-    "energy_account": bool,
+    "energy_account": _truth("energy_account"),
 }
+
+
+def _status_of(error):
+    """Why a run has ended that a Python exception has ended."""
+    interrupted = isinstance(error, KeyboardInterrupt)
+    return Status.STOP_CANCELLED if interrupted else Status.ERR_CALLBACK
 
 
 def make_options(method, values):
@@ -143,6 +153,8 @@ class Simulation:
 
     def __init__(self, mechanism, integrator=None, *, progress=None, row_gains=None, **options):
         self.mechanism = mechanism
+        if progress is not None and not callable(progress):
+            raise TypeError(f"progress: a function is wanted, not {progress!r}")
         self._own_progress = progress
         self._progress = [progress]
         self._keep = _progress(self._progress)
@@ -175,13 +187,13 @@ class Simulation:
     # ---- moving ----------------------------------------------------------------------------------
 
     def advance_to(self, t, progress=None):
-        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED or
+        """Advance to time t [s], forward or backward. Returns the Status: OK, WARNED, STOP_EVENT or
         STOP_CANCELLED."""
         return self._run(progress, lib.baum_simulation_advance_to, number(t, "t"))
 
     def step(self, count=1, progress=None):
-        """Take whole steps forward. Returns the Status."""
-        count = integer(count, "count")
+        """Take whole steps forward. Returns the Status, as advance_to()."""
+        count = integer(count, "count", 64)
         begun = time.perf_counter()
         try:
             return self._run(
@@ -200,9 +212,12 @@ class Simulation:
         return self.mechanism.has_python or bool(self._event_functions)
 
     def sample(self, times, record=()):
-        """Advance through times [s] and return a Run: q, v and the channels in `record` at each of
-        them. A failure is raised with what was recorded so far as `run`."""
+        """Advance through times [s] and return a Run: q, v and the channels in `record` (one or
+        several) at each of them. What is raised, KeyboardInterrupt and exceptions of your functions
+        too, has what was recorded so far as `run`."""
         times = vector(np.atleast_1d(times), None, "times")
+        if isinstance(record, (str, Channel)):
+            record = [record]
         layout = self._layout(
             [ALL_Q, ALL_V, *(self.mechanism.channel(channel) for channel in record)]
         )
@@ -218,8 +233,10 @@ class Simulation:
         )
         try:
             status = self._run(None, lib.baum_simulation_sample, *arguments)
-        except Error as error:
-            error.run = self._make_run(layout, times, rows, done.value, error.status)
+        except BaseException as error:
+            if not self._owner.busy:
+                status = getattr(error, "status", _status_of(error))
+                error.run = self._make_run(layout, times, rows, done.value, status)
             raise
         return self._make_run(layout, times, rows, done.value, status)
 
@@ -287,7 +304,7 @@ class Simulation:
             struct.joint = self.mechanism.find("joint", joint).id
         struct.value = number(value, "value")
         struct.direction = integer(direction, "direction")
-        struct.terminal = bool(terminal)
+        struct.terminal = truth(terminal, "terminal")
         if tolerance is not None:
             struct.tolerance = number(tolerance, "tolerance")
         if function is not None:
@@ -329,6 +346,8 @@ class Simulation:
     def continue_from(self, other):
         """Go on where another run of the same mechanism stands, also one that has failed: with its
         state, inputs and laws of drivers, and the options of this one."""
+        if not isinstance(other, Simulation):
+            raise TypeError(f"a simulation is wanted, not {other!r}")
         self._call(lib.baum_simulation_continue, other._owner._address)
         self._warn()
 

@@ -1,0 +1,122 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What is no number, no truth, no name or no whole is refused with a sentence; nothing is guessed. What a
+run had recorded survives whatever ends it."""
+
+import copy
+import pickle
+import unittest
+
+import numpy as np
+
+import baum
+from mechanisms import pendulum, rod_pendulum
+
+
+class Values(unittest.TestCase):
+    def says(self, kind, sentence, call, *arguments, **fields):
+        with self.assertRaisesRegex(kind, sentence):
+            call(*arguments, **fields)
+
+    def test_text_is_no_number(self):
+        m = baum.Mechanism()
+        self.says(TypeError, 'body "x": mass: a number is wanted', m.planar_body, "x", mass="1")
+        self.says(TypeError, "position: numbers are wanted", m.planar_body, "x", position="12")
+        s = rod_pendulum().simulation("rk4", step=0.1)
+        self.says(TypeError, "t: a number is wanted, not '1'", s.advance_to, "1")
+        self.says(TypeError, "times: numbers are wanted", s.sample, np.array(["1", "2"]))
+        self.says(TypeError, "times: numbers are wanted", s.sample, np.array([0, 1j]))
+        self.says(TypeError, "times: numbers are wanted", s.sample, np.array(["2020-01-01"], "M8[s]"))
+        self.assertEqual(s.time, 0)
+
+    def test_numbers_that_do_not_fit_are_not_cut(self):
+        m = baum.Mechanism()
+        self.says(ValueError, 'body "x": mass: the number is too large', m.planar_body, "x", mass=10**400)
+        self.says(ValueError, "size: 4294967297 does not fit into 32 bits", m.coordinates, "x", 2**32 + 1)
+        s = rod_pendulum().simulation("rk4", step=0.1)
+        self.says(ValueError, "count: 18446744073709551617 does not fit", s.step, 2**64 + 1)
+        self.says(ValueError, "max_steps: .* does not fit", s.mechanism.simulation, "rk4", step=1,
+                  max_steps=2**64 + 1)
+
+    def test_text_is_not_true(self):
+        m = baum.Mechanism()
+        self.says(TypeError, "held: True or False is wanted, not 'no'", m.planar_body, "x", held="no")
+        self.says(TypeError, "energy_account: True or False", rod_pendulum().simulation, "rk4", step=1,
+                  energy_account="no")
+        self.assertTrue(m.planar_body("y", held=np.bool_(True)).definition["held"])
+
+    def test_names_reach_the_library_whole(self):
+        m = baum.Mechanism()
+        self.says(ValueError, "the name of a body is ''", m.planar_body, "")
+        self.says(ValueError, "must have letters, but no NUL", m.planar_body, "a\0b")
+        self.says(ValueError, "the name of an input is ''", m.input, "")
+
+    def test_sizes_below_one_are_refused_by_the_library(self):
+        m = baum.Mechanism()
+        m.planar_particle("bob")
+        self.says(baum.Error, '"c": row_count is -1, must be > 0', m.constraint, "c", "bob", -1,
+                  lambda t, q: 0)
+        self.says(baum.Error, '"c": size is -3, must be > 0', m.coordinates, "c", -3,
+                  mass=lambda t, q: 1, force=lambda t, q, v: 0)
+
+    def test_others_are_named(self):
+        self.says(ValueError, "gravity: an array of one dimension", baum.Mechanism, gravity=9.81)
+        m = rod_pendulum()
+        self.says(TypeError, 'body "bob": a dict is wanted, not 3', m.copy, bob=3)
+        self.says(TypeError, "progress: a function is wanted", m.simulation, "rk4", step=1, progress=1)
+        s = m.simulation("rk4", step=0.1)
+        self.says(TypeError, "a simulation is wanted, not None", s.continue_from, None)
+        for thing in m, m["bob"], s, m.simulate([0], "rk4", step=0.1):
+            self.says(TypeError, "cannot be pickled; build it in each process", pickle.dumps, thing)
+        self.assertTrue(copy.copy(m).frozen)
+
+    def test_a_long_list_of_names_is_cut(self):
+        m = baum.Mechanism()
+        for _ in range(40):
+            m.planar_particle()
+        self.says(KeyError, "body29 and 11 more", m.__getitem__, "nobody")
+
+
+class One(unittest.TestCase):
+    """One body or channel needs no list."""
+
+    def test_one_body(self):
+        for given in ("bob", ["bob"]):
+            m = baum.Mechanism()
+            m.planar_particle("bob", position=(1, 0))
+            m.constraint("rod", given, 1, lambda t, q: q @ q - 1)
+            m.force("push", m["bob"], lambda t, q, v: (1, 0))
+            self.assertEqual(m.freeze().sizes.nc, 1)
+
+    def test_one_channel(self):
+        m = rod_pendulum()
+        for given in ("rod.phi", m["rod"].phi, ["rod.phi"]):
+            run = m.simulate([0, 0.1], "rk4", step=0.1, record=given)
+            self.assertEqual(list(run), ["q", "v", "rod.phi"])
+            self.assertTrue("rod.phi" in run and m["bob"].pose in run and "rod.reaction" not in run)
+
+
+class Kept(unittest.TestCase):
+    """What was recorded before an exception of a function."""
+
+    def test_recorded_samples_come_with_the_exception(self):
+        for kind, status in (ValueError, "ERR_CALLBACK"), (KeyboardInterrupt, "STOP_CANCELLED"):
+
+            armed = []
+
+            def phi(t, q):
+                if armed and t > 0.5:
+                    raise kind
+                return q @ q - 1
+
+            s = pendulum(phi).simulation("rk4", step=0.01)
+            armed.append(True)
+            with self.assertRaises(kind) as caught:
+                s.sample(np.linspace(0, 1, 11))
+            run = caught.exception.run
+            self.assertEqual(run.status.name, status)
+            np.testing.assert_allclose(run.t, 0.1 * np.arange(5), atol=1e-15)  # roundings
+            self.assertTrue(np.isfinite(run["bob.pose"]).all())
+
+
+if __name__ == "__main__":
+    unittest.main()
