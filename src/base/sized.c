@@ -13,7 +13,20 @@ bool baum_i_takes_sized(const void *out, size_t caller_size)
 baum_status baum_i_check_sized(const void *out, size_t caller_size, const char *call)
 {
   if (!baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL or its size is 0", call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: out is NULL or caller_size is too small", call);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_check_entry(int64_t k, int64_t first, int64_t count, const char *call)
+{
+  if (first >= count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, but there are none", call, (long long)k);
+  }
+  if (k < first || k >= count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld%s", call,
+                       (long long)k, (long long)first, (long long)count - 1,
+                       first > 0 ? ", those kept" : "");
   }
   return BAUM_OK;
 }

@@ -50,7 +50,7 @@ static void list(char text[SENTENCE], const char *name)
 baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size)
 {
   if (!out || caller_size < sizeof(size_t)) {
-    return baum_fail(BAUM_ERR_ARGUMENT, "catalogue: out is NULL or its size is 0");
+    return baum_fail(BAUM_ERR_ARGUMENT, "catalogue: out is NULL or caller_size is too small");
   }
   size_t bytes = caller_size < size ? caller_size : size;
   memcpy(out, whole, bytes);

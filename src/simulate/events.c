@@ -312,13 +312,14 @@ baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
   const char *call = "baum_simulation_event";
   if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+                       simulation ? "out is NULL or caller_size is too small"
+                                  : "the simulation is NULL");
   }
   int64_t count = baum_simulation_event_count(simulation);
   int64_t first = count > BAUM_I_EVENT_RECORDS ? count - BAUM_I_EVENT_RECORDS : 0;
-  if (k < first || k >= count) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from %lld to %lld, those kept",
-                       call, (long long)k, (long long)first, (long long)count - 1);
+  baum_status status = baum_i_check_entry(k, first, count, call);
+  if (status != BAUM_OK) {
+    return status;
   }
   const baum_event_record *record = &simulation->events->records[k % BAUM_I_EVENT_RECORDS];
   baum_i_give_sized(out, caller_size, record, sizeof *record);

@@ -33,9 +33,9 @@ baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
                        simulation ? "text is NULL or size is 0" : "the simulation is NULL");
   }
-  if (k < 0 || k >= simulation->counters.warnings) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from 0 to %lld", call,
-                       (long long)k, (long long)simulation->counters.warnings - 1);
+  baum_status status = baum_i_check_entry(k, 0, simulation->counters.warnings, call);
+  if (status != BAUM_OK) {
+    return status;
   }
   (void)snprintf(text, size, "%s",
                  k < BAUM_I_WARNINGS ? simulation->warnings[k]
@@ -294,7 +294,8 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
 {
   if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_counters: %s",
-                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+                       simulation ? "out is NULL or caller_size is too small"
+                                  : "the simulation is NULL");
   }
   double kinetic = 0.0;
   double potential = 0.0;

@@ -17,6 +17,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/sized.h"
 #include "integrate/limit.h"
 #include "mechanism/definition.h"
 
@@ -497,21 +498,21 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
                                           baum_near_singular *out, size_t caller_size)
 {
   const char *call = "baum_simulation_near_singular";
-  if (!simulation || !out || caller_size < sizeof(size_t)) {
+  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or its size is 0" : "the simulation is NULL");
+                       simulation ? "out is NULL or caller_size is too small"
+                                  : "the simulation is NULL");
   }
   int64_t count = simulation->counters.near_singular_intervals;
   int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
-  if (k < 0 || k >= most) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %lld, must be from 0 to %lld", call,
-                       (long long)k, (long long)most - 1);
+  baum_status status = baum_i_check_entry(k, 0, most, call);
+  if (status != BAUM_OK) {
+    return status;
   }
   baum_near_singular entry = simulation->passages->kept[k];
   if (entry.joint.index1 > 0) { /* of a run that has been restored it may have another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }
-  entry.struct_size = caller_size < sizeof entry ? caller_size : sizeof entry;
-  memcpy(out, &entry, entry.struct_size);
+  baum_i_give_sized(out, caller_size, &entry, sizeof entry);
   return BAUM_OK;
 }

@@ -404,7 +404,8 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
                                     const char *call)
 {
   if (!study || !baum_i_takes_sized(best, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or best are NULL, or its size is 0", call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or best are NULL, or caller_size is too small",
+                       call);
   }
   for (int k = 0; k < study->row_count; k++) {
     if (study->rows[k]->timed) {

@@ -423,7 +423,8 @@ static void outputs_of_a_run_may_not_be_null(void **state)
   ASSERT_SAYS(baum_simulation_counters(run, &counters, 0), BAUM_ERR_ARGUMENT, "size is 0");
   ASSERT_SAYS(baum_simulation_warning(run, 0, NULL, 8), BAUM_ERR_ARGUMENT, "text is NULL");
   ASSERT_SAYS(baum_simulation_warning(run, 0, text, 0), BAUM_ERR_ARGUMENT, "size is 0");
-  ASSERT_SAYS(baum_simulation_warning(run, 0, text, sizeof text), BAUM_ERR_ARGUMENT, "k is 0");
+  ASSERT_SAYS(baum_simulation_warning(run, 0, text, sizeof text), BAUM_ERR_ARGUMENT,
+              "k is 0, but there are none");
   ASSERT_SAYS(baum_simulation_warning(run, -1, text, sizeof text), BAUM_ERR_ARGUMENT, "k is -1");
   assert_string_equal(text, "as is");
   assert_string_equal(baum_simulation_message(run), "");
