@@ -166,7 +166,8 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const double *y, const double *dy,
                                                       baum_sparse *out);
 
-/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v.
+/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v. Each Newton step
+ *  is the least, so that a move over which J turns is near the least only: give `held` what must stay.
  *  @param[in,out] q     (nq) a guess on entry; unchanged on failure
  *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints
  *                       and are least where undetermined; unchanged on failure
