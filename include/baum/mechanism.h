@@ -88,8 +88,9 @@ typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, 
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
 
-/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. It is
- *  also called at times outside of the run: by the check of derivatives, and where the constraints
+/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. Rate and
+ *  acceleration must be the derivatives of the value (baum_mechanism_check_derivatives()). It is also
+ *  called at times outside of the run: by the check of derivatives, and where the constraints
  *  around the start are explored. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
@@ -103,7 +104,8 @@ typedef struct baum_coordinates_def {
   const double *q;    /**< (size) drawn positions. Copied. Default: NULL, zeros. */
   const double *v; /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
   const double *scale;    /**< (size) > 0, relevant changes. Copied. Default: NULL, ones. */
-  baum_q_fn *mass;        /**< out (size x size), symmetric. Default: NULL, must be set. */
+  baum_q_fn *mass;        /**< out (size x size), symmetric, no energy below 0. Default: NULL, must
+                               be set. */
   baum_force_fn *force;   /**< out (size), g with velocity terms. Default: NULL, must be set. */
   baum_force_fn *force_q; /**< out (size x size), dg/dq. Default: NULL, by differences. */
   baum_force_fn *force_v; /**< out (size x size), dg/dv. Default: NULL, by differences. */
@@ -569,7 +571,8 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
 /** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v, and those
  *  in laws and curves) with differences, in the drawn pose at t = 0 and at three poses beside it, at
  *  t = 0, 0.37 and 1.3. An entry is wrong when it is off by more than 1e-6 of itself and 1e-9 of its
- *  row. mass() must be symmetric, and constant where constant_mass says so. Kinks, and poses and
+ *  row. mass() must be symmetric, without negative numbers on its diagonal in the drawn pose, and
+ *  constant where constant_mass says so. Kinks, and poses and
  *  times that functions refuse, raise no alarm; an element that refuses all poses gives that
  *  failure, but for the laws of drivers.
  *  Runs by itself when a simulation is created.

@@ -568,8 +568,7 @@ baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_ene
   const char *call = "baum_simulation_energy_account";
   if (!simulation || !baum_i_takes_sized(out, caller_size)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or caller_size is too small"
-                                  : "the simulation is NULL");
+                       simulation ? "out is NULL or its size too small" : "the simulation is NULL");
   }
   if (!simulation->account) {
     return baum_i_fail(BAUM_ERR_STATE,

@@ -114,10 +114,11 @@ static void outputs_of_a_mechanism_may_not_be_null_unless_they_may(void **state)
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, NULL, sizeof mobility), BAUM_ERR_ARGUMENT,
               "out is NULL");
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, &mobility, 0), BAUM_ERR_ARGUMENT,
-              "size is 0");
+              "caller_size is too small");
   ASSERT_SAYS(baum_mechanism_report(parts.mechanism, NULL, sizeof report), BAUM_ERR_ARGUMENT,
               "out is NULL");
-  ASSERT_SAYS(baum_mechanism_report(parts.mechanism, &report, 0), BAUM_ERR_ARGUMENT, "size is 0");
+  ASSERT_SAYS(baum_mechanism_report(parts.mechanism, &report, 0), BAUM_ERR_ARGUMENT,
+              "caller_size is too small");
   assert_int_equal(baum_mechanism_sizes(parts.mechanism, NULL, NULL, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_rows(parts.mechanism, parts.pin, NULL, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_columns(parts.mechanism, parts.bob, NULL, NULL), BAUM_OK);
@@ -420,7 +421,8 @@ static void outputs_of_a_run_may_not_be_null(void **state)
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
   ASSERT_SAYS(baum_simulation_counters(run, NULL, sizeof counters), BAUM_ERR_ARGUMENT,
               "out is NULL");
-  ASSERT_SAYS(baum_simulation_counters(run, &counters, 0), BAUM_ERR_ARGUMENT, "size is 0");
+  ASSERT_SAYS(baum_simulation_counters(run, &counters, 0), BAUM_ERR_ARGUMENT,
+              "caller_size is too small");
   ASSERT_SAYS(baum_simulation_warning(run, 0, NULL, 8), BAUM_ERR_ARGUMENT, "text is NULL");
   ASSERT_SAYS(baum_simulation_warning(run, 0, text, 0), BAUM_ERR_ARGUMENT, "size is 0");
   ASSERT_SAYS(baum_simulation_warning(run, 0, text, sizeof text), BAUM_ERR_ARGUMENT,

@@ -110,7 +110,10 @@ static void check_nulls(every_element *parts, const element_kind *kind)
   ASSERT_SAYS(kind->get(NULL, present, &def, kind->size), BAUM_ERR_ARGUMENT, mechanism_sentence);
   ASSERT_SAYS(kind->get(parts->mechanism, present, NULL, kind->size), BAUM_ERR_ARGUMENT,
               "out is NULL");
-  ASSERT_SAYS(kind->get(parts->mechanism, present, &def, 0), BAUM_ERR_ARGUMENT, "size is 0");
+  for (size_t size = 0; size < sizeof(size_t); size++) {
+    ASSERT_SAYS(kind->get(parts->mechanism, present, &def, size), BAUM_ERR_ARGUMENT,
+                "caller_size is too small");
+  }
 }
 
 static void null_is_refused_by_add_get_and_set(void **state)

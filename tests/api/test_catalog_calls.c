@@ -162,7 +162,7 @@ static void what_is_not_there_is_refused_by_name(void **state)
   const baum_catalog_choice windmill = {.name = "windmill"};
   ASSERT_SAYS(baum_catalog_entry_at(-1, &entry, sizeof entry), BAUM_ERR_ARGUMENT, "k is -1");
   ASSERT_SAYS(baum_catalog_entry_at(0, NULL, sizeof entry), BAUM_ERR_ARGUMENT, "out is NULL");
-  ASSERT_SAYS(baum_catalog_entry_at(0, &entry, 0), BAUM_ERR_ARGUMENT, "size is 0");
+  ASSERT_SAYS(baum_catalog_entry_at(0, &entry, 0), BAUM_ERR_ARGUMENT, "caller_size is too small");
   ASSERT_SAYS(baum_catalog_find("windmill", &entry, sizeof entry), BAUM_ERR_ARGUMENT,
               "no \"windmill\"; there are pendulum, ");
   ASSERT_SAYS(baum_catalog_find(NULL, &entry, sizeof entry), BAUM_ERR_ARGUMENT, "no \"NULL\"");

@@ -331,6 +331,36 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
+/* A mass of q + user: below zero in the drawn pose, or beside it only. */
+static int linear_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  out[0] = q[0] + *(const double *)user;
+  return 0;
+}
+
+static void a_mass_below_zero_in_the_drawn_pose_is_refused(void **state)
+{
+  (void)state;
+  double at_zero[] = {-2.0, 0.01};
+  for (int i = 0; i < 2; i++) {
+    baum_mechanism *mechanism = user_make_empty();
+    baum_coordinates_def def = baum_coordinates_def_default();
+    def.name = "arm";
+    def.size = 1;
+    def.mass = linear_mass;
+    def.force = user_no_force;
+    def.user = at_zero + i;
+    assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
+    if (i == 0) {
+      user_check_wrong(mechanism,
+                       "body 1 \"arm\": mass()[0][0] is -2 in the drawn pose, must be >= 0");
+    } else {
+      user_check_right(mechanism);
+    }
+  }
+}
+
 /* A law that is known from t = 0 on: differences around t = 0 cannot be had. */
 static int late_phi(double t, const double *q, double *out, void *user)
 {
@@ -425,6 +455,7 @@ int main(void)
     cmocka_unit_test(wrong_derivatives_of_a_force_are_named),
     cmocka_unit_test(wrong_functions_of_a_body_are_named),
     cmocka_unit_test(a_mass_that_is_not_constant_though_promised_is_found),
+    cmocka_unit_test(a_mass_below_zero_in_the_drawn_pose_is_refused),
     cmocka_unit_test(a_law_that_begins_at_zero_raises_no_alarm),
     cmocka_unit_test(wrong_derivatives_of_a_law_of_a_driver_are_named),
     cmocka_unit_test(the_mechanism_must_be_there_and_frozen),

@@ -351,6 +351,23 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
   return BAUM_OK;
 }
 
+/* In the drawn pose alone: beside it, coordinates may be where M is none. */
+static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, const double *block)
+{
+  int n = body->nv;
+  const double *drawn_q = at->point->mechanism->drawn_q + body->q;
+  bool drawn_pose = memcmp(at->q, drawn_q, (size_t)n * sizeof *drawn_q) == 0;
+  char text[BAUM_I_ENTRY_SIZE];
+  baum_i_user_function f = function(body, "mass", n, n);
+  for (int i = 0; i < n && drawn_pose; i++) {
+    if (block[i * (n + 1)] < 0.0) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g in the drawn pose, must be >= 0",
+                         baum_i_user_entry(&f, i * (n + 1), text), block[i * (n + 1)]);
+    }
+  }
+  return BAUM_OK;
+}
+
 /* constant_mass is the claim that a derivative is zero: compare with the drawn pose at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
@@ -382,6 +399,9 @@ static baum_status check_mass(const baum_i_body *body, const baum_i_local *at)
   baum_status status = mass_at(body, &here, block);
   if (status == BAUM_OK) {
     status = check_symmetry(body, block);
+  }
+  if (status == BAUM_OK) {
+    status = check_sign(body, &here, block);
   }
   if (status == BAUM_OK && def_of(body)->constant_mass) {
     status = check_constant(body, &here, block);
