@@ -459,6 +459,8 @@ static void warnings_are_announced_once_and_stay_listed(void **state)
   assert_int_equal(baum_simulation_warning(s.run, 0, cut, sizeof cut), BAUM_OK);
   assert_int_equal(strlen(cut), sizeof cut - 1);
   assert_memory_equal(cut, text, sizeof cut - 1);
+  ASSERT_SAYS(baum_simulation_warning(s.run, 1, text, sizeof text), BAUM_ERR_ARGUMENT,
+              "k is 1, must be from 0 to 0");
   ASSERT_SAYS(baum_simulation_step(s.run, 1), BAUM_WARNED,
               "t = 0.01 s: 1 new warning, the first: ");
   assert_non_null(strstr(baum_message(), "marginal"));
