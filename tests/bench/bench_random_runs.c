@@ -6,8 +6,9 @@
  * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12; rk8 with gains and KLU must
  * agree with it, else the mechanism is left out and counted. An error is the largest of positions at the end, lengths
  * by the scale. With a variable step it may be PROMISE rtol times the growth of what is between neighbours, with a fixed
- * one WRONG. More than that without a warning is poor, and above WRONG silently wrong, but where a quarter of the step
- * halves it. Prints what is wrong without a word, what fails where the reference does not, and warnings in vain.
+ * one WRONG, or the step times that growth. More than that without a warning is poor, and above WRONG silently wrong, but
+ * where a quarter of the step halves it. Errors that arise on the way may grow by more than those of the start: look there
+ * first. Prints what is wrong without a word, what fails where the reference does not, and warnings in vain.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -243,7 +244,8 @@ static bool find_truth(scene *s)
 static verdict judge(const scene *s, const baum_simulation_options *o, const result *r,
                      double error)
 {
-  double promise = isnan(o->step) ? (PROMISE * o->rtol + FLOOR) * s->growth : WRONG;
+  double promise =
+    isnan(o->step) ? (PROMISE * o->rtol + FLOOR) * s->growth : fmax(WRONG, o->step * s->growth);
   if (r->status == BAUM_ERR_UNSUPPORTED) {
     return UNSUPPORTED;
   }
