@@ -20,12 +20,14 @@
 #include "linear/kkt.h"
 #include "mechanism/mechanism.h"
 
-/* Dependent rows: found once, at the assembled start pose and its neighbours. */
+/* Dependent rows: how many is found once, at the assembled start pose and its neighbours; which of them to leave out may
+ * change on the way. */
 typedef struct baum_i_redundancy {
   int rank;               /* of J at the neighbours */
   int rank_at_start;      /* at the start pose itself; less: it is singular, or next to that */
   int count;              /* dropped rows, nc - rank */
   unsigned char *dropped; /* (nc) 1 where a row is left out */
+  double tried;           /* pivot at which they were last looked for; 0: as good as never */
   /* Of least_multipliers.c: */
   baum_i_kkt *kkt;   /* NULL while nothing has been dropped */
   double *row_scale; /* (nc) length of row i of J M^-1/2 */
@@ -110,9 +112,6 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
 /* Once the redundancy is known: accelerations by blocks from now on, where these suit. Also
  * BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED where they do not, but nothing else is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
-
-/* Leave out these rows (nc), as many as before, from now on. Statuses of baum_i_use_blocks(); unchanged on failure. */
-baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped);
 
 /* How accelerations are solved for, and why so; and why blocks are not used. Without a full stop. */
 enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
@@ -251,10 +250,19 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
 
-/* Which rows to leave out (nc), once the redundancy is known, so that the others are decisively farther apart at (q, t),
- * near the constraints, than those that are kept; *better: there are such. Also BAUM_ERR_MEMORY. */
-baum_status baum_i_find_better_rows(baum_workspace *workspace, double t, const double *q,
-                                    unsigned char *dropped, bool *better);
+/* choose_rows.c: of the rows of its rank those that are well apart in this pose, if there are such; before paths are made. */
+baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
+
+/* Leave out these rows (nc) from now on in place of those before, as many and of the same rank. BAUM_ERR_MEMORY,
+ * BAUM_ERR_UNSUPPORTED where blocks do not suit the others, statuses of functions of the user; then all stays as it is. */
+baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped);
+
+/* Where the pivot, of the usual one, has become poor, for rows that were well apart need not be so everywhere: leave out
+ * others if these are. true: they have changed, and what was solved for is gone. Allocates, but hardly ever. */
+bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot);
+
+/* Are there rows of the whole rank that are well apart in this pose, whichever are left out? */
+bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* ---- least_multipliers.c: where rows have been dropped, with M and J in the workspace ---- */
 
@@ -282,6 +290,9 @@ void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 
 /* (nc) diagonal of J M^-1 J^T with the diagonal of M: rows in their own units; 0 for empty rows. */
 void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
+
+/* (nv) diagonal of M^-1/2, of coordinates without mass their scale. */
+void baum_i_column_scales(const baum_workspace *workspace, double *scale);
 
 /* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /
  * scale_i). */

@@ -257,6 +257,20 @@ static baum_status check_gains(const char *call, double alpha, double beta)
   return status == BAUM_OK ? baum_i_check_finite(call, "beta", "1/s", beta) : status;
 }
 
+/* After a solution: others than before, so that it is worth another one. */
+static bool has_chosen_rows(baum_workspace *w, baum_status status, double t, const double *q)
+{
+  bool solved = status == BAUM_OK || status == BAUM_ERR_SINGULAR || status == BAUM_ERR_CONVERGENCE;
+  return solved && baum_i_choose_rows(w, t, q, baum_i_smallest_pivot(w, NULL));
+}
+
+static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
+                              double alpha, double beta)
+{
+  return alpha != 0.0 || beta != 0.0 ? baum_i_acceleration(w, t, q, v, alpha, beta)
+                                     : baum_i_reported_acceleration(w, t, q, v);
+}
+
 baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, const double *q,
                                         const double *v, double alpha, double beta, double *a,
                                         double *lambda)
@@ -269,10 +283,9 @@ baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, con
   if (status != BAUM_OK) {
     return status;
   }
-  if (alpha != 0.0 || beta != 0.0) {
-    status = baum_i_acceleration(workspace, t, q, v, alpha, beta);
-  } else {
-    status = baum_i_reported_acceleration(workspace, t, q, v);
+  status = accelerate(workspace, t, q, v, alpha, beta);
+  if (has_chosen_rows(workspace, status, t, q)) {
+    status = accelerate(workspace, t, q, v, alpha, beta);
   }
   if (status == BAUM_OK && a) {
     memcpy(a, workspace->a, (size_t)workspace->mechanism->nv * sizeof *a);
@@ -456,6 +469,15 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   return baum_i_message_settle(status, &kept);
 }
 
+static baum_status project(baum_workspace *w, double t, const double *q, const double *v,
+                           double *copy)
+{
+  size_t nv = (size_t)w->mechanism->nv;
+  memcpy(copy, q, nv * sizeof *q);
+  memcpy(copy + nv, v, nv * sizeof *v);
+  return baum_i_project(w, t, copy, copy + nv);
+}
+
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)
 {
   baum_status status = check_state("baum_workspace_project", workspace, t, q, v, &t);
@@ -467,9 +489,10 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   if (!copy) {
     return baum_i_fail_memory();
   }
-  memcpy(copy, q, nv * sizeof *q);
-  memcpy(copy + nv, v, nv * sizeof *v);
-  status = baum_i_project(workspace, t, copy, copy + nv);
+  status = project(workspace, t, q, v, copy);
+  if (has_chosen_rows(workspace, status, t, q)) {
+    status = project(workspace, t, q, v, copy);
+  }
   if (status == BAUM_OK) {
     status = baum_i_check_velocities(workspace, "projected pose", copy);
   }

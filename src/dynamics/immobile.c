@@ -49,6 +49,21 @@ static bool is_of(const baum_i_span *span, const bool *bodies)
   return true;
 }
 
+/* The redundant ones and those of the joints. Returns how many of these are not redundant. */
+static int drop_rows(const baum_workspace *w, baum_i_left_out *out)
+{
+  const baum_mechanism *m = w->mechanism;
+  int kept = 0;
+  for (int i = 0; i < m->nc; i++) {
+    out->dropped[i] = w->redundancy.count > 0 ? w->redundancy.dropped[i] : 0;
+    if (out->joints[baum_i_row_joint(m, i)]) {
+      kept += out->dropped[i] ? 0 : 1;
+      out->dropped[i] = 1;
+    }
+  }
+  return kept;
+}
+
 /* The immobile bodies (ground among them) and all joints between them. Returns the rows kept of these less
  * the bodies' velocities. */
 static int mark(const baum_workspace *w, const bool *immobile, baum_i_left_out *out)
@@ -60,20 +75,10 @@ static int mark(const baum_workspace *w, const bool *immobile, baum_i_left_out *
     out->count += immobile[i] ? 1 : 0;
     surplus -= immobile[i] ? m->bodies[i]->nv : 0;
   }
-  for (int i = 0; i < m->nc; i++) {
-    out->dropped[i] = w->redundancy.count > 0 ? w->redundancy.dropped[i] : 0;
-  }
   for (int k = 0; k < m->joint_count; k++) {
-    const baum_i_joint *joint = m->joints[k];
-    if (is_of(&joint->span, immobile)) {
-      out->joints[k] = 1;
-      for (int i = joint->row; i < joint->row + joint->rows; i++) {
-        surplus += out->dropped[i] ? 0 : 1;
-        out->dropped[i] = 1;
-      }
-    }
+    out->joints[k] = is_of(&m->joints[k]->span, immobile) ? 1 : 0;
   }
-  return surplus;
+  return surplus + drop_rows(w, out);
 }
 
 /* ---- do they rest? ---- */
@@ -179,6 +184,7 @@ void baum_i_immobile_destroy(baum_i_immobile *immobile)
     return;
   }
   baum_i_block_path_destroy(immobile->path);
+  clear(&immobile->left_out);
   baum_i_free(immobile->velocity);
   baum_i_free(immobile->position);
   baum_i_free(immobile->row);
@@ -186,8 +192,8 @@ void baum_i_immobile_destroy(baum_i_immobile *immobile)
   baum_i_free(immobile);
 }
 
-/* Without the bodies; where blocks do not suit the rest either, all stays as it is. */
-static baum_status leave_out(baum_workspace *w, const baum_i_left_out *left_out, const double *q)
+/* Without the bodies; where blocks do not suit the rest either, all stays as it is. Takes over *left_out. */
+static baum_status leave_out(baum_workspace *w, baum_i_left_out *left_out, const double *q)
 {
   baum_i_immobile *immobile = baum_i_alloc(1, sizeof *immobile);
   if (!immobile) {
@@ -202,8 +208,21 @@ static baum_status leave_out(baum_workspace *w, const baum_i_left_out *left_out,
     baum_i_immobile_destroy(immobile);
     return status;
   }
+  immobile->left_out = *left_out;
+  *left_out = (baum_i_left_out){0};
   w->immobile = immobile;
   return BAUM_OK;
+}
+
+baum_status baum_i_immobile_make_path(baum_workspace *w, baum_i_block_path **out)
+{
+  baum_i_immobile *immobile = w->immobile;
+  baum_i_block_verdict verdict;
+  *out = NULL;
+  if (drop_rows(w, &immobile->left_out) != immobile->count) {
+    return BAUM_OK;
+  }
+  return baum_i_block_path_create(w, &immobile->left_out, &verdict, out);
 }
 
 static baum_status try_to_leave_out(baum_workspace *w, double t, const double *q, double *v,

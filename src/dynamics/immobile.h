@@ -12,14 +12,15 @@
 #include "dynamics/block_path.h"
 
 struct baum_i_immobile {
-  baum_i_block_path *path; /* for all the rest */
-  int count;               /* of velocities */
-  int *velocity;           /* (count) which they are */
-  double *position;        /* (count) where they rest */
-  int row_count;           /* of what holds them */
-  int *row;                /* (row_count) which they are */
-  double *phi;             /* (row_count) Phi where they rest */
-  bool rests;              /* the present state has them there */
+  baum_i_block_path *path;  /* for all the rest */
+  baum_i_left_out left_out; /* what that is not for */
+  int count;                /* of velocities */
+  int *velocity;            /* (count) which they are */
+  double *position;         /* (count) where they rest */
+  int row_count;            /* of what holds them */
+  int *row;                 /* (row_count) which they are */
+  double *phi;              /* (row_count) Phi where they rest */
+  bool rests;               /* the present state has them there */
 };
 
 /* Find them and leave them out from now on, if they rest in this state and blocks suit the rest.
@@ -27,6 +28,10 @@ struct baum_i_immobile {
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_leave_out_immobile(baum_workspace *workspace, double t, const double *q,
                                       double *v);
+/* The path for the redundant rows as they are now; *out is NULL where they are not what holds these bodies, or blocks do not
+ * suit. Statuses of baum_i_block_path_create(). */
+baum_status baum_i_immobile_make_path(baum_workspace *workspace, baum_i_block_path **out);
+
 void baum_i_immobile_destroy(baum_i_immobile *immobile); /* NULL is fine */
 
 /* To be called for every state that comes from outside of the motion: whether they rest there, with

@@ -3,8 +3,8 @@
  *
  * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours
  * on the constraint manifold. The largest of them is the rank that the mechanism has; the rows
- * outside one largest independent set are redundant, and every solver leaves them out. A start pose
- * of lower rank is a singular one.
+ * outside one largest independent set are redundant, and every solver leaves them out; which, may change on
+ * the way (choose_rows.c). A start pose of lower rank is a singular one.
  *
  * Next to a singular pose a row that is all but dependent, by its distance d from there, blows up the rounding of those
  * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear, and the first such
@@ -50,19 +50,6 @@ typedef struct search {
   pose_rank kept;
 } search;
 
-static void find_column_scale(const search *s)
-{
-  const baum_workspace *w = s->w;
-  for (int k = 0; k < w->structure.mass_block_count; k++) {
-    const baum_i_mass_block *block = &w->structure.mass_blocks[k];
-    for (int i = 0; i < block->size; i++) {
-      double mass = w->mass[block->value + i * block->size + i];
-      double scale = w->mechanism->scale[block->first + i];
-      s->column_scale[block->first + i] = mass > 0.0 ? 1.0 / sqrt(mass) : scale;
-    }
-  }
-}
-
 /* The rows that are independent so far are kept. */
 static baum_status rank_to(const search *s, double tolerance, int *rank)
 {
@@ -81,7 +68,7 @@ static baum_status rank_at(const search *s, double t, const double *q, pose_rank
   if (status != BAUM_OK) {
     return status;
   }
-  find_column_scale(s);
+  baum_i_column_scales(s->w, s->column_scale);
   int nc = s->w->mechanism->nc;
   memset(s->independent, 0, (size_t)nc);
   const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
@@ -212,108 +199,6 @@ static void keep_all(baum_i_redundancy *r, int nc)
   memset(r->dropped, 0, (size_t)nc);
 }
 
-/* ---- better ones at a pose ---- */
-
-/* Rows that are decisively better are apart by so much more than those that are kept. */
-static const double BETTER = 1.25;
-
-static void mark_kept(const search *s)
-{
-  const baum_i_redundancy *r = &s->w->redundancy;
-  for (int i = 0; i < s->w->mechanism->nc; i++) {
-    s->independent[i] = r->dropped[i] ? 0 : 1;
-  }
-}
-
-/* *apart: of the rows found, those that are kept first, as far as they are so much apart. Off the constraints, by a
- * tolerance, dependent rows are no longer so exactly: below CLEAR nothing is told, and the rank is less. */
-static baum_status find_farthest(search *s, int *rank, double *apart)
-{
-  int wanted = s->w->redundancy.rank;
-  baum_status status = BAUM_OK;
-  *rank = 0;
-  for (double tolerance = 0.5; status == BAUM_OK && *rank < wanted && tolerance > CLEAR;
-       tolerance *= 0.5) {
-    mark_kept(s);
-    status = rank_to(s, tolerance, rank);
-    *apart = tolerance;
-  }
-  return status;
-}
-
-/* Whether the rows just looked at are those that are kept. */
-static bool are_kept(const search *s)
-{
-  const baum_i_redundancy *r = &s->w->redundancy;
-  bool same = true;
-  for (int i = 0; i < s->w->mechanism->nc; i++) {
-    same = same && (s->independent[i] != 0) == (r->dropped[i] == 0);
-  }
-  return same;
-}
-
-static baum_status find_better(search *s, double t, const double *q, unsigned char *dropped,
-                               bool *better)
-{
-  const baum_workspace *w = s->w;
-  int rank = 0;
-  double apart = 0.0;
-  *better = false;
-  baum_status status = baum_i_position_stage(s->w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  find_column_scale(s);
-  status = find_farthest(s, &rank, &apart);
-  if (status != BAUM_OK || rank != w->redundancy.rank || are_kept(s)) {
-    return status;
-  }
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    dropped[i] = s->independent[i] ? 0 : 1;
-  }
-  mark_kept(s);
-  status = rank_to(s, apart / BETTER, &rank);
-  *better = status == BAUM_OK && !are_kept(s);
-  return status;
-}
-
-baum_status baum_i_find_better_rows(baum_workspace *w, double t, const double *q,
-                                    unsigned char *dropped, bool *better)
-{
-  *better = false;
-  double *memory = baum_i_alloc((size_t)w->mechanism->nv, sizeof *memory);
-  unsigned char *independent = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  baum_status status = BAUM_ERR_MEMORY;
-  if (memory && independent) {
-    search s = {.w = w, .column_scale = memory, .independent = independent};
-    status = find_better(&s, t, q, dropped, better);
-  } else {
-    status = baum_i_fail_memory();
-  }
-  baum_i_free(memory);
-  baum_i_free(independent);
-  return status;
-}
-
-/* ---- at the start ---- */
-
-/* Of a neighbour rows have been kept, or of those that are apart by FIRST the first ones. */
-static baum_status keep_better(search *s, double t)
-{
-  const baum_workspace *w = s->w;
-  bool better = false;
-  unsigned char *dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  if (!dropped) {
-    return baum_i_fail_memory();
-  }
-  baum_status status = find_better(s, t, s->start, dropped, &better);
-  if (better) {
-    memcpy(w->redundancy.dropped, dropped, (size_t)w->mechanism->nc);
-  }
-  baum_i_free(dropped);
-  return status;
-}
-
 /* The pose to look at is assembled: off the constraints no row depends on others exactly. */
 static baum_status find(search *s, double t, const double *q)
 {
@@ -341,7 +226,7 @@ static baum_status find(search *s, double t, const double *q)
   status = look_around(s, t, s->start);
   r->rank_at_start = is_better(&s->kept, &rank) ? rank.clear : rank.all;
   if (status == BAUM_OK && r->count > 0) {
-    status = keep_better(s, t);
+    status = baum_i_keep_rows_apart(s->w, t, s->start);
   }
   if (status == BAUM_OK && r->count > 0 && !r->kkt) {
     status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
@@ -354,6 +239,7 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   size_t nv = (size_t)workspace->mechanism->nv;
   size_t nc = (size_t)workspace->mechanism->nc;
   workspace->redundancy.count = 0;
+  workspace->redundancy.tried = 0.0;
   if (nc == 0) {
     return BAUM_OK;
   }

@@ -45,6 +45,18 @@ void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility)
   add_squares(workspace, weight, mobility);
 }
 
+void baum_i_column_scales(const baum_workspace *workspace, double *scale)
+{
+  for (int k = 0; k < workspace->structure.mass_block_count; k++) {
+    const baum_i_mass_block *block = &workspace->structure.mass_blocks[k];
+    for (int i = 0; i < block->size; i++) {
+      double mass = workspace->mass[block->value + i * block->size + i];
+      double length = workspace->mechanism->scale[block->first + i];
+      scale[block->first + i] = mass > 0.0 ? 1.0 / sqrt(mass) : length;
+    }
+  }
+}
+
 int baum_i_largest(const double *values, int count, double *largest)
 {
   int where = -1;

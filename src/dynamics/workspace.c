@@ -167,40 +167,6 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   return w->blocks_only && !w->path ? refuse(w) : baum_i_message_settle(BAUM_OK, &kept);
 }
 
-/* Of what is given up pointers are forgotten. */
-static void give_up_path(baum_workspace *w, baum_i_block_path *path)
-{
-  baum_i_block_path_destroy(path);
-  w->solved_by = NULL;
-  w->eliminated_by = NULL;
-  baum_i_workspace_forget(w);
-}
-
-baum_status baum_i_leave_out_rows(baum_workspace *w, const unsigned char *dropped)
-{
-  size_t nc = (size_t)w->mechanism->nc;
-  unsigned char *rows = baum_i_copy(dropped, nc, 1);
-  if (!rows) {
-    return baum_i_fail_memory();
-  }
-  unsigned char *before = w->redundancy.dropped;
-  baum_i_block_path *path = w->path;
-  baum_i_block_verdict verdict = w->verdict;
-  w->redundancy.dropped = rows;
-  w->path = NULL;
-  baum_status status = baum_i_use_blocks(w);
-  if (status == BAUM_OK) {
-    give_up_path(w, path);
-    baum_i_free(before);
-  } else {
-    w->redundancy.dropped = before;
-    w->path = path;
-    w->verdict = verdict;
-    baum_i_free(rows);
-  }
-  return status;
-}
-
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 {
   baum_i_kkt_counters sum = baum_i_kkt_get_counters(w->kkt);

@@ -15,6 +15,7 @@
 #include "simulate/breaks.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
+#include "simulate/rows.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;

@@ -181,6 +181,13 @@ static void begin(baum_i_passages *p, double from)
     (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
 }
 
+/* Whether redundant rows would hold where those that are kept do not. */
+static bool is_of_chosen_rows(baum_simulation *run, double t, const double *q, double pivot)
+{
+  baum_workspace *w = run->workspace;
+  return w->redundancy.count > 0 && pivot < SINGULAR && baum_i_rows_are_apart(w, t, q);
+}
+
 /* Between the last three states. */
 static void search(baum_simulation *run)
 {
@@ -189,7 +196,8 @@ static void search(baum_simulation *run)
   double at = 0.0;
   int joint = -1;
   double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
-  if (pivot < present->smallest) {
+  baum_i_hermite(p->recent, BAUM_I_RECENT, p->nv, at, p->at.q, p->at.v);
+  if (pivot < present->smallest && !is_of_chosen_rows(run, at, p->at.q, pivot)) {
     present->smallest = pivot;
     present->at = at;
     present->joint = joint;
@@ -203,7 +211,7 @@ static void see_last(baum_simulation *run)
   baum_i_passages *p = run->passages;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   baum_i_passage *present = &p->present;
-  if (last->pivot < present->smallest) {
+  if (last->pivot < present->smallest && !is_of_chosen_rows(run, last->t, last->q, last->pivot)) {
     present->smallest = last->pivot;
     present->at = last->t;
     present->joint = p->joint_noted;
@@ -334,6 +342,17 @@ void baum_i_passages_look(baum_simulation *run)
   } else {
     keep_last_but_one(run);
   }
+}
+
+void baum_i_passages_end(baum_simulation *run)
+{
+  baum_i_passages *p = run->passages;
+  if (p->open) {
+    close_passage(run);
+  }
+  baum_i_passages_forget(p);
+  p->unseen = false;
+  p->usual = 0.0;
 }
 
 /* ---- projection ---- */

@@ -49,6 +49,9 @@ void baum_i_passages_forget(baum_i_passages *passages);
 /* A state of the run, at which the last solution was made. Evaluates nothing. */
 void baum_i_passages_note(baum_simulation *run, const baum_i_state *state);
 
+/* Pivots to come are others, and compare with none before: what is under way ends. Not for NULL. */
+void baum_i_passages_end(baum_simulation *run);
+
 /* Look at the state that has been noted last; may evaluate. What functions of the user answer is not told. */
 void baum_i_passages_look(baum_simulation *run);
 

@@ -91,12 +91,10 @@ struct baum_simulation {
   double start_energy;
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
-  double row_pivot; /* largest since rows were chosen, or the last that was looked at, see rows.c */
-  double rows_looked_at; /* [s] likewise, where pivots do not tell */
-  bool rows_are_best;    /* nothing better was found there */
-  bool redundant_seen;   /* a row left out as redundant was found violated */
-  bool large_seen;       /* a violation above a share of the scales has been warned of */
-  double judged_phi;     /* max_phi when that was last looked at */
+  double rows_looked_at;      /* [s] redundant ones, with QR; see rows.c */
+  bool redundant_seen;        /* a row left out as redundant was found violated */
+  bool large_seen;            /* a violation above a share of the scales has been warned of */
+  double judged_phi;          /* max_phi when that was last looked at */
 
   baum_i_resolution resolution;
 
@@ -211,15 +209,6 @@ baum_status baum_i_run_begin_anew(baum_simulation *run);
 /* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
-
-/* ---- rows.c ---- */
-
-/* At the present state, where the next step begins: leave out other redundant rows where these have become poor. Methods
- * that carry their past along begin anew then. */
-baum_status baum_i_run_choose_rows(baum_simulation *run);
-
-/* Leave out these (nc), in the account too. Statuses of baum_i_leave_out_rows(). */
-baum_status baum_i_run_take_rows(baum_simulation *run, const unsigned char *dropped);
 
 /* ---- output.c ---- */
 

@@ -20,6 +20,7 @@
 #include "simulate/account.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
+#include "simulate/rows.h"
 #include "simulate/saved.h"
 #include "simulate/schedule.h"
 
@@ -133,10 +134,10 @@ static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED
   case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
   case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
   case BAUM_I_SAVED_CHOICE:
-  case BAUM_I_SAVED_ROWS:
   case BAUM_I_SAVED_BOUNDED:
   case BAUM_I_SAVED_STATE:
   case BAUM_I_SAVED_JUMPS:
+  case BAUM_I_SAVED_ROWS:
   default: return part->place;
   }
 }
@@ -337,16 +338,13 @@ static baum_status check_text(const baum_i_saved_part *part, const unsigned char
 /* Whether a part may have this length. */
 static bool has_length(const baum_i_saved_part *part, size_t length)
 {
-  if (part->kind == BAUM_I_SAVED_NUMBERS) {
-    return length == 0 || length == part->size;
-  }
   if (part->kind == BAUM_I_SAVED_JUMPS) {
     return length % sizeof(baum_i_jump) == 0;
   }
   if (part->kind == BAUM_I_SAVED_SOME) {
     return length <= part->size && length % part->unit == 0;
   }
-  return length == part->size;
+  return length == part->size || (part->kind == BAUM_I_SAVED_NUMBERS && length == 0);
 }
 
 static baum_status check_choice(const baum_i_saved_part *part, const unsigned char *at)
@@ -357,17 +355,18 @@ static baum_status check_choice(const baum_i_saved_part *part, const unsigned ch
   return refuse("the buffer does not fit: %s is not as it is here", part->name);
 }
 
-/* Flags that are no more and no fewer. */
 static baum_status check_rows(const baum_i_saved_part *part, const unsigned char *at)
 {
-  const unsigned char *here = part->place;
-  int more = 0;
+  int64_t left_out = 0;
   bool sound = true;
   for (size_t i = 0; i < part->size; i++) {
     sound = sound && at[i] <= 1;
-    more += (int)at[i] - (int)here[i];
+    left_out += at[i];
   }
-  return sound && more == 0 ? BAUM_OK : refuse("the buffer is damaged: %s is not told", part->name);
+  if (sound && (left_out == part->integer || part->integer == 0)) {
+    return BAUM_OK;
+  }
+  return refuse("the buffer does not fit: %s is not as it may be here", part->name);
 }
 
 static baum_status check_jumps(const baum_i_saved_part *part, const unsigned char *at,
@@ -485,13 +484,20 @@ static bool is_put_back(const baum_i_saved_part *part)
          part->kind == BAUM_I_SAVED_SOME;
 }
 
-static bool has_rows(const baum_i_saved_part *rows, const unsigned char *at)
+static baum_status leave_out_rows(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
-  return rows->size == 0 || memcmp(rows->place, at, rows->size) == 0;
+  baum_status status = BAUM_OK;
+  for (int k = 0; k < list->count && run->workspace->redundancy.count > 0; k++) {
+    if (list->parts[k].kind == BAUM_I_SAVED_ROWS) {
+      status = baum_i_run_leave_out_rows(run, r->at[k]);
+    }
+  }
+  return status == BAUM_OK || status == BAUM_ERR_MEMORY
+           ? status
+           : refuse("the buffer is damaged: the rows that it leaves out cannot be spared");
 }
 
-/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here, and rows that
- * are left out, others. */
+/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
 static baum_status make_room(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
   baum_status status = BAUM_OK;
@@ -501,11 +507,9 @@ static baum_status make_room(baum_simulation *run, const reader *r, const baum_i
       status = baum_i_run_own_parameters(run);
     } else if (kind == BAUM_I_SAVED_JUMPS) {
       status = baum_i_schedule_reserve(&run->schedule, (int)(r->length[k] / sizeof(baum_i_jump)));
-    } else if (kind == BAUM_I_SAVED_ROWS && !has_rows(&list->parts[k], r->at[k])) {
-      status = baum_i_run_take_rows(run, r->at[k]);
     }
   }
-  return status;
+  return status == BAUM_OK ? leave_out_rows(run, r, list) : status;
 }
 
 static void put_numbers_back(baum_simulation *run, const unsigned char *at, size_t length)

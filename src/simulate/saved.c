@@ -117,6 +117,7 @@ static void list_structure(const baum_simulation *run, baum_i_saved *list)
   baum_i_saved_part *rows = add(list, "which rows are redundant", BAUM_I_SAVED_ROWS);
   rows->place = w->redundancy.dropped;
   rows->size = (size_t)w->mechanism->nc;
+  rows->integer = w->redundancy.count;
   baum_i_saved_compare(list, "whether blocks suit", w->path != NULL);
   add_choice(list, "which bodies cannot move", immobile ? immobile->velocity : NULL,
              still * sizeof *immobile->velocity);
@@ -148,6 +149,7 @@ static void list_choices(baum_simulation *run, baum_i_saved *list)
 {
   baum_workspace *w = run->workspace;
   baum_i_problem *p = &run->problem;
+  BAUM_I_SAVED_ADD(list, "pivot at which rows were tried", w->redundancy.tried);
   BAUM_I_SAVED_ADD(list, "direction", p->direction);
   BAUM_I_SAVED_ADD(list, "rate", p->rate);
   BAUM_I_SAVED_ADD(list, "longest step", p->max_step);
@@ -198,9 +200,7 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "start energy", run->start_energy);
   BAUM_I_SAVED_ADD(list, "largest gamma", run->largest_gamma);
   BAUM_I_SAVED_ADD_COUNT(list, "near singular seen", run->near_singular_seen);
-  BAUM_I_SAVED_ADD(list, "pivot of the rows", run->row_pivot);
   BAUM_I_SAVED_ADD(list, "rows looked at", run->rows_looked_at);
-  BAUM_I_SAVED_ADD_FLAG(list, "rows are best", run->rows_are_best);
   BAUM_I_SAVED_ADD_FLAG(list, "redundant seen", run->redundant_seen);
   BAUM_I_SAVED_ADD_FLAG(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);

@@ -21,9 +21,9 @@ typedef enum baum_i_saved_kind {
   /* is put back: */
   BAUM_I_SAVED_STATE,   /* bytes */
   BAUM_I_SAVED_BOUNDED, /* a bool, int32_t or int64_t, which must be within bounds */
-  BAUM_I_SAVED_ROWS,    /* flags of rows, of which as many are set */
   BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
   BAUM_I_SAVED_JUMPS,   /* of the run's inputs, as many as there are */
+  BAUM_I_SAVED_ROWS,    /* which rows are left out, as many as here */
   BAUM_I_SAVED_SOME     /* as many of a list as there are */
 } baum_i_saved_kind;
 
@@ -35,7 +35,7 @@ typedef struct baum_i_saved_part {
   size_t used; /* of SOME, in bytes */
   size_t unit; /* of SOME, one of the list */
   double number;
-  int64_t integer; /* of JUMPS, inputs that there are */
+  int64_t integer; /* of JUMPS, inputs that there are; of ROWS, how many are left out */
   int64_t least;   /* of BOUNDED */
   int64_t most;
 } baum_i_saved_part;

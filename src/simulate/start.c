@@ -8,6 +8,7 @@
 #include "simulate/account.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
+#include "simulate/rows.h"
 #include "simulate/schedule.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
@@ -353,6 +354,9 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   }
   if (status == BAUM_OK && simulation->events) {
     status = baum_i_events_evaluate(simulation, &simulation->trial);
+  }
+  if (status == BAUM_OK) {
+    baum_i_run_choose_rows_anew(simulation, &simulation->trial);
   }
   /* Last of what may fail, for it cannot be undone. */
   if (status == BAUM_OK &&

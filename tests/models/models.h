@@ -150,10 +150,13 @@ typedef enum model_parallelogram {
 
 typedef struct model_parallelogram_data {
   model_parallelogram which;
-  double angle; /* [rad] of the cranks at start, which turn with 2 rad/s */
+  double angle; /* [rad] of the cranks at start */
+  double rate;  /* [rad/s] likewise; 0: 2 rad/s */
   bool doubled; /* the pin of the last crank's tip once more, "pin again": two rows */
   double aside; /* [m] by which that one is away from the other, on both of its bodies */
   double gap;   /* [m] by which it is further along the crank than along the coupler */
+  double above; /* [m] the middle one of three cranks, above the line of the others */
+  bool framed;  /* a body more that a weld holds to the ground */
   const model_units *units; /* NULL: SI */
 } model_parallelogram_data;
 

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which of the redundant rows to leave out, chosen anew where the others come close to dependent.
+ *
+ * Three parallel cranks out of line turn freely, but whichever row is left out, what stays is a parallelogram of two with
+ * a third crank that hangs on one row, and has singular poses of its own. So before these are reached other rows are left
+ * out, as coordinates are partitioned anew (Wehage and Haug 1982). Accelerations do not depend on the choice, multipliers
+ * do.
+ */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/immobile.h"
+
+/* Distances of rows from those before, of their length: with the first that makes up the rank they are well apart. */
+static const double APART[] = {0.5, 0.2, 0.1, 0.05};
+
+/* Below it others are looked for, each time when it has changed by RETRY since. */
+static const double POOR = 0.1;
+static const double RETRY = 3.0;
+
+/* ---- rows that are well apart ---- */
+
+typedef struct look {
+  double *column_scale;       /* (nv) */
+  unsigned char *independent; /* (nc) */
+} look;
+
+static void finish(look *at)
+{
+  baum_i_free(at->column_scale);
+  baum_i_free(at->independent);
+}
+
+static baum_status begin(const baum_mechanism *m, look *at)
+{
+  at->column_scale = baum_i_alloc((size_t)m->nv, sizeof *at->column_scale);
+  at->independent = baum_i_alloc((size_t)m->nc, 1);
+  if (at->column_scale && at->independent) {
+    return BAUM_OK;
+  }
+  finish(at);
+  return baum_i_fail_memory();
+}
+
+static void invert(const unsigned char *flags, int count, unsigned char *out)
+{
+  for (int i = 0; i < count; i++) {
+    out[i] = flags[i] ? 0 : 1;
+  }
+}
+
+/* As many independent rows as there are at this distance; those that are kept now come first. */
+static baum_status find_independent(const baum_workspace *w, double distance, look *at, bool *found)
+{
+  int rank = 0;
+  invert(w->redundancy.dropped, w->mechanism->nc, at->independent);
+  baum_status status = baum_i_jacobian_rank(&w->structure, w->jacobian, at->column_scale, distance,
+                                            &rank, at->independent);
+  *found = status == BAUM_OK && rank == w->redundancy.rank;
+  return status == BAUM_ERR_NOT_FINITE ? baum_i_fail_not_finite(w) : status;
+}
+
+/* Those that are kept now, where they are at least half as far apart as others. */
+static baum_status find_apart(baum_workspace *w, double t, const double *q, look *at, bool *found)
+{
+  size_t k = 0;
+  *found = false;
+  baum_status status = baum_i_position_stage(w, t, q);
+  if (status == BAUM_OK) {
+    baum_i_column_scales(w, at->column_scale);
+  }
+  for (; k < sizeof APART / sizeof APART[0] && status == BAUM_OK && !*found; k++) {
+    status = find_independent(w, APART[k], at, found);
+  }
+  return *found ? find_independent(w, 0.5 * APART[k - 1], at, found) : status;
+}
+
+baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q)
+{
+  look at;
+  bool found = false;
+  baum_status status = begin(workspace->mechanism, &at);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = find_apart(workspace, t, q, &at, &found);
+  if (found) {
+    invert(at.independent, workspace->mechanism->nc, workspace->redundancy.dropped);
+  }
+  finish(&at);
+  return status;
+}
+
+bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
+{
+  look at;
+  bool found = false;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  if (begin(workspace->mechanism, &at) == BAUM_OK) {
+    (void)find_apart(workspace, t, q, &at, &found);
+    finish(&at);
+  }
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  return found;
+}
+
+/* ---- left out ---- */
+
+/* What hangs on the choice of rows. */
+typedef struct paths {
+  baum_i_block_path *whole;
+  baum_i_block_path *motion;
+} paths;
+
+static void destroy(const paths *p)
+{
+  baum_i_block_path_destroy(p->whole);
+  baum_i_block_path_destroy(p->motion);
+}
+
+/* For the rows of the workspace, where there were such before. */
+static baum_status make_paths(baum_workspace *w, paths *out)
+{
+  baum_i_block_verdict verdict;
+  *out = (paths){0};
+  baum_status status = w->path ? baum_i_block_path_create(w, NULL, &verdict, &out->whole) : BAUM_OK;
+  if (status == BAUM_OK && w->immobile) {
+    status = baum_i_immobile_make_path(w, &out->motion);
+  }
+  bool is_missing = (w->path && !out->whole) || (w->immobile && !out->motion);
+  if (status == BAUM_OK && is_missing) {
+    status = baum_i_fail(BAUM_ERR_UNSUPPORTED, "other rows cannot be solved for by blocks");
+  }
+  if (status != BAUM_OK) {
+    destroy(out);
+  }
+  return status;
+}
+
+static void go_on_counting(const baum_i_block_path *before, baum_i_block_path *path)
+{
+  if (before) {
+    path->factorizations = before->factorizations;
+    path->refinements = before->refinements;
+  }
+}
+
+static void take_paths(baum_workspace *w, const paths *made)
+{
+  paths before = {.whole = w->path, .motion = w->immobile ? w->immobile->path : NULL};
+  go_on_counting(before.whole, made->whole);
+  go_on_counting(before.motion, made->motion);
+  w->path = made->whole;
+  if (w->immobile) {
+    w->immobile->path = made->motion;
+  }
+  w->solved_by = NULL;
+  w->eliminated_by = NULL;
+  w->mass_ready = false;
+  w->jacobian_ready = false;
+  baum_i_workspace_forget(w);
+  destroy(&before);
+}
+
+baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped)
+{
+  size_t nc = (size_t)workspace->mechanism->nc;
+  if (memcmp(workspace->redundancy.dropped, dropped, nc) == 0) {
+    return BAUM_OK;
+  }
+  unsigned char *before = baum_i_copy(workspace->redundancy.dropped, nc, 1);
+  if (!before) {
+    return baum_i_fail_memory();
+  }
+  paths made;
+  memcpy(workspace->redundancy.dropped, dropped, nc);
+  baum_status status = make_paths(workspace, &made);
+  if (status == BAUM_OK) {
+    take_paths(workspace, &made);
+  } else {
+    memcpy(workspace->redundancy.dropped, before, nc);
+  }
+  baum_i_free(before);
+  return status;
+}
+
+/* ---- chosen anew ---- */
+
+static baum_status look_for_others(baum_workspace *w, double t, const double *q, bool *changed)
+{
+  look at;
+  bool found = false;
+  int nc = w->mechanism->nc;
+  baum_status status = begin(w->mechanism, &at);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  status = find_apart(w, t, q, &at, &found);
+  if (found) {
+    invert(at.independent, nc, at.independent);
+    *changed = memcmp(at.independent, w->redundancy.dropped, (size_t)nc) != 0;
+  }
+  if (*changed) {
+    status = baum_i_leave_out_rows(w, at.independent);
+    *changed = status == BAUM_OK;
+  }
+  finish(&at);
+  return status;
+}
+
+/* What fails here leaves the rows as they are, which are no worse than before. */
+bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot)
+{
+  baum_i_redundancy *r = &workspace->redundancy;
+  if (r->count == 0 || pivot >= POOR) {
+    r->tried = 0.0;
+    return false;
+  }
+  if (pivot > r->tried / RETRY && pivot < r->tried * RETRY) {
+    return false;
+  }
+  bool changed = false;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  (void)look_for_others(workspace, t, q, &changed);
+  r->tried = changed ? 0.0 : pivot;
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  return changed;
+}

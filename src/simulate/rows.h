@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Which redundant rows a run leaves out (dynamics/choose_rows.c), and all in it that hangs on them. */
+#ifndef BAUM_I_SIMULATE_ROWS_H
+#define BAUM_I_SIMULATE_ROWS_H
+
+#include "simulate/run.h"
+
+/* At the present state, where the next step begins: leave out others where those that are kept have become poor; then
+ * methods begin anew. Statuses of baum_i_run_begin_anew(). Nothing for kinematics. */
+baum_status baum_i_run_choose_rows(baum_simulation *run);
+
+/* Likewise for a state that comes from outside of the motion, with which all begins anew in any case. */
+void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
+
+/* Leave out these (nc). Statuses of baum_i_leave_out_rows(); then all stays as it is. */
+baum_status baum_i_run_leave_out_rows(baum_simulation *run, const unsigned char *dropped);
+
+#endif
