@@ -133,7 +133,7 @@ stage_sweeps() {
 
 stage_valgrind() {
   need_venv
-  build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;--quiet;--error-exitcode=99;--leak-check=full"
+  build dev valgrind "-DCMAKE_CROSSCOMPILING_EMULATOR=valgrind;--quiet;--trace-children=yes;--error-exitcode=99;--leak-check=full"
   run_tests valgrind -LE 'layout|python|sweep|grid'
 }
 
