@@ -12,11 +12,15 @@
 #include "base/message.h"
 #include "dynamics/immobile.h"
 
-/* Distances of rows from those before, of their length: with the first that makes up the rank they are well apart. */
-static const double APART[] = {0.5, 0.2, 0.1, 0.05};
+/* Distances of rows from those before, of their length, that are tried: with the first at which there are as many as the rank
+ * they are well apart, and better than those kept if these are not so far apart by FACTOR. */
+static const double MOST = 0.7;
+static const double LEAST = 0.04;
+static const double STEP = 0.75;
+static const double FACTOR = 1.5;
 
 /* Below it others are looked for, each time when it has changed by RETRY since. */
-static const double POOR = 0.1;
+static const double POOR = 0.2;
 static const double RETRY = 3.0;
 
 /* ---- rows that are well apart ---- */
@@ -61,19 +65,20 @@ static baum_status find_independent(const baum_workspace *w, double distance, lo
   return status == BAUM_ERR_NOT_FINITE ? baum_i_fail_not_finite(w) : status;
 }
 
-/* Those that are kept now, where they are at least half as far apart as others. */
+/* Those that are kept now, unless others are better. */
 static baum_status find_apart(baum_workspace *w, double t, const double *q, look *at, bool *found)
 {
-  size_t k = 0;
   *found = false;
   baum_status status = baum_i_position_stage(w, t, q);
   if (status == BAUM_OK) {
     baum_i_column_scales(w, at->column_scale);
   }
-  for (; k < sizeof APART / sizeof APART[0] && status == BAUM_OK && !*found; k++) {
-    status = find_independent(w, APART[k], at, found);
+  double distance = MOST;
+  while (status == BAUM_OK && !*found && distance > LEAST) {
+    status = find_independent(w, distance, at, found);
+    distance *= STEP;
   }
-  return *found ? find_independent(w, 0.5 * APART[k - 1], at, found) : status;
+  return *found ? find_independent(w, distance / (STEP * FACTOR), at, found) : status;
 }
 
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q)

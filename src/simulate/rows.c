@@ -37,8 +37,8 @@ static void settle(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* QR weighs the constraints so that its pivots fall next to a pose only: there rows are poor after a while, for all that is
- * known. Its steps allocate in any case. */
+/* KLU's pivots scatter, and those of QR, which weighs the constraints, fall next to a pose only. There rows are poor after a
+ * while, for all that is known; what looking at them costs is little beside the work of these. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
@@ -54,8 +54,7 @@ static double guess_pivot(baum_simulation *run)
 static double find_pivot(baum_simulation *run)
 {
   const baum_i_passages *p = run->passages;
-  return run->workspace->choice == BAUM_I_KKT_QR ? guess_pivot(run)
-                                                 : p->recent[p->recent_count - 1].pivot;
+  return run->workspace->path ? p->recent[p->recent_count - 1].pivot : guess_pivot(run);
 }
 
 baum_status baum_i_run_choose_rows(baum_simulation *run)
@@ -74,7 +73,11 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   tell_account(run);
   settle(run);
   baum_i_passages_end(run);
-  return baum_i_run_begin_anew(run);
+  baum_status status = baum_i_run_begin_anew(run);
+  if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
+    run->integrator->forget(run->self); /* pivots of other rows */
+  }
+  return status;
 }
 
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state)

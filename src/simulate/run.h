@@ -91,7 +91,7 @@ struct baum_simulation {
   double start_energy;
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
-  double rows_looked_at;      /* [s] redundant ones, with QR; see rows.c */
+  double rows_looked_at;      /* [s] redundant ones, with KLU and QR; see rows.c */
   bool redundant_seen;        /* a row left out as redundant was found violated */
   bool large_seen;            /* a violation above a share of the scales has been warned of */
   double judged_phi;          /* max_phi when that was last looked at */

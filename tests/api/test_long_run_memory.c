@@ -34,15 +34,16 @@ static baum_status create(const baum_mechanism *mechanism, baum_solver solver,
   return baum_simulation_create(mechanism, &o, run);
 }
 
-static model make_crank(void)
+static model make_crank(bool redundant)
 {
   model m = {0};
-  assert_int_equal(model_slider_crank_build((model_slider_crank){.doubled_guide = true}, &m),
+  assert_int_equal(model_slider_crank_build((model_slider_crank){.doubled_guide = redundant}, &m),
                    BAUM_OK);
   return m;
 }
 
-/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then. */
+/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then, and blocks the rows to leave out; with KLU
+ * these are looked at again and again. */
 static void steps_and_outputs_allocate_nothing(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU};
@@ -50,8 +51,8 @@ static void steps_and_outputs_allocate_nothing(void **state)
   if (!heap_is_ours()) {
     skip();
   }
-  model m = make_crank();
   for (int k = 0; k < 2; k++) {
+    model m = make_crank(k == 0);
     baum_simulation *run = NULL;
     assert_int_equal(create(m.mechanism, SOLVERS[k], &run), BAUM_OK);
     assert_true(go(run, 0.0, 0.1) >= BAUM_OK);
@@ -60,8 +61,8 @@ static void steps_and_outputs_allocate_nothing(void **state)
     assert_int_equal(baum_simulation_advance_to(run, 0.25), BAUM_OK);
     assert_int_equal(heap_stop(), 0);
     baum_simulation_destroy(run);
+    model_destroy(&m);
   }
-  model_destroy(&m);
 }
 
 static baum_status simulate(const baum_mechanism *mechanism)
@@ -83,7 +84,7 @@ static void a_run_survives_every_failing_allocation(void **state)
   if (!heap_is_ours()) {
     skip();
   }
-  model m = make_crank();
+  model m = make_crank(true);
   assert_int_equal(simulate(m.mechanism), BAUM_OK);
   long before = heap_blocks();
   heap_watch();
