@@ -159,6 +159,55 @@ static void a_body_that_cannot_move_stays_left_out(void **state)
   model_destroy(&m);
 }
 
+/* A quarter of a turn on, and half a turn behind the start, where the rows of the start are next to dependent. */
+static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
+{
+  (void)state;
+  model there = make(false);
+  model here = make(false);
+  step_mode rk8 = {baum_rk8(), false};
+  baum_simulation *from = start(&there, rk8, BAUM_FORMULATION_PROJECTION);
+  baum_simulation *to = start(&here, rk8, BAUM_FORMULATION_PROJECTION);
+  for (double t = 0.05; t < 0.8; t += 0.05) {
+    baum_counters counters;
+    check(baum_simulation_advance_to(from, t));
+    check(baum_simulation_set_state(to, t, baum_simulation_q(from), baum_simulation_v(from)));
+    check(baum_simulation_advance_to(to, t + 0.2));
+    check(baum_simulation_counters(to, &counters, sizeof counters));
+    assert_true(fabs(baum_simulation_q(to)[2] - swing(t + 0.2)) <= 1e-6); /* 100 rtol */
+    assert_int_equal(counters.near_singular_intervals, 0);
+  }
+  baum_simulation_destroy(from);
+  baum_simulation_destroy(to);
+  model_destroy(&there);
+  model_destroy(&here);
+}
+
+/* And is not projected when rows change. */
+static void a_violation_that_was_given_stays(void **state)
+{
+  (void)state;
+  model m = make(false);
+  baum_simulation_options options = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  baum_counters counters;
+  double q[NV];
+  options.integrator = baum_rk4();
+  options.step = STEP;
+  options.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  options.start = BAUM_START_AS_GIVEN;
+  check(baum_simulation_create(m.mechanism, &options, &run));
+  memcpy(q, baum_simulation_q(run), sizeof q);
+  q[0] += 1e-6;
+  check(baum_simulation_set_state(run, 0.0, q, baum_simulation_v(run)));
+  check(baum_simulation_advance_to(run, 0.3)); /* more than half a turn */
+  check(baum_simulation_counters(run, &counters, sizeof counters));
+  assert_true(fabs(baum_simulation_q(run)[0] - cos(baum_simulation_q(run)[2]) / 2) > 1e-7);
+  assert_true(fabs(baum_simulation_q(run)[2] - swing(0.3)) <= 1e-3);
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
 static baum_simulation *start_with_account(const model *m, const baum_integrator *integrator)
 {
   baum_simulation_options options = baum_simulation_options_default();
@@ -246,6 +295,8 @@ int main(void)
     cmocka_unit_test(every_stabilized_method_goes_round),
     cmocka_unit_test(every_solver_goes_round),
     cmocka_unit_test(a_body_that_cannot_move_stays_left_out),
+    cmocka_unit_test(a_state_from_elsewhere_has_rows_of_its_own),
+    cmocka_unit_test(a_violation_that_was_given_stays),
     cmocka_unit_test(a_restored_run_leaves_out_the_same_rows),
     cmocka_unit_test(the_energy_account_closes),
     cmocka_unit_test(accelerations_are_right_where_rows_of_the_start_are_singular),

@@ -250,6 +250,40 @@ static void nothing_is_left_out_where_another_row_was_spared(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* A frame, and two bars that two pins lock and a third one carries: one of these rows is redundant. In its place the first of
+ * the weld, which is what holds the frame, cannot be spared. */
+static void rows_of_what_is_left_out_are_not_exchanged(void **state)
+{
+  (void)state;
+  baum_mechanism *m = begin();
+  baum_body_id frame = add_body(m, 0.0, 0.0);
+  baum_body_id first = add_body(m, 0.5, 0.0);
+  baum_body_id second = add_body(m, 1.2, 0.3);
+  (void)weld(m, BAUM_GROUND, frame);
+  (void)pin(m, frame, first, 0.0, 0.0);
+  (void)pin(m, first, second, 0.9, 0.0);
+  (void)pin(m, first, second, 1.1, 0.25);
+  check(baum_mechanism_freeze(m));
+  baum_simulation_options o = fixed_step();
+  baum_simulation *run = start(m, &o);
+  const baum_workspace *w = run->workspace;
+  const unsigned char *now = w->redundancy.dropped;
+  unsigned char dropped[9];
+  unsigned char before[9];
+  assert_int_equal(left_out(run), 1);
+  assert_int_equal(w->redundancy.count, 1);
+  memcpy(before, now, sizeof before);
+  memset(dropped, 0, sizeof dropped);
+  dropped[0] = 1;
+  const baum_i_block_path *path = w->path;
+  assert_int_equal(baum_i_leave_out_rows(run->workspace, dropped), BAUM_ERR_UNSUPPORTED);
+  assert_memory_equal(now, before, sizeof before);
+  assert_ptr_equal(w->path, path);
+  assert_int_equal(left_out(run), 1);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
 static void methods_that_need_multipliers_leave_out_nothing(void **state)
 {
   (void)state;
@@ -441,6 +475,7 @@ int main(void)
     cmocka_unit_test(nothing_but_frames_is_nothing_to_solve),
     cmocka_unit_test(what_a_driver_holds_is_not_left_out),
     cmocka_unit_test(nothing_is_left_out_where_another_row_was_spared),
+    cmocka_unit_test(rows_of_what_is_left_out_are_not_exchanged),
     cmocka_unit_test(methods_that_need_multipliers_leave_out_nothing),
     cmocka_unit_test(bodies_left_out_do_not_move_by_a_digit),
     cmocka_unit_test(reactions_of_what_is_left_out_are_right),
