@@ -16,8 +16,8 @@
  * they are well apart, and better than those kept if these are not so far apart by FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
-static const double STEP = 0.75;
-static const double FACTOR = 1.5;
+static const double STEP = 0.5;
+static const double FACTOR = 1.25;
 
 /* Below it others are looked for, each time when it has changed by RETRY since. */
 static const double POOR = 0.2;

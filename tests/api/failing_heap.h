@@ -26,9 +26,8 @@ static inline void fail_once(scenario *run, void *context, long n, bool for_good
   }
 }
 
-/* Each of its allocations fails, alone and with all after it; nothing but BAUM_ERR_MEMORY comes of it, and no block is
- * lost. First once without failure, which also lets libraries make what they keep for good. */
-static inline void fail_every_allocation(scenario *run, void *context)
+/* First once without failure, which also lets libraries make what they keep for good. */
+static inline long count_allocations(scenario *run, void *context)
 {
   assert_int_equal(run(context), BAUM_OK);
   long before = heap_blocks();
@@ -36,6 +35,22 @@ static inline void fail_every_allocation(scenario *run, void *context)
   assert_int_equal(run(context), BAUM_OK);
   long allocations = heap_stop();
   assert_int_equal(heap_blocks(), before);
+  return allocations;
+}
+
+/* Each of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no block is lost. */
+static inline void fail_each_allocation(scenario *run, void *context)
+{
+  long allocations = count_allocations(run, context);
+  for (long n = 0; n < allocations; n++) {
+    fail_once(run, context, n, false);
+  }
+}
+
+/* Likewise, alone and with all after it. */
+static inline void fail_every_allocation(scenario *run, void *context)
+{
+  long allocations = count_allocations(run, context);
   for (long n = 0; n < allocations; n++) {
     fail_once(run, context, n, false);
     fail_once(run, context, n, true);
