@@ -12,6 +12,7 @@ import unittest
 import warnings
 
 import baum
+from baum import library_version
 from mechanisms import pendulum
 
 TITLE = "</title><script>taken()</script> \"q\" \\ 'é'"
@@ -100,7 +101,7 @@ class Reports(unittest.TestCase):
 
         report = json.loads(self.study.report("json", TITLE), parse_constant=refuse)
         self.assertEqual(report["study"]["title"], TITLE)
-        self.assertEqual(report["environment"]["baum"], baum.library_version)
+        self.assertEqual(report["environment"]["baum"], library_version)
         self.assertEqual(report["front"]["work"], self.study.front())
         self.assertEqual(len(report["recommendations"]), 10)
         self.assertEqual([m["name"] for m in report["methods"]], [m.name for m in self.study.methods])
