@@ -273,18 +273,22 @@ static void add_weld(random_mechanism *r, const random_body *a, const random_bod
   keep(r, 'f', baum_mechanism_add_planar_fixed(r->mechanism, &def, &id), id);
 }
 
-/* A particle has its points at itself. */
-static void add_rod(random_mechanism *r, const random_body *a, const random_body *b)
+/* In axes of the body; a particle has its points at itself. */
+static void choose_end(random_mechanism *r, const random_body *body, double end[2])
 {
   double point[2];
+  choose_point(r, body, point);
+  to_body(body, body->kind == 'p' ? body->q : point, end);
+}
+
+static void add_rod(random_mechanism *r, const random_body *a, const random_body *b)
+{
   baum_planar_distance_def def = baum_planar_distance_def_default();
   baum_joint_id id;
   def.body_a = a->id;
   def.body_b = b->id;
-  choose_point(r, a, point);
-  to_body(a, a->kind == 'p' ? a->q : point, def.point_a);
-  choose_point(r, b, point);
-  to_body(b, b->kind == 'p' ? b->q : point, def.point_b);
+  choose_end(r, a, def.point_a);
+  choose_end(r, b, def.point_b);
   keep(r, 'd', baum_mechanism_add_planar_distance(r->mechanism, &def, &id), id);
 }
 
@@ -515,7 +519,7 @@ static void add_load(random_mechanism *r)
   assert_int_equal(baum_mechanism_add_planar_load(r->mechanism, &def, &id), BAUM_OK);
 }
 
-/* Between bodies with points; a particle has them at itself. */
+/* Between bodies with points. */
 static void add_spring(random_mechanism *r)
 {
   chance *c = &r->chance;
@@ -524,15 +528,12 @@ static void add_spring(random_mechanism *r)
   if (a == b || a->kind == 'c' || b->kind == 'c') {
     return;
   }
-  double point[2];
   baum_planar_spring_def def = baum_planar_spring_def_default();
   baum_force_id id;
   def.body_a = a->id;
   def.body_b = b->id;
-  choose_point(r, a, point);
-  to_body(a, a->kind == 'p' ? a->q : point, def.point_a);
-  choose_point(r, b, point);
-  to_body(b, b->kind == 'p' ? b->q : point, def.point_b);
+  choose_end(r, a, def.point_a);
+  choose_end(r, b, def.point_b);
   def.stiffness = chance_decade(c, 1.0, 100.0);
   def.damping = chance_below(c, 2) == 0 ? 0.0 : chance_decade(c, 0.01, 10.0);
   assert_int_equal(baum_mechanism_add_planar_spring(r->mechanism, &def, &id), BAUM_OK);
