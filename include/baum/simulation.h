@@ -438,7 +438,7 @@ typedef struct baum_counters {
   int64_t nonlinear_iterations; /**< [-] of CVODE, IDA, kinematics. */
   int64_t restarts;             /**< [-] of a multistep method. */
   int64_t near_singular;        /**< [-] evaluations in which the matrix was close to singular. */
-  int64_t warnings;             /**< [-] see baum_simulation_warning(). */
+  int64_t warnings;             /**< [-] kinds of warnings, see baum_simulation_warning(). */
   double wall;                  /**< [s] inside advance_to, step and sample. */
   double max_phi;               /**< [m or rad] largest |Phi| over all steps. */
   double max_phi_rate;          /**< [m/s or rad/s] largest |Phi'| over all steps. */
@@ -464,6 +464,9 @@ typedef struct baum_counters {
                                 estimate. */
   double energy_residual;  /**< [J] of the energy account at present: gained or lost by the method
                                 itself; NaN without the option energy_account. */
+  int64_t doubts;          /**< [-] kinds of warnings that doubt the motion. */
+  double error_estimate;   /**< [-] estimated error of the motion by a fixed step, relative to the
+                                characteristic length and to radians; NaN with variable steps. */
 } baum_counters;
 
 /** Read the counters.
@@ -544,13 +547,49 @@ typedef struct baum_near_singular {
 BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simulation, int64_t k,
                                                    baum_near_singular *out, size_t caller_size);
 
-/** Read a warning.
- *  @param      k     0 to counters.warnings - 1
- *  @param[out] text  (size) zero-terminated, cut if too long
+/** What a warning is about. Kinds from 100 on doubt the motion: the result may be wrong by far more than
+ *  its tolerance. The others tell what deserves to be known about a right one. */
+typedef enum baum_warning_code {
+  BAUM_WARNING_REDUNDANT_ROWS = 1,      /**< Some multipliers are not unique. */
+  BAUM_WARNING_SINGULAR_START = 2,      /**< The initial configuration is singular. */
+  BAUM_WARNING_GAINS = 3,               /**< The stability of the gains is not known. */
+  BAUM_WARNING_NOISY_DERIVATIVES = 4,   /**< rtol is below the error of differences. */
+  BAUM_WARNING_INDEX3 = 5,              /**< IDA at index 3: for comparison only. */
+  BAUM_WARNING_LOOSE_VELOCITIES = 6,    /**< Ill-conditioned rows leave velocities loose. */
+  BAUM_WARNING_ENERGY_ACCOUNT = 7,      /**< The energy account has ended. */
+  BAUM_WARNING_ILL_CONDITIONED = 8,     /**< The equations of motion are close to singular. */
+  BAUM_WARNING_SINGULARITY_CROSSED = 9, /**< The motion continues smoothly through a singularity. */
+  BAUM_WARNING_BRANCH = 100,            /**< It may have left its branch at a singularity. */
+  BAUM_WARNING_VIOLATION = 101,         /**< The constraint violation is too large. */
+  BAUM_WARNING_CONTRADICTION = 102,     /**< Omitted rows no longer follow from the others. */
+  BAUM_WARNING_STEP = 103,              /**< The fixed step is too long for the motion. */
+  BAUM_WARNING_ENERGY = 104,            /**< A conservative mechanism gains or loses energy. */
+  BAUM_WARNING_GLOBAL_ERROR = 105       /**< The companion run of error_check differs. */
+} baum_warning_code;
+
+/** Name of a kind of warnings such as "branch"; NULL for an unknown value. */
+BAUM_API const char *baum_warning_name(baum_warning_code code);
+
+/** All warnings of one kind. */
+typedef struct baum_warning {
+  size_t struct_size;     /**< Set by baum_simulation_warning(). */
+  baum_warning_code code; /**< Kind. */
+  bool doubts_motion;     /**< The result may be wrong: code >= 100. */
+  baum_joint_id joint;    /**< Joint that the first one is about; all-zero: none. */
+  double first;           /**< [s] time of the first one. */
+  double last;            /**< [s] time of the last one. */
+  int64_t count;          /**< [-] how many there were. */
+  char text[400];         /**< Message of the first one, and how often it came. */
+} baum_warning;
+
+/** Read a kind of warnings. A run keeps one entry per kind, in the order in which they first came.
+ *  @param      k            0 to counters.warnings - 1
+ *  @param[out] out          filled
+ *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k,
-                                             char *text, size_t size);
+                                             baum_warning *out, size_t caller_size);
 
 /** In words: formulation, integrator, gains and why, stability, solver, redundancy, tolerances.
  *  Owned by the run; NULL for NULL. */

@@ -299,7 +299,9 @@ typedef struct baum_study_row {
                                others that are as exact. */
   double
     alpha; /**< [1/s] of the gains that the run used, whatever their rule; 0: none, NaN: not run. */
-  double beta; /**< [1/s] likewise. */
+  double beta;           /**< [1/s] likewise. */
+  int64_t doubts;        /**< [-] kinds of warnings that doubt the motion. */
+  double error_estimate; /**< [-] as in baum_counters. */
 } baum_study_row;
 
 /** Number of rows; 0 for NULL. */

@@ -333,7 +333,8 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
   }
   if (status != BAUM_OK) {
     account->broken = true;
-    baum_i_run_warn(run, "t = %.9g s: the energy account ends here: %.200s", account->from.t,
+    baum_i_run_warn(run, BAUM_WARNING_ENERGY_ACCOUNT, account->from.t, BAUM_I_NO_JOINT,
+                    "t = %.9g s: the energy account ends here: %.200s", account->from.t,
                     baum_message());
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);

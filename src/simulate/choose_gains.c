@@ -145,7 +145,9 @@ static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_conte
     }
     keep_worse(run, &own);
     if (own.doubtful) {
-      baum_i_run_warn(run, "with the factor %g of row_gains: %s", f, own.why);
+      int joint = baum_i_row_joint(run->workspace->mechanism, i);
+      baum_i_run_warn(run, BAUM_WARNING_GAINS, run->trial.t, joint,
+                      "with the factor %g of row_gains: %s", f, own.why);
     }
   }
   return BAUM_OK;
@@ -192,7 +194,7 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
   problem->beta = run->gains.beta;
   problem->max_step = fmin(problem->max_step, run->gains.max_step);
   if (run->gains.doubtful) {
-    baum_i_run_warn(run, "%s", run->gains.why);
+    baum_i_run_warn(run, BAUM_WARNING_GAINS, run->trial.t, BAUM_I_NO_JOINT, "%s", run->gains.why);
   }
   return BAUM_OK;
 }

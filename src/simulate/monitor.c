@@ -11,58 +11,12 @@
 #include "simulate/account.h"
 #include "simulate/passage.h"
 
-/* ---- warnings ---- */
-
-void baum_i_run_warn(baum_simulation *run, const char *format, ...)
-{
-  if (run->counters.warnings < BAUM_I_WARNINGS) {
-    va_list arguments;
-    va_start(arguments, format);
-    (void)baum_i_format(run->warnings[run->counters.warnings], BAUM_I_WARNING_SIZE, format,
-                        arguments);
-    va_end(arguments);
-  }
-  run->counters.warnings++;
-}
-
-baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k, char *text,
-                                    size_t size)
-{
-  const char *call = "baum_simulation_warning";
-  if (!simulation || !text || size == 0) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "text is NULL or size is 0" : "the simulation is NULL");
-  }
-  baum_status status = baum_i_check_entry(k, 0, simulation->counters.warnings, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  (void)snprintf(text, size, "%s",
-                 k < BAUM_I_WARNINGS ? simulation->warnings[k]
-                                     : "(further warnings are counted, not kept)");
-  return BAUM_OK;
-}
-
 /* ---- the sentence of the run ---- */
 
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
 {
   memcpy(run->message, baum_message(), sizeof run->message);
   return status;
-}
-
-baum_status baum_i_run_finish(baum_simulation *run)
-{
-  if (run->counters.warnings == run->signalled) {
-    return BAUM_OK;
-  }
-  int64_t first = run->signalled;
-  run->signalled = run->counters.warnings;
-  (void)baum_i_fail(BAUM_WARNED, "t = %.9g s: %lld new %s, the first: %s", run->state.t,
-                    (long long)(run->counters.warnings - first),
-                    run->counters.warnings - first == 1 ? "warning" : "warnings",
-                    first < BAUM_I_WARNINGS ? run->warnings[first] : "not kept");
-  return baum_i_run_fail(run, BAUM_WARNED);
 }
 
 /* ---- what is observed at every step ---- */
@@ -100,7 +54,8 @@ static void observe_singular(baum_simulation *run, double t)
       (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
     }
     baum_i_run_warn(
-      run,
+      run, BAUM_WARNING_ILL_CONDITIONED, t,
+      row >= 0 ? baum_i_row_joint(w->mechanism, row) : BAUM_I_NO_JOINT,
       "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
       "%s",
       t, label);
@@ -135,7 +90,8 @@ static void observe_redundant(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
-  if (w->redundancy.count == 0 || run->redundant_seen || !has_jacobian(w)) {
+  if (w->redundancy.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
+      !has_jacobian(w)) {
     return;
   }
   double *distance = w->work_c;
@@ -155,12 +111,11 @@ static void observe_redundant(baum_simulation *run, double t)
   if (left_out > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
     (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
-    baum_i_run_warn(run,
+    baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
                     "t = %.9g s: a row of %s that was left out as redundant is violated by %.3g, "
                     "relative to the scales, the rows that were kept by %.1g: constraints "
                     "contradict each other, or the motion has left its branch; do not trust it",
                     t, label, left_out, kept);
-    run->redundant_seen = true;
   }
 }
 
@@ -173,7 +128,8 @@ static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
-  if (run->large_seen || run->counters.max_phi <= 2.0 * run->judged_phi) {
+  if (baum_i_run_has_warned(run, BAUM_WARNING_VIOLATION) ||
+      run->counters.max_phi <= 2.0 * run->judged_phi) {
     return;
   }
   run->judged_phi = run->counters.max_phi;
@@ -182,16 +138,16 @@ static void observe_large(baum_simulation *run, double t)
   }
   double *distance = w->work_c;
   baum_i_row_displacements(w, distance);
-  for (int i = 0; i < m->nc && !run->large_seen; i++) {
+  for (int i = 0; i < m->nc; i++) {
     double size = fabs(w->phi[i]) / distance[i];
-    run->large_seen = size > LARGE;
-    if (run->large_seen) {
+    if (size > LARGE) {
       char label[BAUM_I_LABEL_SIZE];
       (void)baum_i_joint_label(m, baum_i_row_joint(m, i), label);
-      baum_i_run_warn(run,
+      baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
                       "t = %.9g s: %s is violated by %.3g, relative to the scales: the run has "
                       "drifted far or blows up; take other gains, a smaller step, or projection",
                       t, label, size);
+      return;
     }
   }
 }

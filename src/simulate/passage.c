@@ -240,6 +240,9 @@ static void record(baum_simulation *run, double to)
     (void)baum_i_joint_label(run->workspace->mechanism, p->present.joint, label);
   }
   baum_i_run_warn(run,
+                  entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED
+                                                        : BAUM_WARNING_BRANCH,
+                  entry.t, p->present.joint,
                   "t = %.9g s to %.9g s: near a singular pose (pivot %.1e of the usual, %s): %s",
                   entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {

@@ -36,7 +36,7 @@ static void warn(baum_simulation *run, double turn, double error)
   double h = run->options.step;
   double advised = h * pow(FINE / error, 1.0 / run->integrator->order);
   baum_i_run_warn(
-    run,
+    run, BAUM_WARNING_STEP, run->state.t, BAUM_I_NO_JOINT,
     "t = %.9g s: the step of %.3g s is too long for %s: the motion turns by about %.2g "
     "rad in each, and by now is off by about %.1g of the scales; take a step below %.1g s",
     run->state.t, h, run->integrator->name, turn, error, advised);

@@ -12,8 +12,7 @@
 #include "stabilization/gains.h"
 
 enum {
-  BAUM_I_WARNINGS = 32,      /* kept in words; more are counted */
-  BAUM_I_WARNING_SIZE = 320, /* characters of one */
+  BAUM_I_WARNINGS = 24, /* more than there are kinds */
   BAUM_I_EXPLAIN_SIZE = 3072
 };
 
@@ -92,14 +91,12 @@ struct baum_simulation {
   double largest_gamma;       /* over all rows and steps */
   int64_t near_singular_seen; /* workspace->near_singular at the last look */
   double rows_looked_at;      /* [s] redundant ones, with KLU and QR; see rows.c */
-  bool redundant_seen;        /* a row left out as redundant was found violated */
-  bool large_seen;            /* a violation above a share of the scales has been warned of */
   double judged_phi;          /* max_phi when that was last looked at */
 
   baum_i_resolution resolution;
 
-  int64_t signalled; /* warnings that a status has announced */
-  char warnings[BAUM_I_WARNINGS][BAUM_I_WARNING_SIZE];
+  baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
+  int64_t announced[BAUM_I_WARNINGS];     /* how many of it a status has announced */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
   baum_i_gain_choice gains;
@@ -151,9 +148,24 @@ double baum_i_run_pilot(baum_simulation *run, double swing);
 /* Gains, and what they ask of the step, into the problem. */
 baum_status baum_i_run_choose_gains(baum_simulation *run);
 
-/* ---- monitor.c ---- */
+/* ---- warnings.c ---- */
 
-void baum_i_run_warn(baum_simulation *run, const char *format, ...) BAUM_I_PRINTF(2, 3);
+enum { BAUM_I_NO_JOINT = -1 };
+
+/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first one keeps its text. */
+void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
+                     const char *format, ...) BAUM_I_PRINTF(5, 6);
+
+/* Is it of a kind that doubts the motion? */
+bool baum_i_doubts_motion(baum_warning_code code);
+
+/* Does the run have a warning of this kind? */
+bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code);
+
+/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
+baum_status baum_i_run_finish(baum_simulation *run);
+
+/* ---- monitor.c ---- */
 
 /* Violation, gamma and near-singular poses from the workspace's last velocity stage,
  * which was at time t. */
@@ -166,9 +178,6 @@ baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
  * may help. Returns the status. */
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
                                        const baum_i_state *at);
-
-/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
-baum_status baum_i_run_finish(baum_simulation *run);
 
 /* Relative error of derivatives that user constraints do not give; 0: they give all. */
 double baum_i_difference_noise(const baum_mechanism *mechanism);

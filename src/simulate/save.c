@@ -546,10 +546,14 @@ static void own_ids(baum_simulation *run)
   }
 }
 
-static void end_warnings(baum_simulation *run)
+/* Whatever bytes they were. */
+static void own_warnings(baum_simulation *run)
 {
-  for (int k = 0; k < BAUM_I_WARNINGS; k++) {
-    run->warnings[k][BAUM_I_WARNING_SIZE - 1] = '\0';
+  for (int64_t k = 0; k < run->counters.warnings; k++) {
+    baum_warning *warning = &run->warnings[k];
+    own_id(run, &warning->joint);
+    warning->doubts_motion = baum_i_doubts_motion(warning->code);
+    warning->text[sizeof warning->text - 1] = '\0';
   }
 }
 
@@ -566,7 +570,7 @@ static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *
     }
   }
   own_ids(run);
-  end_warnings(run);
+  own_warnings(run);
   baum_i_run_count_from_here(run);
   baum_i_run_copy(run, &run->state, &run->ahead);
   forget(run);

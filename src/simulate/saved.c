@@ -176,7 +176,8 @@ static void list_counters(baum_counters *c, baum_i_saved *list)
   BAUM_I_SAVED_ADD_COUNT(list, "iterations", c->nonlinear_iterations);
   BAUM_I_SAVED_ADD_COUNT(list, "restarts", c->restarts);
   BAUM_I_SAVED_ADD_COUNT(list, "near singular in all", c->near_singular);
-  BAUM_I_SAVED_ADD_COUNT(list, "number of warnings", c->warnings);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "number of warnings", c->warnings, 0, BAUM_I_WARNINGS);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "number of doubts", c->doubts, 0, BAUM_I_WARNINGS);
   BAUM_I_SAVED_ADD(list, "wall", c->wall);
   BAUM_I_SAVED_ADD(list, "largest phi", c->max_phi);
   BAUM_I_SAVED_ADD(list, "largest rate", c->max_phi_rate);
@@ -201,16 +202,14 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "largest gamma", run->largest_gamma);
   BAUM_I_SAVED_ADD_COUNT(list, "near singular seen", run->near_singular_seen);
   BAUM_I_SAVED_ADD(list, "rows looked at", run->rows_looked_at);
-  BAUM_I_SAVED_ADD_FLAG(list, "redundant seen", run->redundant_seen);
-  BAUM_I_SAVED_ADD_FLAG(list, "large seen", run->large_seen);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
   BAUM_I_SAVED_ADD(list, "accelerations", run->resolution.sizes);
   BAUM_I_SAVED_ADD(list, "changes of accelerations", run->resolution.changes);
   BAUM_I_SAVED_ADD(list, "way", run->resolution.way);
   BAUM_I_SAVED_ADD_FLAG(list, "acceleration follows", run->resolution.follows);
   BAUM_I_SAVED_ADD_FLAG(list, "coarse steps seen", run->resolution.coarse);
-  BAUM_I_SAVED_ADD_COUNT(list, "signalled", run->signalled);
-  baum_i_saved_add_some(list, "warnings", run->warnings, BAUM_I_WARNING_SIZE,
+  BAUM_I_SAVED_ADD(list, "announced", run->announced);
+  baum_i_saved_add_some(list, "warnings", run->warnings, sizeof *run->warnings,
                         run->counters.warnings, BAUM_I_WARNINGS);
 }
 

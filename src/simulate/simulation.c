@@ -80,13 +80,13 @@ static baum_status warn_redundancy(baum_simulation *run)
     if (status != BAUM_OK) {
       return status;
     }
-    baum_i_run_warn(run,
+    baum_i_run_warn(run, BAUM_WARNING_REDUNDANT_ROWS, start->t, BAUM_I_NO_JOINT,
                     "%d redundant constraint %s among %s: accelerations are right, multipliers and "
                     "reactions of these joints are not unique and given with least norm",
                     r->count, r->count == 1 ? "row" : "rows", names);
   }
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
-    baum_i_run_warn(run,
+    baum_i_run_warn(run, BAUM_WARNING_SINGULAR_START, start->t, BAUM_I_NO_JOINT,
                     "the start pose is singular, or all but singular: %d independent constraint "
                     "rows, %d nearby",
                     r->rank_at_start, r->rank);
@@ -111,14 +111,14 @@ static baum_status warn_settings(baum_simulation *run)
   double noise = baum_i_difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
     baum_i_run_warn(
-      run,
+      run, BAUM_WARNING_NOISY_DERIVATIVES, run->trial.t, BAUM_I_NO_JOINT,
       "rtol %.1g is below %.1g, about the error of derivatives by differences of user "
       "constraints: give jacobian and gamma, or a larger rtol",
       run->options.rtol, noise);
   }
   bool variable = !baum_i_problem_has_fixed_step(&run->problem);
   if (run->options.formulation == BAUM_FORMULATION_INDEX3 && variable) {
-    baum_i_run_warn(run,
+    baum_i_run_warn(run, BAUM_WARNING_INDEX3, run->trial.t, BAUM_I_NO_JOINT,
                     "index 3 is for comparison: its velocities are outside of the error test and "
                     "the motion error is far above rtol");
   }

@@ -169,7 +169,7 @@ static baum_status tell_open(baum_simulation *run, int row, double rate, double 
                        "velocities would be open within %.1e of their size",
                        run->trial.t, label, rate, change);
   }
-  baum_i_run_warn(run,
+  baum_i_run_warn(run, BAUM_WARNING_LOOSE_VELOCITIES, run->trial.t, baum_i_row_joint(m, row),
                   "t = %.9g s: %s is off by %.3g per s at the given velocities, and holds so "
                   "hardly that these are open within %.1e of their size, and accelerations too",
                   run->trial.t, label, rate, change);

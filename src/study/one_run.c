@@ -99,6 +99,21 @@ static baum_status advance(const baum_i_task *task, baum_simulation *run)
   return status < BAUM_OK ? status : baum_simulation_advance_to(run, task->study->t1);
 }
 
+/* The first warning that doubts the motion, or the first one of all. */
+static void tell_warning(const baum_simulation *run, const baum_counters *counters, char *text,
+                         size_t size)
+{
+  baum_warning warning = {.doubts_motion = false};
+  for (int64_t k = counters->warnings - 1; k >= 0; k--) {
+    baum_warning other;
+    (void)baum_simulation_warning(run, k, &other, sizeof other);
+    if (other.doubts_motion >= warning.doubts_motion) {
+      warning = other;
+    }
+  }
+  baum_i_print(text, size, "%s", warning.text);
+}
+
 static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool with_account,
                          baum_i_outcome *out)
 {
@@ -113,7 +128,7 @@ static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool w
   } else if (out->status < BAUM_OK) {
     (void)snprintf(out->message, sizeof out->message, "%s", baum_simulation_message(run));
   } else if (out->counters.warnings > 0) {
-    (void)baum_simulation_warning(run, 0, out->message, sizeof out->message);
+    tell_warning(run, &out->counters, out->message, sizeof out->message);
   }
 }
 

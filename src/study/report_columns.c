@@ -67,6 +67,8 @@ const baum_i_column baum_i_columns[] = {
   MEASURED("warnings", "1", "warnings", "of its run", COUNT, warnings),
   MEASURED("near_singular_intervals", "1", NULL, "", COUNT, near_singular_intervals),
   MEASURED("branch_warnings", "1", NULL, "", COUNT, branch_warnings),
+  MEASURED("doubts", "1", "doubts", "kinds of warnings that doubt the motion", COUNT, doubts),
+  MEASURED("error_estimate", "1", NULL, "", NUMBER, error_estimate),
   IS("at_floor", "", NULL, "as good as can be told", FLAG, row.at_floor),
   IS("untrusted", "", NULL, "the reference is not to be trusted", FLAG, row.untrusted),
   IS("off", "", NULL, "another motion", FLAG, row.off),

@@ -71,6 +71,8 @@ static void take_motion(const baum_i_outcome *outcome, baum_study_row *row)
   row->warnings = c->warnings;
   row->near_singular_intervals = c->near_singular_intervals;
   row->branch_warnings = c->branch_warnings;
+  row->doubts = c->doubts;
+  row->error_estimate = c->error_estimate;
   row->unstable = outcome->status == BAUM_ERR_UNSTABLE || c->spectral_radius >= 1.0;
   if (outcome->created) {
     row->max_phi = c->max_phi;

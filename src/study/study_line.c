@@ -66,6 +66,8 @@ static const baum_i_study_field MEASURED[] = {
   ROW(branch_warnings, COUNT),
   ROW(alpha, NUMBER),
   ROW(beta, NUMBER),
+  ROW(doubts, COUNT),
+  ROW(error_estimate, NUMBER),
 };
 
 static const baum_i_study_field TIMED[] = {

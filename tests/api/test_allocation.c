@@ -422,8 +422,8 @@ static baum_status go(baum_simulation *run, const every_element *parts, double s
 
 static bool run_warns(const baum_simulation *run)
 {
-  char text[8];
-  return baum_simulation_warning(run, 0, text, sizeof text) == BAUM_OK;
+  baum_warning warning;
+  return baum_simulation_warning(run, 0, &warning, sizeof warning) == BAUM_OK;
 }
 
 static baum_status simulate(void *context)

@@ -381,7 +381,7 @@ static void calls_on_no_run_are_refused(void **state)
   (void)state;
   const baum_channel channel = {.quantity = BAUM_Q};
   double numbers[4] = {0.0};
-  char text[8];
+  baum_warning warning;
   bool unique = false;
   baum_counters counters;
   ASSERT_SAYS(baum_simulation_advance_to(NULL, 1.0), BAUM_ERR_ARGUMENT, "the simulation is NULL");
@@ -396,7 +396,7 @@ static void calls_on_no_run_are_refused(void **state)
               BAUM_ERR_ARGUMENT, "the simulation is NULL");
   ASSERT_SAYS(baum_simulation_counters(NULL, &counters, sizeof counters), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
-  ASSERT_SAYS(baum_simulation_warning(NULL, 0, text, sizeof text), BAUM_ERR_ARGUMENT,
+  ASSERT_SAYS(baum_simulation_warning(NULL, 0, &warning, sizeof warning), BAUM_ERR_ARGUMENT,
               "the simulation is NULL");
   assert_true(isnan(baum_simulation_time(NULL)));
   assert_null(baum_simulation_q(NULL));
@@ -417,18 +417,21 @@ static void outputs_of_a_run_may_not_be_null(void **state)
   o.step = 1e-3;
   baum_simulation *run = NULL;
   baum_counters counters;
-  char text[8] = "as is";
+  baum_warning warning = {.text = "as is"};
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
   ASSERT_SAYS(baum_simulation_counters(run, NULL, sizeof counters), BAUM_ERR_ARGUMENT,
               "out is NULL");
   ASSERT_SAYS(baum_simulation_counters(run, &counters, 0), BAUM_ERR_ARGUMENT,
               "caller_size is too small");
-  ASSERT_SAYS(baum_simulation_warning(run, 0, NULL, 8), BAUM_ERR_ARGUMENT, "text is NULL");
-  ASSERT_SAYS(baum_simulation_warning(run, 0, text, 0), BAUM_ERR_ARGUMENT, "size is 0");
-  ASSERT_SAYS(baum_simulation_warning(run, 0, text, sizeof text), BAUM_ERR_ARGUMENT,
+  ASSERT_SAYS(baum_simulation_warning(run, 0, NULL, sizeof warning), BAUM_ERR_ARGUMENT,
+              "out is NULL");
+  ASSERT_SAYS(baum_simulation_warning(run, 0, &warning, 0), BAUM_ERR_ARGUMENT,
+              "caller_size is too small");
+  ASSERT_SAYS(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_ERR_ARGUMENT,
               "k is 0, but there are none");
-  ASSERT_SAYS(baum_simulation_warning(run, -1, text, sizeof text), BAUM_ERR_ARGUMENT, "k is -1");
-  assert_string_equal(text, "as is");
+  ASSERT_SAYS(baum_simulation_warning(run, -1, &warning, sizeof warning), BAUM_ERR_ARGUMENT,
+              "k is -1");
+  assert_string_equal(warning.text, "as is");
   assert_string_equal(baum_simulation_message(run), "");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);

@@ -366,10 +366,10 @@ static void unstable_gains_run_when_allowed_and_warn(void **state)
   o.allow_unstable = true;
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
-  char text[320];
-  assert_int_equal(baum_simulation_warning(run, 0, text, sizeof text), BAUM_OK);
-  assert_non_null(strstr(text, "UNSTABLE"));
-  ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_WARNED, "1 new warning, the first: |UNSTABLE");
+  baum_warning warning;
+  assert_int_equal(baum_simulation_warning(run, 0, &warning, sizeof warning), BAUM_OK);
+  assert_non_null(strstr(warning.text, "UNSTABLE"));
+  ASSERT_SAYS(baum_simulation_step(run, 1), BAUM_WARNED, "1 new warning: |UNSTABLE");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -41,6 +41,7 @@ typedef struct scene {
   int32_t n[GRID];
   size_t size;
   bool unique[EVERY_NC];
+  baum_warning warning;
   char text[TEXT];
   unsigned char bytes[BYTES];
   baum_dae dae;
@@ -99,7 +100,7 @@ typedef struct scene {
   X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                \
   X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \
   X(baum_simulation_near_singular, (s->run, 0, &s->passage, sizeof s->passage))              \
-  X(baum_simulation_warning, (s->run, 0, s->text, TEXT))                                     \
+  X(baum_simulation_warning, (s->run, 0, &s->warning, sizeof s->warning))                    \
   X(baum_simulation_unique_multipliers, (s->run, s->unique))                                 \
   X(baum_simulation_save, (s->run, s->bytes, BYTES, &s->size))                               \
   X(baum_simulation_restore, (s->run, s->bytes, s->size))                                    \
@@ -138,6 +139,7 @@ typedef struct scene {
 #define VALUE_CALLS(X)                                                                           \
   X(baum_message, ())                                                                            \
   X(baum_status_name, (BAUM_OK))                                                                 \
+  X(baum_warning_name, (BAUM_WARNING_STEP))                                                      \
   X(baum_status_text, (BAUM_OK))                                                                 \
   X(baum_version, ())                                                                            \
   X(baum_has, ("gsl"))                                                                           \

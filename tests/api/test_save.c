@@ -35,7 +35,7 @@ typedef struct outcome {
   int64_t events;
   double last_event;
   double last_singular;
-  char warning[320];
+  baum_warning warning;
 } outcome;
 
 /* What the run remembers of events and singular poses. */
@@ -69,7 +69,8 @@ static void look(baum_simulation *run, const saved_scene *scene, outcome *out)
   }
   if (out->counters.warnings > 0) {
     int64_t last = out->counters.warnings - 1;
-    (void)baum_simulation_warning(run, last, out->warning, sizeof out->warning);
+    (void)baum_simulation_warning(run, last, &out->warning, sizeof out->warning);
+    out->warning.joint.tag = 0;
   }
   out->input = scene->has_input ? baum_simulation_input(run, scene->input) : 0.0;
   look_back(run, out);

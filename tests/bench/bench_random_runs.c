@@ -148,13 +148,11 @@ typedef struct result {
 
 static void read_warnings(const baum_simulation *run, result *out)
 {
-  static const char *const OTHERS[] = {"multipliers and reactions of these joints are not unique",
-                                       "the motion goes on smoothly behind it"};
-  char text[400];
-  for (int64_t k = 0; baum_simulation_warning(run, k, text, sizeof text) == BAUM_OK; k++) {
-    if (!strstr(text, OTHERS[0]) && !strstr(text, OTHERS[1])) {
+  baum_warning warning;
+  for (int64_t k = 0; baum_simulation_warning(run, k, &warning, sizeof warning) == BAUM_OK; k++) {
+    if (warning.doubts_motion) {
       out->doubts = true;
-      memcpy(out->text, text, sizeof text);
+      memcpy(out->text, warning.text, sizeof warning.text);
     }
   }
 }

@@ -123,7 +123,7 @@ typedef struct trial {
   baum_simulation *run;
   baum_status status;
   bool began;
-  int64_t warnings;
+  int64_t doubts;
   int64_t steps;
 } trial;
 
@@ -154,7 +154,7 @@ static void count(trial *t)
 {
   baum_counters c;
   if (baum_simulation_counters(t->run, &c, sizeof c) == BAUM_OK) {
-    t->warnings = c.warnings;
+    t->doubts = c.doubts;
     t->steps = c.steps;
   }
 }
@@ -257,43 +257,6 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* Warnings that leave the motion in doubt. Others say what is true however right it is; where it is wrong, that of a
- * passage is a warning all the same, for it names what the motion depends on. */
-static const char PASSAGE[] = "the motion goes on smoothly behind it";
-
-static bool says(const trial *t, int64_t k, const char *what)
-{
-  char text[400];
-  (void)baum_simulation_warning(t->run, k, text, sizeof text);
-  return strstr(text, what) != NULL;
-}
-
-static bool doubts_motion(const trial *t)
-{
-  static const char *const OTHERS[] = {"multipliers and reactions of these joints are not unique",
-                                       PASSAGE, "marginal: some violations stay"};
-  for (int64_t k = 0; k < t->warnings; k++) {
-    bool other = false;
-    for (size_t i = 0; i < sizeof OTHERS / sizeof OTHERS[0]; i++) {
-      other |= says(t, k, OTHERS[i]);
-    }
-    if (!other) {
-      return true;
-    }
-  }
-  return false;
-}
-
-static bool tells_passage(const trial *t)
-{
-  for (int64_t k = 0; k < t->warnings; k++) {
-    if (says(t, k, PASSAGE)) {
-      return true;
-    }
-  }
-  return false;
-}
-
 static outcome judge(const trial *t, const grade *g)
 {
   if (!t->began) {
@@ -302,13 +265,10 @@ static outcome judge(const trial *t, const grade *g)
   if (t->status < BAUM_OK) {
     return STOPPED;
   }
-  if (doubts_motion(t)) {
+  if (t->doubts > 0) {
     return WARNED;
   }
-  if (g->error <= g->promise) {
-    return MET;
-  }
-  return tells_passage(t) ? WARNED : WRONG;
+  return g->error <= g->promise ? MET : WRONG;
 }
 
 /* Below this distance a pose is singular for doubles. */

@@ -158,7 +158,7 @@ static void save_and_restore(const scene *s)
 
 static void read_all(const scene *s)
 {
-  char text[64];
+  baum_warning warning;
   baum_counters counters;
   baum_energy_account account;
   baum_near_singular passage;
@@ -168,7 +168,7 @@ static void read_all(const scene *s)
   (void)fuzz_status(baum_simulation_energy_account(s->run, &account, sizeof account));
   (void)fuzz_status(baum_simulation_near_singular(s->run, 0, &passage, sizeof passage));
   (void)fuzz_status(baum_simulation_event(s->run, 0, &record, sizeof record));
-  (void)fuzz_status(baum_simulation_warning(s->run, 0, text, (size_t)fuzz_below(s->b, 64)));
+  (void)fuzz_status(baum_simulation_warning(s->run, 0, &warning, sizeof warning));
 }
 
 static void call(const scene *s)

@@ -141,7 +141,7 @@ static baum_status restore_any(scene *s, fuzz_bytes *b)
 static void use(const scene *s)
 {
   static double row[4 * EVERY_NV];
-  char text[64];
+  baum_warning warning;
   baum_counters counters;
   baum_event_record record;
   baum_near_singular passage;
@@ -151,7 +151,7 @@ static void use(const scene *s)
   (void)fuzz_status(baum_simulation_get(s->run, &channel, 1, row));
   (void)fuzz_status(baum_simulation_counters(s->run, &counters, sizeof counters));
   for (int64_t k = counters.warnings - 1; k >= 0 && k > counters.warnings - 4; k--) {
-    (void)fuzz_status(baum_simulation_warning(s->run, k, text, sizeof text));
+    (void)fuzz_status(baum_simulation_warning(s->run, k, &warning, sizeof warning));
   }
   for (int64_t k = 0; k < 3; k++) {
     (void)fuzz_status(baum_simulation_event(s->run, k, &record, sizeof record));

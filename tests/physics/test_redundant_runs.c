@@ -67,10 +67,10 @@ static void expect(bool fine, const method *with, const char *what, double value
 static bool warns(const baum_simulation *run, int64_t count, const char *word, const char *other)
 {
   bool found = false;
-  char text[640];
+  baum_warning warning;
   for (int64_t k = 0; k < count; k++) {
-    check(baum_simulation_warning(run, k, text, sizeof text));
-    found = found || (strstr(text, word) && strstr(text, other));
+    check(baum_simulation_warning(run, k, &warning, sizeof warning));
+    found = found || (strstr(warning.text, word) && strstr(warning.text, other));
   }
   return found;
 }

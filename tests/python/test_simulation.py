@@ -247,7 +247,9 @@ class Warned(unittest.TestCase):
             run = rod_pendulum().simulate([0.01], "euler", step=1e-3, gains=baum.taylor())
         self.assertEqual(caught.filename, __file__)
         self.assertEqual(run.status, baum.Status.WARNED)
-        self.assertRegex(run.warnings[0], "marginal")
+        self.assertRegex(str(run.warnings[0]), "marginal")
+        self.assertIsInstance(run.warnings[0], baum.GainsWarning)
+        self.assertFalse(run.warnings[0].doubts_motion)
 
     def test_each_comes_once(self):
         with warnings.catch_warnings(record=True) as caught:

@@ -18,7 +18,7 @@ import importlib
 from . import _abi, _lib
 from .channels import Channel, a, energy, energy_account, lambda_, phi, phi_rate, q, v
 from .elements import Body, Force, Input, Joint
-from .errors import Error, Retry, Status, Warning
+from .errors import WARNINGS, DoubtWarning, Error, Retry, Status, Warning
 from .gains import Gains, auto, best_damping, deadbeat, fixed, frequency, scaled, taylor
 from .integrators import (
     Amplification, Integrator, integrators, stability, stability_best, stability_best_on_ray,
@@ -30,6 +30,8 @@ from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
 from .studies import Recommendation, Study, StudyMethod, StudyReference, StudyRow, study
 from .workspace import Workspace
+
+globals().update(WARNINGS)
 
 __version__ = _abi.VERSION
 library = _lib.path
@@ -49,7 +51,8 @@ def has(feature):
 
 
 __all__ = [
-    "Amplification", "Body", "Channel", "Counters", "EnergyAccount", "Error", "Event", "Force", "Gains",
+    *WARNINGS, "Amplification", "Body", "Channel", "Counters", "DoubtWarning", "EnergyAccount", "Error",
+    "Event", "Force", "Gains",
     "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Recommendation",
     "Report", "Retry", "Run", "Simulation", "Sizes", "Status", "Study", "StudyMethod",
     "StudyReference", "StudyRow", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat",

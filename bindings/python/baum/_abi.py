@@ -335,6 +335,8 @@ class baum_counters(Structure):
         ("branch_warnings", c_int64),
         ("forced_steps", c_int64),
         ("energy_residual", c_double),
+        ("doubts", c_int64),
+        ("error_estimate", c_double),
     ]
 
 
@@ -375,6 +377,37 @@ class baum_near_singular(Structure):
         ("jump_error", c_double),
         ("branch", c_int),
         ("joint", baum_joint_id),
+    ]
+
+
+class baum_warning_code(enum.IntEnum):
+    BAUM_WARNING_REDUNDANT_ROWS = 1
+    BAUM_WARNING_SINGULAR_START = 2
+    BAUM_WARNING_GAINS = 3
+    BAUM_WARNING_NOISY_DERIVATIVES = 4
+    BAUM_WARNING_INDEX3 = 5
+    BAUM_WARNING_LOOSE_VELOCITIES = 6
+    BAUM_WARNING_ENERGY_ACCOUNT = 7
+    BAUM_WARNING_ILL_CONDITIONED = 8
+    BAUM_WARNING_SINGULARITY_CROSSED = 9
+    BAUM_WARNING_BRANCH = 100
+    BAUM_WARNING_VIOLATION = 101
+    BAUM_WARNING_CONTRADICTION = 102
+    BAUM_WARNING_STEP = 103
+    BAUM_WARNING_ENERGY = 104
+    BAUM_WARNING_GLOBAL_ERROR = 105
+
+
+class baum_warning(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("code", c_int),
+        ("doubts_motion", c_bool),
+        ("joint", baum_joint_id),
+        ("first", c_double),
+        ("last", c_double),
+        ("count", c_int64),
+        ("text", c_char * 400),
     ]
 
 
@@ -698,6 +731,8 @@ class baum_study_row(Structure):
         ("error_rehearsed", c_double),
         ("alpha", c_double),
         ("beta", c_double),
+        ("doubts", c_int64),
+        ("error_estimate", c_double),
     ]
 
 
@@ -976,7 +1011,8 @@ PROTOTYPES = {
     "baum_simulation_near_singular": (c_int, [
         c_void_p, c_int64, POINTER(baum_near_singular), c_size_t,
     ]),
-    "baum_simulation_warning": (c_int, [c_void_p, c_int64, c_char_p, c_size_t]),
+    "baum_warning_name": (c_char_p, [c_int]),
+    "baum_simulation_warning": (c_int, [c_void_p, c_int64, POINTER(baum_warning), c_size_t]),
     "baum_simulation_explain": (c_char_p, [c_void_p]),
     "baum_simulation_message": (c_char_p, [c_void_p]),
     "baum_mechanism_add_break_times": (c_int, [c_void_p, c_void_p, c_int32]),
@@ -1284,6 +1320,7 @@ STRUCTS = [
     baum_counters,
     baum_energy_account,
     baum_near_singular,
+    baum_warning,
     baum_dae,
     baum_sparse,
     baum_event_def,

@@ -35,7 +35,7 @@ class Run:
     of q and v.
 
     status: OK, WARNED, or STOP_CANCELLED and STOP_EVENT (then the samples end early); counters;
-    explain: in words how it was done; warnings: list of sentences; near_singular, events: of the whole
+    explain: in words how it was done; warnings: a baum.Warning for each kind; near_singular, events: of the whole
     simulation so far; energy_account: at the end, None without the option.
     """
 

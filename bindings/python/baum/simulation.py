@@ -9,7 +9,7 @@ import numpy as np
 from . import _abi, _calls
 from .callbacks import event_function
 from .channels import Channel, Layout, q as ALL_Q, v as ALL_V
-from .errors import Error, Status, warn
+from .errors import Error, Status, as_warning, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, Integrator, lookup, names
 from ._lib import default, lib
@@ -19,7 +19,6 @@ from ._values import address, integer, number, truth, vector
 STARTS = names(_abi.baum_start, "BAUM_START_")
 SOLVERS = names(_abi.baum_solver, "BAUM_SOLVER_")
 BRANCHES = {value: name for name, value in names(_abi.baum_branch, "BAUM_BRANCH_").items()}
-WARNING_SIZE = 4096
 AT_ONCE = 0.01  # [s] steps that take less are not worth a second thread
 
 
@@ -147,7 +146,8 @@ class Simulation:
         one call. progress(t) is called every progress_interval seconds of wall time, and cancels
         when it returns something true.
 
-    Warnings of the run become Python warnings of the category baum.Warning. One thread at a time
+    Warnings of the run become Python warnings: subclasses of baum.Warning, and of baum.DoubtWarning
+    where the motion may be wrong. One thread at a time
     may use it, but for cancel().
     """
 
@@ -161,7 +161,7 @@ class Simulation:
         self._has_account = bool(options.get("energy_account"))
         self._layouts = {}
         self._event_functions = []
-        self._warned = 0
+        self._warned = {}
         self._seconds_per_step = None
         struct = make_options(integrator, options)
         struct.progress = self._keep
@@ -341,7 +341,7 @@ class Simulation:
         else is refused with Status.ERR_BUFFER. Warnings of the saved run are not given again."""
         saved = bytes(memoryview(saved))
         self._call(lib.baum_simulation_restore, saved, len(saved))
-        self._warned = self.counters.warnings
+        self._warned = {warning.code: warning.count for warning in self.warnings}
 
     def continue_from(self, other):
         """Go on where another run of the same mechanism stands, also one that has failed: with its
@@ -467,23 +467,23 @@ class Simulation:
 
     @property
     def warnings(self):
-        """Sentences of all warnings so far."""
-        return self._warnings_from(0)
-
-    def _warnings_from(self, first):
-        text = ctypes.create_string_buffer(WARNING_SIZE)
+        """A baum.Warning for each kind of warnings so far, with the time and count of it."""
         found = []
-        for k in range(first, self.counters.warnings):
-            self._owner.call(lib.baum_simulation_warning, k, text, WARNING_SIZE)
-            found.append(text.value.decode(errors="replace"))
+        for k in range(self.counters.warnings):
+            out = _abi.baum_warning()
+            self._owner.call(
+                lib.baum_simulation_warning, k, ctypes.byref(out), ctypes.sizeof(out)
+            )
+            found.append(as_warning(out, self.mechanism.find("joint", out.joint)))
         return found
 
     def _warn(self):
-        """Hand warnings that are new to Python."""
-        new = self._warnings_from(self._warned)
-        self._warned += len(new)
-        for text in new:
-            warn(text)
+        """Hand warnings that are new, or came again, to Python."""
+        before, self._warned = self._warned, {}
+        for warning in self.warnings:
+            self._warned[warning.code] = warning.count
+            if warning.count > before.get(warning.code, 0):
+                warn(warning)
 
     @property
     def explain(self):

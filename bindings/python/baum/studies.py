@@ -11,7 +11,7 @@ from . import _abi, _calls
 from ._lib import default, lib
 from ._values import address, integer, number, numbers, vector
 from .channels import Channel
-from .errors import Status, as_status, warn
+from .errors import Status, Warning, as_status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, lookup, names
 from .simulation import SOLVERS, STARTS, _row_gains, make_options
@@ -268,7 +268,7 @@ class Study:
             self.add_standard()
         status, sentence = self._long(lib.baum_study_run)
         if status != Status.OK:
-            warn(sentence)
+            warn(Warning(sentence))
         return self
 
     def cancel(self):
@@ -376,7 +376,7 @@ class Study:
         status = self._owner.call(function, *arguments, ctypes.byref(best), ctypes.sizeof(best),
                                   why, WHY_SIZE)
         if status != Status.OK:
-            warn(_calls.message())
+            warn(Warning(_calls.message()))
         return Recommendation(self._keywords(best), why.value.decode(errors="replace"))
 
     def _keywords(self, best):

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Warnings of a run: one entry per kind. */
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "base/text.h"
+#include "simulate/run.h"
+
+const char *baum_warning_name(baum_warning_code code)
+{
+  switch (code) {
+  case BAUM_WARNING_REDUNDANT_ROWS: return "redundant_rows";
+  case BAUM_WARNING_SINGULAR_START: return "singular_start";
+  case BAUM_WARNING_GAINS: return "gains";
+  case BAUM_WARNING_NOISY_DERIVATIVES: return "noisy_derivatives";
+  case BAUM_WARNING_INDEX3: return "index3";
+  case BAUM_WARNING_LOOSE_VELOCITIES: return "loose_velocities";
+  case BAUM_WARNING_ENERGY_ACCOUNT: return "energy_account";
+  case BAUM_WARNING_ILL_CONDITIONED: return "ill_conditioned";
+  case BAUM_WARNING_SINGULARITY_CROSSED: return "singularity_crossed";
+  case BAUM_WARNING_BRANCH: return "branch";
+  case BAUM_WARNING_VIOLATION: return "violation";
+  case BAUM_WARNING_CONTRADICTION: return "contradiction";
+  case BAUM_WARNING_STEP: return "step";
+  case BAUM_WARNING_ENERGY: return "energy";
+  case BAUM_WARNING_GLOBAL_ERROR: return "global_error";
+  default: return NULL;
+  }
+}
+
+bool baum_i_doubts_motion(baum_warning_code code)
+{
+  return code >= BAUM_WARNING_BRANCH;
+}
+
+/* ---- keep ---- */
+
+static baum_warning *find(baum_simulation *run, baum_warning_code code)
+{
+  for (int64_t k = 0; k < run->counters.warnings; k++) {
+    if (run->warnings[k].code == code) {
+      return &run->warnings[k];
+    }
+  }
+  return NULL;
+}
+
+bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code)
+{
+  return find(baum_i_mutable(run), code) != NULL;
+}
+
+void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
+                     const char *format, ...)
+{
+  baum_warning *warning = find(run, code);
+  if (warning) {
+    warning->last = t;
+    warning->count++;
+    return;
+  }
+  if (run->counters.warnings == BAUM_I_WARNINGS) {
+    return; /* only in a run restored from a forged buffer */
+  }
+  run->announced[run->counters.warnings] = 0;
+  warning = &run->warnings[run->counters.warnings++];
+  *warning = (baum_warning){
+    .code = code, .doubts_motion = baum_i_doubts_motion(code), .first = t, .last = t, .count = 1};
+  if (joint >= 0) {
+    warning->joint = baum_i_joint_id(run->workspace->mechanism, joint);
+  }
+  run->counters.doubts += warning->doubts_motion;
+  va_list arguments;
+  va_start(arguments, format);
+  (void)baum_i_format(warning->text, sizeof warning->text, format, arguments);
+  va_end(arguments);
+}
+
+/* ---- tell ---- */
+
+baum_status baum_i_run_finish(baum_simulation *run)
+{
+  const baum_warning *worst = NULL;
+  int64_t count = 0;
+  for (int64_t k = 0; k < run->counters.warnings; k++) {
+    const baum_warning *warning = &run->warnings[k];
+    bool is_new = warning->count > run->announced[k];
+    if (is_new && (!worst || warning->doubts_motion > worst->doubts_motion)) {
+      worst = warning;
+    }
+    count += warning->count - run->announced[k];
+    run->announced[k] = warning->count;
+  }
+  if (!worst) {
+    return BAUM_OK;
+  }
+  (void)baum_i_fail(BAUM_WARNED, "t = %.9g s: %lld new %s: %s", run->state.t, (long long)count,
+                    count == 1 ? "warning" : "warnings", worst->text);
+  return baum_i_run_fail(run, BAUM_WARNED);
+}
+
+baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k, baum_warning *out,
+                                    size_t caller_size)
+{
+  const char *call = "baum_simulation_warning";
+  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
+                       simulation ? "out is NULL or caller_size is too small"
+                                  : "the simulation is NULL");
+  }
+  baum_status status = baum_i_check_entry(k, 0, simulation->counters.warnings, call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_warning warning = simulation->warnings[k];
+  if (warning.count > 1) {
+    size_t used = strlen(warning.text);
+    baum_i_print(warning.text + used, sizeof warning.text - used,
+                 " (%lld times, the last at t = %.9g s)", (long long)warning.count, warning.last);
+  }
+  baum_i_give_sized(out, caller_size, &warning, sizeof warning);
+  return BAUM_OK;
+}
