@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Equations of motion of a judge_scene, written for bench_doubts without a line of baum:
+ *
+ *   M a + J^T lambda = g,  J a = gamma
+ *
+ * M is constant and diagonal. With J~ = J M^-1/2 and the Householder factors J~^T = Q (R; 0),
+ *
+ *   a = M^-1/2 Q (R^-T gamma; Q2^T M^-1/2 g),
+ *
+ * which does not square the condition number of J~.
+ */
+#ifndef BAUM_JUDGE_EQUATIONS_H
+#define BAUM_JUDGE_EQUATIONS_H
+
+#include "judge_scene.h"
+
+typedef struct judge_rows {
+  double phi[JUDGE_ROWS];
+  double nu[JUDGE_ROWS];
+  double gamma[JUDGE_ROWS];
+  double jacobian[JUDGE_ROWS][JUDGE_N];
+} judge_rows;
+
+typedef struct judge_factors {
+  int n;
+  int m;
+  double columns[JUDGE_ROWS][JUDGE_N]; /* of J~^T: Householder vectors, then r */
+  double r[JUDGE_ROWS][JUDGE_ROWS];
+  double root[JUDGE_N]; /* M^1/2, or ones */
+} judge_factors;
+
+void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const double *v,
+                         judge_rows *out);
+void judge_forces(const judge_scene *s, const double *q, const double *v, double *g);
+double judge_mass(const judge_scene *s, int column);
+
+/** Factor the rows, weighted by mass or not. False where they are dependent to rounding. */
+bool judge_factor(const judge_scene *s, const judge_rows *rows, bool weighted, judge_factors *out);
+
+/** The vector nearest to x in the metric of the weights that fulfils J x = rhs. */
+void judge_nearest(const judge_factors *f, const double *rhs, double *x);
+
+/** Column k < n - m of an orthonormal basis of the null space of J; factors without weights. */
+void judge_null_vector(const judge_factors *f, int k, double *out);
+
+bool judge_acceleration(const judge_scene *s, double t, const double *q, const double *v,
+                        double *a);
+
+/** Nearest q and v that fulfil the constraints, in the metric of the weights. */
+bool judge_project(const judge_scene *s, double t, bool weighted, double *q, double *v);
+
+double judge_kinetic(const judge_scene *s, const double *v);
+
+#endif

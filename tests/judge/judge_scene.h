@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Random planar mechanisms as plain numbers, for bench_doubts: what the generator draws, what baum is given, and what the
+ * reference integrates. Nothing here is shared with the other random mechanisms of the tests. Conventions of coordinates,
+ * axes and rows are those of planar.h. */
+#ifndef BAUM_JUDGE_SCENE_H
+#define BAUM_JUDGE_SCENE_H
+
+#include <stdbool.h>
+#include <stdint.h>
+
+enum { JUDGE_BODIES = 10, JUDGE_JOINTS = 20, JUDGE_SPRINGS = 8, JUDGE_N = 30, JUDGE_ROWS = 30 };
+enum { JUDGE_GROUND = -1 };
+
+typedef struct judge_body {
+  bool particle;
+  double mass;
+  double inertia;
+  double length; /* [m] of a rod along its x axis; 0 for a particle */
+  double pose[3];
+  int first; /* column */
+} judge_body;
+
+typedef enum judge_kind {
+  JUDGE_REVOLUTE,
+  JUDGE_SLOT,
+  JUDGE_TRANSLATIONAL,
+  JUDGE_DISTANCE,
+  JUDGE_DRIVE_ANGLE, /* of the revolute joint `of`, whose bodies and points it has */
+  JUDGE_DRIVE_SLIDE  /* likewise of a pin in a slot */
+} judge_kind;
+
+typedef struct judge_joint {
+  judge_kind kind;
+  int a;
+  int b;
+  double point_a[2];
+  double point_b[2];
+  double axis[2]; /* unit, in a's axes */
+  double kept;    /* length or angle */
+  int of;
+  double law[5]; /* value + rate t + swing sin(omega t + phase) */
+} judge_joint;
+
+typedef struct judge_spring {
+  bool torsion;
+  int a;
+  int b;
+  double point_a[2];
+  double point_b[2];
+  double stiffness;
+  double damping;
+  double free; /* length or angle */
+} judge_spring;
+
+typedef struct judge_scene {
+  uint64_t seed;
+  const char *family;
+  judge_body bodies[JUDGE_BODIES];
+  judge_joint joints[JUDGE_JOINTS];
+  judge_spring springs[JUDGE_SPRINGS];
+  int body_count;
+  int joint_count;
+  int spring_count;
+  int load_body; /* JUDGE_GROUND: none */
+  double load[3];
+  double gravity;
+  int n;    /* coordinates */
+  int rows; /* constraint rows */
+  bool conservative;
+  double mass_ratio;
+  double q[JUDGE_N]; /* design configuration */
+  double v[JUDGE_N]; /* consistent with the constraints */
+  double end;        /* [s] */
+} judge_scene;
+
+/** Draw the scene of a seed. False where no consistent start is found. */
+bool judge_scene_draw(judge_scene *s, uint64_t seed);
+
+/** Prescribed coordinate of a driver: value, rate and acceleration. */
+void judge_law(const judge_joint *joint, double t, double s[3]);
+
+/* Random numbers of the generator: xorshift64*. */
+typedef struct judge_dice {
+  uint64_t state;
+} judge_dice;
+
+double judge_between(judge_dice *d, double from, double to);
+int judge_below(judge_dice *d, int count);
+bool judge_chance(judge_dice *d, double share);
+
+#endif
