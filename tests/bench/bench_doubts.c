@@ -31,6 +31,7 @@ static const judge_setting SETTINGS[] = {
   {"rk4 baumgarte 1 ms", baum_rk4, BAUM_FORMULATION_BAUMGARTE, 0.001, 0.0},
   {"rk2 projection 5 ms", baum_rk2, BAUM_FORMULATION_PROJECTION, 0.005, 0.0},
   {"rk3 baumgarte 10 ms", baum_rk3, BAUM_FORMULATION_BAUMGARTE, 0.01, 0.0},
+  {"euler default 0.1 ms", baum_euler, BAUM_FORMULATION_DEFAULT, 0.0001, 0.0},
   {"euler default 1 ms", baum_euler, BAUM_FORMULATION_DEFAULT, 0.001, 0.0},
   {"euler projection 1 ms", baum_euler, BAUM_FORMULATION_PROJECTION, 0.001, 0.0},
   {"semi_implicit_euler default 1 ms", baum_semi_implicit_euler, BAUM_FORMULATION_DEFAULT, 0.001,
@@ -66,6 +67,7 @@ typedef struct entry {
   double end;
   double mass_ratio;
   bool conservative;
+  bool driven;
   int n;
   int rows;
   double agreement;
@@ -73,6 +75,7 @@ typedef struct entry {
   double kinetic;
   double growth;
   double growth_end;
+  double growth_q;
   judge_outcome runs[SETTINGS_COUNT];
 } entry;
 
@@ -104,13 +107,15 @@ static void judge_one(const bench *b, uint64_t seed, judge_case *c, entry *out)
                  .end = c->scene.end,
                  .mass_ratio = c->scene.mass_ratio,
                  .conservative = c->scene.conservative,
+                 .driven = c->scene.driven,
                  .n = c->scene.n,
                  .rows = c->scene.rows,
                  .agreement = c->reference.agreement,
                  .rate = c->reference.rate,
                  .kinetic = c->reference.kinetic,
                  .growth = c->reference.growth,
-                 .growth_end = c->reference.growth_end};
+                 .growth_end = c->reference.growth_end,
+                 .growth_q = c->reference.growth_q};
   for (int k = 0; open && k < SETTINGS_COUNT; k++) {
     if (asked_for(b, k)) {
       judge_run(c, &SETTINGS[k], b->error_check, &out->runs[k]);
@@ -137,26 +142,26 @@ static void print_run(const entry *e, int setting)
   static const char *const NAMES[JUDGE_CLASSES] = {"unused", "stopped", "right", "grey", "wrong"};
   const judge_outcome *r = &e->runs[setting];
   const baum_counters *c = &r->counters;
-  (void)printf("%llu,%s,%s,%s,%.4g,%.4g,%.4g,%.4g,%d,", (unsigned long long)e->seed, e->family,
+  (void)printf("%llu,%s,%s,%s,%.4g,%.4g,%.4g,%.4g,%.4g,%d,", (unsigned long long)e->seed, e->family,
                SETTINGS[setting].name, NAMES[r->class], r->error, r->error_end, e->growth,
-               e->growth_end, r->doubted);
+               e->growth_end, e->growth_q, r->doubted);
   for (int k = 0; k < r->code_count; k++) {
     (void)printf("%s%d", k > 0 ? ";" : "", r->codes[k]);
   }
   (void)printf(",%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", (int)r->status, c->max_phi, c->max_phi_rate,
-               c->predicted_phi, c->energy_change, judge_error_estimate(c),
-               judge_global_estimate(c));
-  (void)printf("%.6g,%d,%.4g,%.6g,%g,%.4g,%.3g,%d,%d,%lld,%lld,%.3g\n", e->kinetic, e->conservative,
-               e->rate, e->length, e->end, e->mass_ratio, e->agreement, e->n, e->rows,
-               (long long)c->steps, (long long)c->near_singular_intervals, c->wall);
+               c->predicted_phi, c->energy_change, c->error_estimate, judge_global_estimate(c));
+  (void)printf("%.6g,%d,%d,%.4g,%.6g,%g,%.4g,%.3g,%d,%d,%lld,%lld,%.3g\n", e->kinetic,
+               e->conservative, e->driven, e->rate, e->length, e->end, e->mass_ratio, e->agreement,
+               e->n, e->rows, (long long)c->steps, (long long)c->near_singular_intervals, c->wall);
 }
 
 static void print_csv(const bench *b)
 {
-  (void)printf("seed,family,setting,class,error,error_end,growth,growth_end,doubted,codes,status,"
-               "max_phi,max_phi_rate,predicted_phi,energy_change,error_estimate,"
-               "global_error_estimate,kinetic,conservative,rate,length,end,mass_ratio,agreement,"
-               "coordinates,rows,steps,near_singular_intervals,wall\n");
+  (void)printf(
+    "seed,family,setting,class,error,error_end,growth,growth_end,growth_q,doubted,codes,status,"
+    "max_phi,max_phi_rate,predicted_phi,energy_change,error_estimate,"
+    "global_error_estimate,kinetic,conservative,driven,rate,length,end,mass_ratio,agreement,"
+    "coordinates,rows,steps,near_singular_intervals,wall\n");
   for (long k = 0; k < b->count; k++) {
     for (int i = 0; i < SETTINGS_COUNT; i++) {
       if (b->entries[k].runs[i].class != JUDGE_UNUSED) {
@@ -218,9 +223,10 @@ static void print_codes(const char *name, const tally *t)
       sum += t->codes[k][code];
     }
     if (sum > 0) {
-      (void)printf("%-36s %4d %-20s %6ld %6ld %6ld %6ld\n", name, code, judge_code_name(code),
-                   t->codes[JUDGE_RIGHT][code], t->codes[JUDGE_GREY][code],
-                   t->codes[JUDGE_WRONG][code], t->codes[JUDGE_STOPPED][code]);
+      (void)printf("%-36s %4d %-20s %6ld %6ld %6ld %6ld\n", name, code,
+                   baum_warning_name((baum_warning_code)code), t->codes[JUDGE_RIGHT][code],
+                   t->codes[JUDGE_GREY][code], t->codes[JUDGE_WRONG][code],
+                   t->codes[JUDGE_STOPPED][code]);
     }
   }
 }
@@ -239,7 +245,7 @@ static void print_quantiles(const bench *b, int setting)
   int n = 0;
   for (long k = 0; ratios && k < b->count; k++) {
     const judge_outcome *r = &b->entries[k].runs[setting];
-    double ratio = r->error / judge_error_estimate(&r->counters);
+    double ratio = r->error / r->counters.error_estimate;
     if (r->class >= JUDGE_RIGHT && isfinite(ratio)) {
       ratios[n++] = ratio;
     }

@@ -117,6 +117,13 @@ static void pack(const judge_state *from, double *y)
   memcpy(y + JUDGE_N, from->v, sizeof from->v);
 }
 
+/* The factor on the next step that an error over the tolerance asks for. */
+static double rescale(const run *r, double error)
+{
+  double factor = 0.85 * pow(fmax(error, 1e-30), -1.0 / (2 * r->columns - 1));
+  return isfinite(error) ? fmin(fmax(factor, 0.2), 3.0) : 0.2;
+}
+
 static bool advance(run *r, double t, double end)
 {
   double y[STATE];
@@ -132,8 +139,7 @@ static bool advance(run *r, double t, double end)
     }
     known = true;
     double error = extrapolate(r, t, y, dy, h, out);
-    double factor = 0.85 * pow(fmax(error, 1e-30), -1.0 / (2 * r->columns - 1));
-    factor = isnan(error) ? 0.2 : fmin(fmax(factor, 0.2), 3.0);
+    double factor = rescale(r, error);
     if (error <= 1.0) {
       t = last ? end : t + h;
       memcpy(r->y.q, out, sizeof r->y.q);
@@ -251,8 +257,8 @@ static void multiply(const matrix *a, const matrix *b, matrix *out)
   }
 }
 
-/* The largest singular value, by iteration with A^T A. */
-static double measure(const matrix *a)
+/* The largest singular value of the first rows, by iteration with A^T A. */
+static double measure(const matrix *a, int rows)
 {
   double x[FREE];
   double size = 0.0;
@@ -263,13 +269,13 @@ static double measure(const matrix *a)
     double y[FREE] = {0};
     double z[FREE] = {0};
     double square = 0.0;
-    for (int i = 0; i < a->rows; i++) {
+    for (int i = 0; i < rows; i++) {
       for (int j = 0; j < a->columns; j++) {
         y[i] += a->at[i][j] * x[j];
       }
     }
     for (int j = 0; j < a->columns; j++) {
-      for (int i = 0; i < a->rows; i++) {
+      for (int i = 0; i < rows; i++) {
         z[j] += a->at[i][j] * y[i];
       }
       square += z[j] * z[j];
@@ -286,10 +292,11 @@ static double measure(const matrix *a)
 static bool find_growth(const judge_scene *s, judge_reference *ref)
 {
   matrix segment;
-  matrix product[2];
+  matrix product;
   matrix from[JUDGE_SEGMENTS]; /* to the present sample */
   ref->growth = 1.0;
   ref->growth_end = 1.0;
+  ref->growth_q = 1.0;
   for (int k = 0; s->n > s->rows && k < JUDGE_SEGMENTS; k++) {
     if (!differentiate(s, ref, k, ref->t[1] / 4.0, &segment)) {
       return false;
@@ -298,10 +305,11 @@ static bool find_growth(const judge_scene *s, judge_reference *ref)
     from[k] = segment;
     for (int j = 0; j <= k; j++) {
       if (j < k) {
-        multiply(&segment, &from[j], &product[0]);
-        from[j] = product[0];
+        multiply(&segment, &from[j], &product);
+        from[j] = product;
       }
-      ref->growth_end = fmax(ref->growth_end, measure(&from[j]));
+      ref->growth_end = fmax(ref->growth_end, measure(&from[j], segment.rows));
+      ref->growth_q = fmax(ref->growth_q, measure(&from[j], segment.rows / 2));
     }
     ref->growth = fmax(ref->growth, ref->growth_end);
   }

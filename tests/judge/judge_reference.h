@@ -21,6 +21,7 @@ typedef struct judge_reference {
   double kinetic;     /* [J] largest over the samples */
   double growth;      /* from any sample to any later one */
   double growth_end;  /* from any sample to the end */
+  double growth_q;    /* from any sample to the positions of any later one */
   const char *failed; /* why there is none; NULL when there is one */
 } judge_reference;
 

@@ -75,17 +75,12 @@ void judge_close(judge_case *c)
   c->m = NULL;
 }
 
-static void read_doubts(baum_simulation *run, judge_outcome *out)
+static void read_codes(const baum_simulation *run, judge_outcome *out)
 {
-  static const char *const OTHERS[] = {"multipliers and reactions of these joints are not unique",
-                                       "the motion goes on smoothly behind it"};
-  char text[400];
-  for (int64_t k = 0; baum_simulation_warning(run, k, text, sizeof text) == BAUM_OK; k++) {
-    if (!strstr(text, OTHERS[0]) && !strstr(text, OTHERS[1])) {
-      out->doubted = true;
-      out->codes[0] = 100;
-      out->code_count = 1;
-    }
+  baum_warning warning;
+  while (out->code_count < JUDGE_CODES &&
+         baum_simulation_warning(run, out->code_count, &warning, sizeof warning) == BAUM_OK) {
+    out->codes[out->code_count++] = (int)warning.code;
   }
 }
 
@@ -147,25 +142,14 @@ void judge_run(const judge_case *c, const judge_setting *setting, bool error_che
     compare(c, rows, out);
   }
   out->class = classify(out);
-  read_doubts(run, out);
+  read_codes(run, out);
   (void)baum_simulation_counters(run, &out->counters, sizeof out->counters);
+  out->doubted = out->counters.doubts > 0;
   baum_simulation_destroy(run);
-}
-
-double judge_error_estimate(const baum_counters *c)
-{
-  (void)c;
-  return (double)NAN;
 }
 
 double judge_global_estimate(const baum_counters *c)
 {
   (void)c;
   return (double)NAN;
-}
-
-const char *judge_code_name(int code)
-{
-  (void)code;
-  return "";
 }

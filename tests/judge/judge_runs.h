@@ -53,11 +53,7 @@ void judge_close(judge_case *c);
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 
-/** Estimates of a run; NaN where it has none. */
-double judge_error_estimate(const baum_counters *c);
+/** The estimate of the option error_check; NaN without it. */
 double judge_global_estimate(const baum_counters *c);
-
-/** Name of a warning code. */
-const char *judge_code_name(int code);
 
 #endif

@@ -90,7 +90,8 @@ static void point_on(const judge_scene *s, int body, double share, double out[2]
 
 static double draw_mass(pen *p)
 {
-  return draw_decades(&p->dice, -p->spread, 0.0);
+  bool least = judge_chance(&p->dice, 0.3);
+  return least ? pow(10.0, -p->spread) : draw_decades(&p->dice, -p->spread, 0.0);
 }
 
 static int add_body(pen *p, const judge_body *b)
@@ -425,10 +426,34 @@ static bool draw_loop(pen *p)
   return true;
 }
 
+/* A light rod between a slot and a bob, which comes taut, or a body of it that swings on a slider. */
+static void draw_taut(pen *p)
+{
+  judge_dice *d = &p->dice;
+  double from[2];
+  double to[2];
+  draw_point(p, JUDGE_GROUND, from);
+  from_polar(from, judge_between(d, 0.4, 1.2), judge_between(d, 0.0, 2.0 * PI), to);
+  p->spread = judge_between(d, 1.0, 4.0);
+  int rod = add_rod(p, from, to);
+  double light = pow(10.0, -p->spread) / p->s->bodies[rod].mass;
+  p->s->bodies[rod].mass *= light;
+  p->s->bodies[rod].inertia *= light;
+  p->spread = 0.0;
+  int bob = add_particle(p, to);
+  slide(p, JUDGE_SLOT, JUDGE_GROUND, rod, from, judge_between(d, 0.0, PI));
+  pin(p, rod, bob, to);
+}
+
 static bool draw_family(pen *p)
 {
   judge_dice *d = &p->dice;
   double kind = judge_between(d, 0.0, 1.0);
+  if (kind < 0.04) {
+    p->s->family = "taut";
+    draw_taut(p);
+    return true;
+  }
   if (kind < 0.40) {
     p->s->family = "tree";
     grow_tree(p, 1 + judge_below(d, 5));
@@ -458,11 +483,11 @@ static void add_driver(pen *p)
   judge_scene *s = p->s;
   int of = judge_below(&p->dice, s->joint_count);
   judge_joint j = s->joints[of];
-  if (s->n - s->rows < 2 || (j.kind != JUDGE_REVOLUTE && j.kind != JUDGE_SLOT) ||
-      is_particle(s, j.a) || (j.kind == JUDGE_REVOLUTE && is_particle(s, j.b))) {
+  bool angle = j.kind == JUDGE_REVOLUTE;
+  bool fits = (angle && !is_particle(s, j.a) && !is_particle(s, j.b)) || j.kind == JUDGE_SLOT;
+  if (!fits || s->n - s->rows < 2) {
     return;
   }
-  bool angle = j.kind == JUDGE_REVOLUTE;
   j.kind = angle ? JUDGE_DRIVE_ANGLE : JUDGE_DRIVE_SLIDE;
   j.of = of;
   bool swings = !angle || judge_chance(&p->dice, 0.6);
@@ -474,6 +499,7 @@ static void add_driver(pen *p)
   s->joints[s->joint_count++] = j;
   s->rows++;
   s->conservative = false;
+  s->driven = true;
 }
 
 static void add_load(pen *p)

@@ -67,6 +67,7 @@ typedef struct judge_scene {
   int n;    /* coordinates */
   int rows; /* constraint rows */
   bool conservative;
+  bool driven;
   double mass_ratio;
   double q[JUDGE_N]; /* design configuration */
   double v[JUDGE_N]; /* consistent with the constraints */
