@@ -181,6 +181,9 @@ typedef struct baum_simulation_options {
     *row_gains; /**< [-] (row_gain_count) > 0, factors f on the gains of each row: alpha f_i,
                                 beta f_i. Copied. Default: NULL, all 1. */
   int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
+  bool error_check; /**< Estimate the error of the motion by a second integration from the start on,
+                         see counters.error_estimate, and warn where it is large. Of fixed steps
+                         that is done in any case as soon as it may matter. Default: false. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -465,8 +468,11 @@ typedef struct baum_counters {
   double energy_residual;  /**< [J] of the energy account at present: gained or lost by the method
                                 itself; NaN without the option energy_account. */
   int64_t doubts;          /**< [-] kinds of warnings that doubt the motion. */
-  double error_estimate;   /**< [-] estimated error of the motion by a fixed step, relative to the
-                                characteristic length and to radians; NaN with variable steps. */
+  double error_estimate;   /**< [-] largest estimated error of the positions since the start,
+                                relative to the characteristic length and to radians; 0 while the
+                                local errors of fixed steps are negligible. NaN: not known, as with
+                                variable steps without the option error_check, or where the
+                                estimate would cost more than the run. */
 } baum_counters;
 
 /** Read the counters.
@@ -562,9 +568,8 @@ typedef enum baum_warning_code {
   BAUM_WARNING_BRANCH = 100,            /**< It may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,         /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102,     /**< Omitted rows no longer follow from the others. */
-  BAUM_WARNING_STEP = 103,              /**< The fixed step is too long for the motion. */
-  BAUM_WARNING_ENERGY = 104,            /**< A conservative mechanism gains or loses energy. */
-  BAUM_WARNING_GLOBAL_ERROR = 105       /**< The companion run of error_check differs. */
+  BAUM_WARNING_ACCURACY = 103,          /**< The estimated error of the motion is large. */
+  BAUM_WARNING_ENERGY = 104             /**< A conservative mechanism gains or loses energy. */
 } baum_warning_code;
 
 /** Name of a kind of warnings such as "branch"; NULL for an unknown value. */

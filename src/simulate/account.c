@@ -451,23 +451,20 @@ static int node_count(const baum_simulation *run)
   return order > 4 ? 3 : 2;
 }
 
-/* A workspace with the solver and the rows of the run's. */
-static baum_status make_workspace(baum_simulation *run)
+baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out)
 {
   const baum_workspace *w = run->workspace;
-  baum_i_account *account = run->account;
-  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, &account->workspace);
+  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, out);
   if (status != BAUM_OK) {
     return status;
   }
-  baum_i_redundancy *mine = &account->workspace->redundancy;
+  baum_i_redundancy *mine = &(*out)->redundancy;
   mine->rank = w->redundancy.rank;
   mine->rank_at_start = w->redundancy.rank_at_start;
   mine->count = w->redundancy.count;
   memcpy(mine->dropped, w->redundancy.dropped, (size_t)w->mechanism->nc);
-  account->workspace->blocks_only = w->blocks_only;
-  run->beside = account->workspace;
-  return baum_i_use_blocks(account->workspace);
+  (*out)->blocks_only = w->blocks_only;
+  return baum_i_use_blocks(*out);
 }
 
 static baum_status make_memory(baum_simulation *run)
@@ -513,7 +510,8 @@ baum_status baum_i_account_create(baum_simulation *run)
   }
   baum_status status = make_memory(run);
   if (status == BAUM_OK) {
-    status = make_workspace(run);
+    status = baum_i_run_make_workspace(run, &run->account->workspace);
+    run->beside[0] = run->account->workspace;
   }
   if (status == BAUM_OK) {
     run->account->problem = run->problem;

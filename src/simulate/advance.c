@@ -13,6 +13,7 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/breaks.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
 #include "simulate/rows.h"
@@ -61,7 +62,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   if (observe) {
     baum_i_passages_note(run, state);
     baum_i_run_observe(run, state->t, true);
-    baum_i_run_resolve(run);
+    baum_i_companion_follow(run, state);
   }
   memcpy(run->acceleration, run->workspace->a,
          (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
@@ -255,6 +256,7 @@ static baum_status internal_step(baum_simulation *run)
   if (status == BAUM_OK) {
     baum_i_run_observe(run, run->ahead.t, false);
     baum_i_passages_look(run);
+    baum_i_companion_follow(run, &run->ahead);
   }
   return status;
 }
@@ -350,9 +352,7 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 static baum_status turn_to(baum_simulation *run, double direction)
 {
   double before = run->problem.direction;
-  if (run->account) {
-    baum_i_account_read(run, &run->state);
-  }
+  baum_i_run_end_before_change(run);
   run->problem.direction = direction;
   if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;

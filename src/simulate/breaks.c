@@ -97,9 +97,7 @@ static baum_status take_pose(baum_simulation *run)
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
 {
   double before = run->state.t;
-  if (run->account) {
-    baum_i_account_read(run, &run->state);
-  }
+  baum_i_run_end_before_change(run);
   run->state.t = next.far;
   baum_i_schedule_move(run, before, next.far);
   baum_status status = baum_i_run_begin_anew(run);

@@ -12,6 +12,7 @@
 #include "base/alloc.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/schedule.h"
 
@@ -39,7 +40,7 @@ baum_status baum_i_run_begin_anew(baum_simulation *run)
   }
   if (status == BAUM_OK) {
     run->origin = run->state.t;
-    run->resolution.follows = false; /* accelerations may jump */
+    baum_i_companion_restart(run);
   }
   if (status == BAUM_OK && run->events) {
     baum_i_events_go_on(run);
@@ -47,12 +48,12 @@ baum_status baum_i_run_begin_anew(baum_simulation *run)
   return status;
 }
 
-/* The work up to here, before anything changes. */
-static void read_account(baum_simulation *run)
+void baum_i_run_end_before_change(baum_simulation *run)
 {
   if (run->account) {
     baum_i_account_read(run, &run->state);
   }
+  baum_i_companion_settle(run);
 }
 
 /* ---- inputs ---- */
@@ -75,7 +76,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
   if (value != before) {
-    read_account(simulation);
+    baum_i_run_end_before_change(simulation);
     *present = value;
     status = baum_i_run_begin_anew(simulation);
   }
@@ -143,7 +144,7 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
   size_t size = (size_t)joint->type->parameter_count * sizeof *numbers;
   assert(size <= sizeof before);
   memcpy(before, numbers, size);
-  read_account(run);
+  baum_i_run_end_before_change(run);
   joint->type->replace_law(numbers, run->state.t, law);
   baum_status status = baum_i_run_begin_anew(run);
   if (status != BAUM_OK) {

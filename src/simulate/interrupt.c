@@ -23,8 +23,10 @@ void baum_simulation_cancel(baum_simulation *simulation)
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
 {
   baum_status status = baum_i_check_idle(run->workspace, call, "the simulation");
-  return status == BAUM_OK && run->beside ? baum_i_check_idle(run->beside, call, "the simulation")
-                                          : status;
+  for (int k = 0; k < 2 && status == BAUM_OK; k++) {
+    status = run->beside[k] ? baum_i_check_idle(run->beside[k], call, "the simulation") : BAUM_OK;
+  }
+  return status;
 }
 
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call)

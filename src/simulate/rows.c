@@ -5,15 +5,18 @@
 
 #include "base/message.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/passage.h"
 
-/* Without memory the account goes on with those before, which are no worse than they were. */
-static void tell_account(baum_simulation *run)
+/* Without memory the account and the companion go on with those before, which are no worse than they were. */
+static void tell_others(baum_simulation *run)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  if (run->beside) {
-    (void)baum_i_leave_out_rows(run->beside, run->workspace->redundancy.dropped);
+  for (int k = 0; k < 2; k++) {
+    if (run->beside[k]) {
+      (void)baum_i_leave_out_rows(run->beside[k], run->workspace->redundancy.dropped);
+    }
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);
 }
@@ -67,10 +70,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   if (!baum_i_choose_rows(run->workspace, state->t, state->q, find_pivot(run))) {
     return BAUM_OK;
   }
-  if (run->account) {
-    baum_i_account_read(run, state);
-  }
-  tell_account(run);
+  baum_i_run_end_before_change(run);
+  tell_others(run);
   settle(run);
   baum_i_passages_end(run);
   baum_status status = baum_i_run_begin_anew(run);
@@ -83,7 +84,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state)
 {
   if (run->passages && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0)) {
-    tell_account(run);
+    tell_others(run);
     baum_i_passages_end(run);
   }
 }
@@ -92,7 +93,7 @@ baum_status baum_i_run_leave_out_rows(baum_simulation *run, const unsigned char 
 {
   baum_status status = baum_i_leave_out_rows(run->workspace, dropped);
   if (status == BAUM_OK) {
-    tell_account(run);
+    tell_others(run);
   }
   return status;
 }

@@ -45,16 +45,8 @@ typedef struct baum_i_schedule {
   int room;
 } baum_i_schedule;
 
-/* What tells whether fixed steps resolve the motion, see resolution.c; sizes in the scales. */
-typedef struct baum_i_resolution {
-  double sizes;   /* sum of squares of accelerations */
-  double changes; /* likewise of their changes from step to step */
-  double way;     /* sum of |v| h */
-  bool follows;   /* run->acceleration is that of the step before */
-  bool coarse;    /* has been warned of */
-} baum_i_resolution;
-
 typedef struct baum_i_account baum_i_account;
+typedef struct baum_i_companion baum_i_companion;
 typedef struct baum_i_passages baum_i_passages;
 typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
@@ -68,8 +60,10 @@ struct baum_simulation {
 
   double *row_gains;       /* (nc) own copy of the option, or NULL */
   baum_i_account *account; /* of energy, see account.h; NULL: none is kept */
-  baum_workspace *beside;  /* the account's, which asks functions of the user too; NULL without */
-  baum_i_events *events;   /* see events.h; NULL: there are none */
+  baum_workspace
+    *beside[2]; /* of account and companion, which ask functions of the user too; NULL without */
+  baum_i_events *events;       /* see events.h; NULL: there are none */
+  baum_i_companion *companion; /* see companion.h; NULL: the error is not estimated */
 
   baum_i_passages *passages; /* through singular poses, see passage.h; NULL: not looked for */
 
@@ -93,8 +87,6 @@ struct baum_simulation {
   double rows_looked_at;      /* [s] redundant ones, with KLU and QR; see rows.c */
   double judged_phi;          /* max_phi when that was last looked at */
 
-  baum_i_resolution resolution;
-
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
   int64_t announced[BAUM_I_WARNINGS];     /* how many of it a status has announced */
   char explain[BAUM_I_EXPLAIN_SIZE];
@@ -106,12 +98,6 @@ struct baum_simulation {
   bool reporting;  /* within progress() */
   double paced_at; /* [s] of a call: where its pace has last been looked at */
 };
-
-/* ---- resolution.c ---- */
-
-/* A fixed step begins: its acceleration is in the workspace, that of the last in run->acceleration. Warns once
- * where steps are too long. */
-void baum_i_run_resolve(baum_simulation *run);
 
 /* ---- start.c ---- */
 
@@ -128,6 +114,12 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
 /* Make the trial state, just measured, the present one: grid and energy begin anew. */
 void baum_i_run_accept(baum_simulation *run, double energy);
+
+/* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
+baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
+
+/* What acts on the mechanism is about to change at the present state. */
+void baum_i_run_end_before_change(baum_simulation *run);
 
 /* Time, positions and velocities from one state to another. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);

@@ -18,6 +18,7 @@
 #include "mechanism/fingerprint.h"
 #include "mechanism/joints/driven.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
 #include "simulate/rows.h"
@@ -77,7 +78,7 @@ static size_t largest_size(const baum_i_saved *list)
 static void forget(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
-  run->resolution.follows = false;
+  baum_i_companion_forget(run);
   if (run->account) {
     baum_i_account_forget(run->account);
   }
@@ -100,6 +101,7 @@ static void go_on_with_events(baum_simulation *run)
 /* The state that is reported becomes the one from which the next step goes. */
 static void begin_anew(baum_simulation *run)
 {
+  baum_i_companion_settle(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
     if (run->account) {
       baum_i_account_read(run, &run->state);

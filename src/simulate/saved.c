@@ -8,6 +8,7 @@
 #include "base/alloc.h"
 #include "dynamics/immobile.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
 
@@ -105,6 +106,7 @@ static void list_options(const baum_simulation *run, baum_i_saved *list)
   add_choice(list, "row_gains", run->row_gains, (size_t)nc * sizeof *run->row_gains);
   baum_i_saved_compare(list, "solver", o->solver);
   baum_i_saved_compare(list, "energy_account", run->account != NULL);
+  baum_i_saved_compare(list, "error_check", o->error_check);
 }
 
 /* Found at the start, and built into the solvers. */
@@ -190,6 +192,7 @@ static void list_counters(baum_counters *c, baum_i_saved *list)
   BAUM_I_SAVED_ADD_COUNT(list, "number of intervals", c->near_singular_intervals);
   BAUM_I_SAVED_ADD_COUNT(list, "branch warnings", c->branch_warnings);
   BAUM_I_SAVED_ADD_COUNT(list, "forced steps", c->forced_steps);
+  BAUM_I_SAVED_ADD(list, "error estimate", c->error_estimate);
 }
 
 static void list_monitors(baum_simulation *run, baum_i_saved *list)
@@ -203,11 +206,6 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD_COUNT(list, "near singular seen", run->near_singular_seen);
   BAUM_I_SAVED_ADD(list, "rows looked at", run->rows_looked_at);
   BAUM_I_SAVED_ADD(list, "judged phi", run->judged_phi);
-  BAUM_I_SAVED_ADD(list, "accelerations", run->resolution.sizes);
-  BAUM_I_SAVED_ADD(list, "changes of accelerations", run->resolution.changes);
-  BAUM_I_SAVED_ADD(list, "way", run->resolution.way);
-  BAUM_I_SAVED_ADD_FLAG(list, "acceleration follows", run->resolution.follows);
-  BAUM_I_SAVED_ADD_FLAG(list, "coarse steps seen", run->resolution.coarse);
   BAUM_I_SAVED_ADD(list, "announced", run->announced);
   baum_i_saved_add_some(list, "warnings", run->warnings, sizeof *run->warnings,
                         run->counters.warnings, BAUM_I_WARNINGS);
@@ -282,6 +280,9 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   list_monitors(run, list);
   if (run->account) {
     baum_i_account_saved(run->account, list);
+  }
+  if (run->companion) {
+    baum_i_companion_saved(run->companion, list);
   }
   if (run->passages) {
     list_passages(run, list);

@@ -144,9 +144,7 @@ static baum_status begin_with(baum_simulation *run, const baum_i_schedule *made,
   double *present = &run->workspace->inputs[input];
   double before = *present;
   baum_i_schedule old = run->schedule;
-  if (run->account) {
-    baum_i_account_read(run, &run->state);
-  }
+  baum_i_run_end_before_change(run);
   run->schedule = *made;
   baum_i_schedule_move(run, -(double)INFINITY, run->state.t);
   baum_status status = baum_i_run_begin_anew(run);

@@ -7,6 +7,7 @@
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/options.h"
 #include "simulate/passage.h"
@@ -171,6 +172,13 @@ static baum_status make_account(baum_simulation *run)
   return run->options.energy_account ? baum_i_account_create(run) : BAUM_OK;
 }
 
+static baum_status make_companion(baum_simulation *run)
+{
+  run->counters.error_estimate = (double)NAN;
+  bool wanted = baum_i_problem_has_fixed_step(&run->problem) || run->options.error_check;
+  return wanted ? baum_i_companion_create(run) : BAUM_OK;
+}
+
 static baum_status make_passages(baum_simulation *run)
 {
   return run->integrator->without_freedom ? BAUM_OK : baum_i_passages_create(run);
@@ -195,9 +203,9 @@ static baum_status accept_start(baum_simulation *run)
 
 /* One after the other, each on what the ones before have made. */
 static baum_status (*const STAGES[])(baum_simulation *run) = {
-  make_states,     start_as_drawn, choose_solver, baum_i_run_check_velocities,
-  choose_problem,  make_account,   make_passages, make_integrator,
-  warn_redundancy, warn_settings,  accept_start,
+  make_states,    start_as_drawn,  choose_solver, baum_i_run_check_velocities,
+  choose_problem, make_account,    make_passages, make_integrator,
+  make_companion, warn_redundancy, warn_settings, accept_start,
 };
 
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
@@ -274,8 +282,10 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
 static bool is_in_use(const baum_simulation *run)
 {
   bool asks = run->workspace && run->workspace->point.asking;
-  bool asks_beside = run->beside && run->beside->point.asking;
-  return run->reporting || asks || asks_beside;
+  for (int k = 0; k < 2; k++) {
+    asks = asks || (run->beside[k] && run->beside[k]->point.asking);
+  }
+  return run->reporting || asks;
 }
 
 void baum_simulation_destroy(baum_simulation *simulation)
@@ -286,6 +296,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   if (simulation->integrator->destroy) {
     simulation->integrator->destroy(simulation->self);
   }
+  baum_i_companion_destroy(simulation->companion);
   baum_i_account_destroy(simulation->integrator, simulation->account);
   baum_i_events_destroy(simulation->events);
   baum_i_passages_destroy(simulation->passages);

@@ -6,6 +6,7 @@
 #include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
+#include "simulate/companion.h"
 #include "simulate/events.h"
 #include "simulate/passage.h"
 #include "simulate/rows.h"
@@ -264,7 +265,7 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   run->start_energy = energy;
   run->grid = (baum_i_grid){.origin = run->state.t};
   run->origin = run->state.t;
-  run->resolution.follows = false;
+  baum_i_companion_begin(run);
   baum_i_passages_forget(run->passages);
   if (run->account) {
     baum_i_account_begin(run);

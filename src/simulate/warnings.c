@@ -24,9 +24,8 @@ const char *baum_warning_name(baum_warning_code code)
   case BAUM_WARNING_BRANCH: return "branch";
   case BAUM_WARNING_VIOLATION: return "violation";
   case BAUM_WARNING_CONTRADICTION: return "contradiction";
-  case BAUM_WARNING_STEP: return "step";
+  case BAUM_WARNING_ACCURACY: return "accuracy";
   case BAUM_WARNING_ENERGY: return "energy";
-  case BAUM_WARNING_GLOBAL_ERROR: return "global_error";
   default: return NULL;
   }
 }

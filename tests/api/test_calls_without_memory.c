@@ -139,7 +139,7 @@ typedef struct scene {
 #define VALUE_CALLS(X)                                                                           \
   X(baum_message, ())                                                                            \
   X(baum_status_name, (BAUM_OK))                                                                 \
-  X(baum_warning_name, (BAUM_WARNING_STEP))                                                      \
+  X(baum_warning_name, (BAUM_WARNING_ACCURACY))                                                  \
   X(baum_status_text, (BAUM_OK))                                                                 \
   X(baum_version, ())                                                                            \
   X(baum_has, ("gsl"))                                                                           \

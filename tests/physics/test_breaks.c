@@ -167,7 +167,7 @@ static void breaks_are_met_both_ways(void **state)
     static const double targets[] = {0.5,    1.0,   1.2345, 1.2361, 1.7,
                                      1.2361, 1.235, 1.2345, 0.5,    0.2};
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
-      assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
+      assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
       ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
       assert_true(error_now(run) <= 2.0 * allowed(mode));
     }
@@ -218,7 +218,7 @@ static void the_account_closes_over_breaks(void **state)
     baum_simulation *run = NULL;
     baum_energy_account account;
     assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
     double angle = 0.0;
     double rate = 0.0;
@@ -299,9 +299,9 @@ static void breaks_next_to_each_other_are_one(void **state)
   for (int k = 0; step_mode_at(k).integrator; k++) {
     step_mode mode = step_mode_at(k);
     baum_simulation *run = open_run(m, mode);
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_true(error_now(run) <= allowed(mode));
-    assert_int_equal(baum_simulation_advance_to(run, 0.2), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.2), BAUM_OK);
     assert_true(error_now(run) <= 2.0 * allowed(mode));
     baum_simulation_destroy(run);
   }

@@ -160,7 +160,7 @@ static void motions_are_those_between_the_jumps(void **state)
     schedule(run, &d);
     int64_t before = counters_of(run).restarts;
     assert_int_equal(before, step_mode_remembers(mode));
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     baum_counters counters = counters_of(run);
     assert_true(error_now(run) <= allowed(mode));
     assert_int_equal(counters.restarts - before >= JUMPS, step_mode_remembers(mode));
@@ -184,7 +184,7 @@ static void jumps_are_met_both_ways(void **state)
     baum_simulation *run = open_mode(&d, mode, false);
     schedule(run, &d);
     for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
-      assert_int_equal(baum_simulation_advance_to(run, targets[i]), BAUM_OK);
+      assert_int_equal(step_mode_advance(mode, run, targets[i]), BAUM_OK);
       ASSERT_NEAR(baum_simulation_time(run), targets[i], 0.0, 1e-9 * STEP); /* same time of grids */
       assert_true(error_now(run) <= 2.0 * allowed(mode));
       double t = baum_simulation_time(run);
@@ -233,10 +233,10 @@ static void jumps_together_are_all_undone(void **state)
     schedule(run, &d);
     assert_int_equal(baum_simulation_schedule_input(run, d.other, near, values, 2), BAUM_OK);
     for (int turn = 0; turn < 2; turn++) {
-      assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+      assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
       assert_true(baum_simulation_input(run, d.other) == 5.0);
       assert_true(baum_simulation_input(run, d.torque) == TORQUE[JUMPS]);
-      assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
+      assert_int_equal(step_mode_advance(mode, run, 0.1), BAUM_OK);
       assert_true(baum_simulation_input(run, d.other) == 0.0);
       assert_true(baum_simulation_input(run, d.torque) == TORQUE[0]);
       assert_true(error_now(run) <= 4.0 * allowed(mode));
@@ -255,16 +255,16 @@ static void a_schedule_may_be_given_late(void **state)
     step_mode mode = step_mode_at(k);
     disc d = make(false);
     baum_simulation *run = open_mode(&d, mode, false);
-    assert_int_equal(baum_simulation_advance_to(run, 0.499), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.499), BAUM_OK);
     schedule(run, &d);
-    assert_int_equal(baum_simulation_advance_to(run, 1.3), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 1.3), BAUM_OK);
     assert_true(error_now(run) <= allowed(mode));
     double rate = baum_simulation_v(run)[2];
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, later, none, 1), BAUM_OK);
-    assert_int_equal(baum_simulation_advance_to(run, 1.6), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 1.6), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate + 0.2 * TORQUE[JUMPS], 0.0, allowed(mode));
     /* What the schedule was before is no more: back in time it has the value that it had at the call. */
-    assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 1.0), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate - 0.3 * TORQUE[JUMPS], 0.0, 2.0 * allowed(mode));
     close_all(run, &d);
   }
@@ -279,7 +279,7 @@ static void the_account_closes_over_jumps(void **state)
     disc d = make(false);
     baum_simulation *run = open_mode(&d, mode, true);
     schedule(run, &d);
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     baum_energy_account account;
     assert_int_equal(baum_simulation_energy_account(run, &account, sizeof account), BAUM_OK);
     double angle = 0.0;
@@ -355,7 +355,7 @@ static void another_method_takes_the_schedule_over(void **state)
     assert_int_equal(baum_simulation_advance_to(from, 0.8), BAUM_OK);
     assert_int_equal(baum_simulation_continue(run, from), BAUM_OK);
     baum_simulation_destroy(from);
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_true(error_now(run) <= 2.0 * allowed(mode));
     close_all(run, &d);
   }
@@ -378,14 +378,14 @@ static void restoring_brings_the_schedule_back(void **state)
     disc d = make(false);
     baum_simulation *run = open_mode(&d, mode, false);
     schedule(run, &d);
-    assert_int_equal(baum_simulation_advance_to(run, 0.8), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 0.8), BAUM_OK);
     assert_int_equal(baum_simulation_save(run, buffer, sizeof buffer, &size), BAUM_OK);
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, times, values, 100), BAUM_OK);
     assert_true(baum_simulation_input(run, d.torque) == 79.0);
-    assert_int_equal(baum_simulation_advance_to(run, 1.1), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 1.1), BAUM_OK);
     assert_int_equal(baum_simulation_restore(run, buffer, size), BAUM_OK);
     assert_true(baum_simulation_input(run, d.torque) == TORQUE[1]);
-    assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
+    assert_int_equal(step_mode_advance(mode, run, 2.0), BAUM_OK);
     assert_true(error_now(run) <= 2.0 * allowed(mode));
     close_all(run, &d);
   }

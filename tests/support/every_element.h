@@ -118,7 +118,7 @@ typedef struct element_kind {
 enum { ELEMENT_KINDS = 18 + BAUM_HAVE_GSL };
 extern const element_kind element_kinds[ELEMENT_KINDS];
 
-enum { OPTION_FIELDS = 23 };
+enum { OPTION_FIELDS = 24 };
 extern const element_field option_fields[OPTION_FIELDS]; /* of baum_simulation_options */
 
 any_id every_element_id(const every_element *parts, const element_kind *kind);

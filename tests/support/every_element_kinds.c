@@ -233,6 +233,7 @@ const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, energy_account, FLAG),
   FIELD(baum_simulation_options, row_gains, FUNCTION),
   FIELD(baum_simulation_options, row_gain_count, INTEGER),
+  FIELD(baum_simulation_options, error_check, FLAG),
 };
 
 /* ---- the table ---- */

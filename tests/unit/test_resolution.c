@@ -31,7 +31,7 @@ static int64_t count_warnings(const baum_integrator *integrator, double step, do
     baum_warning warning;
     assert_int_equal(baum_simulation_warning(run, k, &warning, sizeof warning), BAUM_OK);
     const char *advice = strstr(warning.text, "take a step below ");
-    if (warning.code == BAUM_WARNING_STEP && advice) {
+    if (warning.code == BAUM_WARNING_ACCURACY && advice) {
       assert_int_equal(sscanf(advice, "take a step below %lf s", advised), 1);
       found++;
     }

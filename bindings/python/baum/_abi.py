@@ -276,6 +276,7 @@ class baum_simulation_options(Structure):
         ("energy_account", c_bool),
         ("row_gains", c_void_p),
         ("row_gain_count", c_int32),
+        ("error_check", c_bool),
     ]
 
 
@@ -393,9 +394,8 @@ class baum_warning_code(enum.IntEnum):
     BAUM_WARNING_BRANCH = 100
     BAUM_WARNING_VIOLATION = 101
     BAUM_WARNING_CONTRADICTION = 102
-    BAUM_WARNING_STEP = 103
+    BAUM_WARNING_ACCURACY = 103
     BAUM_WARNING_ENERGY = 104
-    BAUM_WARNING_GLOBAL_ERROR = 105
 
 
 class baum_warning(Structure):

@@ -65,6 +65,7 @@ CONVERT = {
     "tolerance_v": _number("tolerance_v"),
     "tolerance_lambda": _number("tolerance_lambda"),
     "energy_account": _truth("energy_account"),
+    "error_check": _truth("error_check"),
 }
 
 
@@ -141,6 +142,8 @@ class Simulation:
         velocities and multipliers (these of IDA with "baumgarte" or "unstabilized" only); max_step
         [s], for variable steps where a force begins late.
     energy_account: keep the works of Simulation.energy_account and of the channel "energy_account".
+    error_check: estimate the error of the motion by a second integration (counters.error_estimate),
+        and warn where it is large; with fixed steps this is done in any case where it may matter.
     start_time [s], default 0. start: "assemble", "exact", "as_given". solver: "auto", "klu", "qr",
         "block". check_derivatives: compare given derivatives with differences first. max_steps of
         one call. progress(t) is called every progress_interval seconds of wall time, and cancels

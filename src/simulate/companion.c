@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A second integration beside a run.
+ *
+ * Methods with a fixed step are given no tolerance. Beside one, rk8 integrates the same motion with projection at a
+ * tolerance of its own; where they are apart by more than DOUBTFUL the run warns. The companion takes one long step for
+ * many short ones, and only goes along once the local errors of the run, summed, could matter: a motion that amplifies
+ * perturbations by less than 1e4 is right without it. It begins some steps before that, from a state that was still good.
+ *
+ * With the option error_check it goes along from the start, also beside a method that chooses its steps: then it is the
+ * same method at ten times the tolerance, whose error is ten times as large.
+ *
+ * It has a workspace of its own: no evaluation of it reaches the run's solver or its counters. Where it fails, or costs
+ * more than the run itself, as with stiff forces, it is given up, and the error is not known. */
+#include "simulate/companion.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/text.h"
+#include "simulate/breaks.h"
+#include "simulate/local_error.h"
+#include "simulate/saved.h"
+
+static const double DOUBTFUL =
+  0.03; /* between a right result, within 0.01 of the scales, and a wrong one, 0.1 */
+static const double FINE =
+  0.002; /* aimed at by the step that is advised, for the error goes on growing */
+static const double NEGLIGIBLE = 1e-6; /* summed local errors, of the scales */
+static const double TOLERANCE = 1e-6;
+static const double LOOSER = 10.0;
+/* Evaluations, of those of the run since the companion goes along, and a few for a start. */
+static const double MOST_COST = 2.0;
+static const int64_t FREE = 1000;
+
+static const double COARSE = 1e-3;
+
+enum { STRIDE = 8 }; /* steps between states that are kept */
+
+struct baum_i_companion {
+  const baum_integrator *method;
+  baum_workspace *workspace;
+  baum_i_problem problem; /* the run's, with that workspace */
+  void *self;
+  bool active;              /* goes along */
+  bool lost;                /* has been given up */
+  baum_i_local_error local; /* of the run */
+  double sum;               /* of local errors */
+  int64_t begun;            /* evaluations of the run before it went along */
+  baum_i_state state;       /* where its next step begins */
+  baum_i_state at;          /* where the run is */
+  baum_i_state kept[2];     /* of the run, STRIDE steps or more and less ago */
+};
+
+/* ---- life ---- */
+
+static baum_status make_memory(baum_i_companion *c)
+{
+  const baum_mechanism *m = c->workspace->mechanism;
+  baum_i_state *const states[] = {&c->state, &c->at, &c->kept[0], &c->kept[1]};
+  enum { STATES = sizeof states / sizeof states[0] };
+  size_t size = (size_t)m->nq + (size_t)m->nv;
+  double *next = baum_i_alloc(STATES * size + baum_i_local_error_size(m), sizeof *next);
+  if (!next) {
+    return baum_i_fail_memory();
+  }
+  for (int k = 0; k < STATES; k++, next += size) {
+    *states[k] = (baum_i_state){.q = next, .v = next + m->nq};
+  }
+  baum_i_local_error_place(&c->local, m, next);
+  return BAUM_OK;
+}
+
+static void choose_problem(const baum_simulation *run, baum_i_companion *c)
+{
+  c->problem = run->problem;
+  c->problem.workspace = c->workspace;
+  c->method = run->integrator;
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
+    c->method = baum_rk8();
+    c->problem.formulation = BAUM_FORMULATION_PROJECTION;
+    c->problem.step = (double)NAN;
+    c->problem.rtol = TOLERANCE;
+    c->problem.atol = 0.0;
+    c->problem.max_step = (double)INFINITY;
+  } else {
+    c->problem.rtol = fmin(LOOSER * run->problem.rtol, 0.1);
+    c->problem.atol = LOOSER * run->problem.atol;
+  }
+}
+
+baum_status baum_i_companion_create(baum_simulation *run)
+{
+  baum_i_companion *c = baum_i_alloc(1, sizeof *c);
+  if (!c) {
+    return baum_i_fail_memory();
+  }
+  run->companion = c;
+  baum_status status = baum_i_run_make_workspace(run, &c->workspace);
+  if (status == BAUM_OK) {
+    status = make_memory(c);
+  }
+  if (status == BAUM_OK) {
+    run->beside[1] = c->workspace;
+    choose_problem(run, c);
+    status = c->method->create(&c->problem, &run->trial, &c->self);
+  }
+  return status;
+}
+
+void baum_i_companion_destroy(baum_i_companion *c)
+{
+  if (c) {
+    if (c->self) {
+      c->method->destroy(c->self);
+    }
+    baum_workspace_destroy(c->workspace);
+    baum_i_free(c->state.q);
+    baum_i_free(c);
+  }
+}
+
+/* ---- compare ---- */
+
+static void warn(baum_simulation *run, double t, double error)
+{
+  char advice[64] = "take a smaller rtol";
+  if (baum_i_problem_has_fixed_step(&run->problem)) {
+    double advised = run->options.step * pow(FINE / error, 1.0 / run->integrator->order);
+    baum_i_print(advice, sizeof advice, "take a step below %.1g s", advised);
+  }
+  baum_i_run_warn(run, BAUM_WARNING_ACCURACY, t, BAUM_I_NO_JOINT,
+                  "t = %.9g s: the estimated error of the positions by %s is %.2g, relative to the "
+                  "characteristic length and to radians; %s",
+                  t, run->integrator->name, error, advice);
+}
+
+static void compare(baum_simulation *run, const baum_i_state *state, const baum_i_state *at)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double error = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    error = fmax(error, fabs(state->q[i] - at->q[i]) / m->scale[i]);
+  }
+  if (!baum_i_problem_has_fixed_step(&run->problem)) {
+    error /= LOOSER - 1.0;
+  }
+  run->counters.error_estimate = fmax(run->counters.error_estimate, error);
+  if (error > DOUBTFUL && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
+    warn(run, state->t, error);
+  }
+}
+
+/* ---- go along ---- */
+
+/* Its state where the run is, which is inside its last step. */
+static baum_status come_to(baum_i_companion *c, double t)
+{
+  if (t == c->state.t) {
+    c->at.t = t;
+    memcpy(c->at.q, c->state.q, (size_t)c->workspace->mechanism->nq * sizeof *c->at.q);
+    memcpy(c->at.v, c->state.v, (size_t)c->workspace->mechanism->nv * sizeof *c->at.v);
+    return BAUM_OK;
+  }
+  c->at.t = t;
+  return c->method->interpolate(c->self, &c->problem, t, c->at.q, c->at.v);
+}
+
+static bool is_too_costly(const baum_simulation *run)
+{
+  const baum_i_companion *c = run->companion;
+  double cost = (double)(run->workspace->evaluations - c->begun);
+  return (double)(c->workspace->evaluations - FREE) > MOST_COST * cost;
+}
+
+/* Equations as the run has them now. */
+static void use_present_equations(baum_simulation *run)
+{
+  baum_i_companion *c = run->companion;
+  c->problem.direction = run->problem.direction;
+  c->problem.stop = baum_i_run_next_break(run).near;
+  c->problem.stops = isfinite(c->problem.stop);
+  c->workspace->point.parameters = run->workspace->point.parameters;
+  c->workspace->point.inputs = run->workspace->point.inputs;
+  c->workspace->row_gains = run->workspace->row_gains;
+}
+
+/* Steps until it is at t or past it. */
+static baum_status pass(baum_simulation *run, double t)
+{
+  baum_i_companion *c = run->companion;
+  baum_status status = BAUM_OK;
+  while (status == BAUM_OK && c->problem.direction * (t - c->state.t) > 0.0) {
+    status =
+      is_too_costly(run) ? BAUM_ERR_STEP : c->method->advance(c->self, &c->problem, &c->state);
+  }
+  return status;
+}
+
+static void give_up(baum_simulation *run)
+{
+  run->companion->lost = true;
+  run->counters.error_estimate = (double)NAN;
+}
+
+/* What fails here says nothing of the run. */
+static bool reach(baum_simulation *run, const baum_i_state *state)
+{
+  baum_i_companion *c = run->companion;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  use_present_equations(run);
+  baum_status status = pass(run, state->t);
+  if (status == BAUM_OK) {
+    status = come_to(c, state->t);
+  }
+  if (status != BAUM_OK) {
+    give_up(run);
+  }
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  return status == BAUM_OK;
+}
+
+static bool goes_along(const baum_simulation *run)
+{
+  const baum_i_companion *c = run->companion;
+  return c && c->active && !c->lost;
+}
+
+static void start_from(baum_simulation *run, const baum_i_state *state)
+{
+  baum_i_companion *c = run->companion;
+  baum_i_run_copy(run, state, &c->state);
+  c->method->forget(c->self);
+}
+
+static void keep(baum_simulation *run, const baum_i_state *state)
+{
+  baum_i_companion *c = run->companion;
+  baum_i_run_copy(run, &c->kept[1], &c->kept[0]);
+  baum_i_run_copy(run, state, &c->kept[1]);
+}
+
+static void keep_twice(baum_simulation *run)
+{
+  keep(run, &run->state);
+  keep(run, &run->state);
+  run->companion->local.known = 0;
+}
+
+static void set_out(baum_simulation *run, const baum_i_state *from)
+{
+  baum_i_companion *c = run->companion;
+  c->active = true;
+  c->begun = run->workspace->evaluations;
+  c->workspace->evaluations = 0;
+  c->problem.direction = run->problem.direction;
+  start_from(run, from);
+}
+
+/* Steps so long that errors may matter before the first of them can be estimated. */
+static bool is_coarse(const baum_simulation *run)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  double rate = fmax(run->problem.rate, baum_i_scaled_size(m, run->state.v));
+  return baum_i_problem_has_fixed_step(&run->problem) &&
+         pow(run->options.step * rate, run->integrator->order) > COARSE;
+}
+
+void baum_i_companion_begin(baum_simulation *run)
+{
+  baum_i_companion *c = run->companion;
+  if (c) {
+    keep_twice(run);
+    c->sum = 0.0;
+    c->lost = false;
+    c->active = false;
+    run->counters.error_estimate = 0.0;
+    if (run->options.error_check || is_coarse(run)) {
+      set_out(run, &run->state);
+    }
+  }
+}
+
+/* The sum of local errors decides whether it goes along. */
+static void add_local_error(baum_simulation *run)
+{
+  baum_i_companion *c = run->companion;
+  c->sum += baum_i_local_error_of_step(&c->local, run);
+  if (!(c->sum <= NEGLIGIBLE)) {
+    set_out(run, &c->kept[0]);
+  } else if (run->counters.steps % STRIDE == 0) {
+    keep(run, &run->state);
+  }
+}
+
+void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
+{
+  baum_i_companion *c = run->companion;
+  bool done = !run->options.error_check && baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY);
+  if (!c || c->lost || done) {
+    return;
+  }
+  if (!c->active) {
+    add_local_error(run);
+  }
+  bool passed = c->problem.direction * (state->t - c->state.t) >= 0.0;
+  if (c->active && passed && reach(run, state)) {
+    compare(run, state, &c->at);
+  }
+}
+
+/* ---- changes ---- */
+
+void baum_i_companion_settle(baum_simulation *run)
+{
+  baum_i_companion *c = run->companion;
+  if (goes_along(run) && reach(run, &run->state)) {
+    compare(run, &run->state, &c->at);
+    baum_i_run_copy(run, &c->at, &c->state);
+  }
+}
+
+void baum_i_companion_restart(baum_simulation *run)
+{
+  baum_i_companion *c = run->companion;
+  if (goes_along(run)) {
+    c->state.t = run->state.t;
+    c->method->forget(c->self);
+  } else if (c) {
+    keep_twice(run);
+  }
+}
+
+void baum_i_companion_forget(baum_simulation *run)
+{
+  baum_i_companion_restart(run);
+  if (run->companion) {
+    baum_i_workspace_forget(run->companion->workspace);
+  }
+}
+
+/* ---- saved ---- */
+
+static void add_state(baum_i_saved *list, const baum_workspace *w, baum_i_state *state)
+{
+  size_t numbers = (size_t)w->mechanism->nq + (size_t)w->mechanism->nv;
+  BAUM_I_SAVED_ADD(list, "companion t", state->t);
+  baum_i_saved_add(list, "companion q, v", state->q, numbers * sizeof *state->q);
+}
+
+void baum_i_companion_saved(baum_i_companion *c, baum_i_saved *list)
+{
+  BAUM_I_SAVED_ADD_FLAG(list, "companion active", c->active);
+  BAUM_I_SAVED_ADD_FLAG(list, "companion lost", c->lost);
+  BAUM_I_SAVED_ADD(list, "companion sum", c->sum);
+  BAUM_I_SAVED_ADD_COUNT(list, "companion begun", c->begun);
+  BAUM_I_SAVED_ADD_COUNT(list, "companion evaluations", c->workspace->evaluations);
+  add_state(list, c->workspace, &c->state);
+}

@@ -1,0 +1,77 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Local errors of fixed steps. The step of v is compared with the Adams-Moulton formula of order 5, that of q with the
+ * Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, III.1):
+ *
+ *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
+ *   dq = q_1 - q_0 - h/2 (v_0 + v_1) - h^2/12 (a_0 - a_1) + h/2 dv
+ *
+ * Both have errors of order h^6 and h^5 of their own: the estimate of a method of high order is far too large. */
+#include "simulate/local_error.h"
+
+#include <math.h>
+#include <string.h>
+
+static const double SAME_STEP = 1e-6; /* share of a step by which equal ones may differ */
+
+size_t baum_i_local_error_size(const baum_mechanism *m)
+{
+  return (size_t)m->nv * (2 + BAUM_I_ACCELERATIONS);
+}
+
+void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers)
+{
+  local->q = numbers;
+  local->v = local->q + m->nv;
+  for (int k = 0; k < BAUM_I_ACCELERATIONS; k++) {
+    local->a[k] = local->v + (k + 1) * (ptrdiff_t)m->nv;
+  }
+}
+
+/* Largest error of the step by h relative to the scales, velocities against `rate`. */
+static double largest_error(const baum_i_local_error *e, const baum_simulation *run, double h,
+                            double rate)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_state *now = &run->state;
+  const double *a = run->workspace->a;
+  double largest = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    double sum = 251.0 * a[i] + 646.0 * e->a[0][i] - 264.0 * e->a[1][i] + 106.0 * e->a[2][i] -
+                 19.0 * e->a[3][i];
+    double dv = now->v[i] - e->v[i] - h / 720.0 * sum;
+    double dq = now->q[i] - e->q[i] - 0.5 * h * (e->v[i] + now->v[i] - dv) -
+                h * h / 12.0 * (e->a[0][i] - a[i]);
+    largest = fmax(largest, fmax(fabs(dq), fabs(dv) / rate) / m->scale[i]);
+  }
+  return largest;
+}
+
+static void remember(baum_i_local_error *e, const baum_simulation *run, double h)
+{
+  size_t bytes = (size_t)run->workspace->mechanism->nv * sizeof *e->q;
+  double *oldest = e->a[BAUM_I_ACCELERATIONS - 1];
+  memmove(e->a + 1, e->a, (BAUM_I_ACCELERATIONS - 1) * sizeof *e->a);
+  e->a[0] = oldest;
+  memcpy(e->a[0], run->workspace->a, bytes);
+  memcpy(e->q, run->state.q, bytes);
+  memcpy(e->v, run->state.v, bytes);
+  e->t = run->state.t;
+  e->h = h;
+}
+
+double baum_i_local_error_of_step(baum_i_local_error *e, const baum_simulation *run)
+{
+  double h = run->state.t - e->t;
+  double error = 0.0;
+  if (e->known > 1 && !(fabs(h - e->h) <= SAME_STEP * fabs(h))) {
+    e->known = 1; /* only the last state is where this step began */
+  }
+  if (e->known == BAUM_I_ACCELERATIONS) {
+    double rate = baum_i_scaled_size(run->workspace->mechanism, run->state.v);
+    error = largest_error(e, run, h, fmax(rate, run->problem.rate));
+  } else {
+    e->known++;
+  }
+  remember(e, run, h);
+  return error;
+}
