@@ -84,7 +84,7 @@ typedef struct gap {
   double bias[2]; /* of d'' without accelerations */
 } gap;
 
-static gap measure(const judge_scene *s, const judge_joint *j, const double *q, const double *v)
+static gap measure_gap(const judge_scene *s, const judge_joint *j, const double *q, const double *v)
 {
   gap g = {.a = locate(s, j->a, j->point_a, q, v), .b = locate(s, j->b, j->point_b, q, v)};
   for (int i = 0; i < 2; i++) {
@@ -165,7 +165,7 @@ void judge_evaluate_rows(const judge_scene *s, double t, const double *q, const 
   int row = 0;
   memset(out, 0, sizeof *out);
   for (int k = 0; k < s->joint_count; k++) {
-    gap g = measure(s, &s->joints[k], q, v);
+    gap g = measure_gap(s, &s->joints[k], q, v);
     row += fill_joint(&s->joints[k], &g, t, row, out);
   }
 }

@@ -68,7 +68,7 @@ static bool midpoint(const judge_scene *s, double t, const double *y, const doub
   return true;
 }
 
-static double weigh(const run *r, const double *error, const double *y)
+static double scale_error(const run *r, const double *error, const double *y)
 {
   double speed = 1.0;
   double most = 0.0;
@@ -106,7 +106,7 @@ static double extrapolate(const run *r, double t, const double *y, const double 
     }
   }
   memcpy(out, table[r->columns - 1], sizeof error);
-  return weigh(r, error, out);
+  return scale_error(r, error, out);
 }
 
 /* ---- a run ---- */
@@ -258,7 +258,7 @@ static void multiply(const matrix *a, const matrix *b, matrix *out)
 }
 
 /* The largest singular value of the first rows, by iteration with A^T A. */
-static double measure(const matrix *a, int rows)
+static double largest_singular_value(const matrix *a, int rows)
 {
   double x[FREE];
   double size = 0.0;
@@ -308,8 +308,8 @@ static bool find_growth(const judge_scene *s, judge_reference *ref)
         multiply(&segment, &from[j], &product);
         from[j] = product;
       }
-      ref->growth_end = fmax(ref->growth_end, measure(&from[j], segment.rows));
-      ref->growth_q = fmax(ref->growth_q, measure(&from[j], segment.rows / 2));
+      ref->growth_end = fmax(ref->growth_end, largest_singular_value(&from[j], segment.rows));
+      ref->growth_q = fmax(ref->growth_q, largest_singular_value(&from[j], segment.rows / 2));
     }
     ref->growth = fmax(ref->growth, ref->growth_end);
   }

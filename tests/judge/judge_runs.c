@@ -9,7 +9,7 @@
 static const double RIGHT = 0.01;
 static const double GREY = 0.1;
 
-static bool take_start(judge_case *c)
+static bool read_start(judge_case *c)
 {
   baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
@@ -26,7 +26,7 @@ static bool take_start(judge_case *c)
 }
 
 /* Both sides must mean the same mechanism: accelerations at the start. */
-static bool agree(judge_case *c)
+static bool accelerations_agree(judge_case *c)
 {
   const judge_scene *s = &c->scene;
   double own[JUDGE_N];
@@ -58,7 +58,7 @@ bool judge_open(judge_case *c, uint64_t seed)
   }
   c->failed = "build";
   c->m = judge_build(&c->scene);
-  if (!c->m || !take_start(c) || !agree(c)) {
+  if (!c->m || !read_start(c) || !accelerations_agree(c)) {
     return false;
   }
   (void)baum_mechanism_get_scale(c->m, &c->length);

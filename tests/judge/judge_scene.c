@@ -131,7 +131,7 @@ static judge_joint *add_joint(pen *p, judge_kind kind, int a, int b)
   return j;
 }
 
-static void pin(pen *p, int a, int b, const double at[2])
+static void add_pin(pen *p, int a, int b, const double at[2])
 {
   judge_joint *j = add_joint(p, JUDGE_REVOLUTE, a, b);
   local_of(p->s, a, at, j->point_a);
@@ -144,7 +144,7 @@ static double angle_of(const judge_scene *s, int body)
 }
 
 /* A slot in a, or a slider on it, through a point, with the axis at an angle against the ground. */
-static void slide(pen *p, judge_kind kind, int a, int b, const double at[2], double angle)
+static void add_slider(pen *p, judge_kind kind, int a, int b, const double at[2], double angle)
 {
   judge_joint *j = add_joint(p, kind, a, b);
   local_of(p->s, a, at, j->point_a);
@@ -154,7 +154,7 @@ static void slide(pen *p, judge_kind kind, int a, int b, const double at[2], dou
   j->kept = angle_of(p->s, b) - angle_of(p->s, a);
 }
 
-static void hold_apart(pen *p, int a, const double at_a[2], int b, const double at_b[2])
+static void add_distance(pen *p, int a, const double at_a[2], int b, const double at_b[2])
 {
   double length = hypot(at_b[0] - at_a[0], at_b[1] - at_a[1]);
   if (length > 0.05) {
@@ -243,7 +243,7 @@ static void add_springs(pen *p)
 
 /* ---- families ---- */
 
-static void attach(pen *p, int parent, const double at[2], const double to[2])
+static void add_attached(pen *p, int parent, const double at[2], const double to[2])
 {
   judge_dice *d = &p->dice;
   double kind = judge_between(d, 0.0, 1.0);
@@ -254,9 +254,9 @@ static void attach(pen *p, int parent, const double at[2], const double to[2])
     bool slides = kind < 0.4 && !is_particle(p->s, parent);
     int body = add_particle(p, slides ? at : to);
     if (slides) {
-      slide(p, JUDGE_SLOT, parent, body, at, angle);
+      add_slider(p, JUDGE_SLOT, parent, body, at, angle);
     } else if (kind < 0.9) {
-      hold_apart(p, parent, at, body, to);
+      add_distance(p, parent, at, body, to);
     } else {
       add_spring(p, parent, body, false);
     }
@@ -264,16 +264,16 @@ static void attach(pen *p, int parent, const double at[2], const double to[2])
   }
   int body = add_rod(p, begin, to);
   if (kind < 0.66 || is_particle(p->s, parent)) {
-    pin(p, parent, body, at);
+    add_pin(p, parent, body, at);
   } else if (kind < 0.78) {
-    slide(p, JUDGE_SLOT, parent, body, at, angle);
+    add_slider(p, JUDGE_SLOT, parent, body, at, angle);
   } else if (kind < 0.84 && parent != JUDGE_GROUND) {
-    slide(p, JUDGE_SLOT, body, parent, at, angle_of(p->s, body));
+    add_slider(p, JUDGE_SLOT, body, parent, at, angle_of(p->s, body));
   } else if (kind < 0.93) {
-    slide(p, JUDGE_TRANSLATIONAL, parent, body, at, angle);
+    add_slider(p, JUDGE_TRANSLATIONAL, parent, body, at, angle);
   } else {
     from_polar(at, -judge_between(d, 0.3, 1.0), angle, begin);
-    hold_apart(p, parent, begin, body, at);
+    add_distance(p, parent, begin, body, at);
   }
 }
 
@@ -289,7 +289,7 @@ static void grow_tree(pen *p, int count)
     double to[2];
     draw_point(p, parent, at);
     from_polar(at, judge_between(&p->dice, 0.3, 1.2), judge_between(&p->dice, 0.0, 2.0 * PI), to);
-    attach(p, parent, at, to);
+    add_attached(p, parent, at, to);
   }
   int loads = judge_below(&p->dice, 4);
   if (loads == 0 && p->s->body_count > 0) { /* a bob at a tip: with a light rod it comes taut */
@@ -297,7 +297,7 @@ static void grow_tree(pen *p, int count)
     double at[2];
     point_on(p->s, body, 0.5, at);
     if (!is_particle(p->s, body)) {
-      pin(p, body, add_particle(p, at), at);
+      add_pin(p, body, add_particle(p, at), at);
     }
   }
 }
@@ -324,11 +324,11 @@ static void add_chain(pen *p, double points[][2], int count, bool closed)
   int before = JUDGE_GROUND;
   for (int k = 0; k + 1 < count; k++) {
     int body = add_rod(p, points[k], points[k + 1]);
-    pin(p, before, body, points[k]);
+    add_pin(p, before, body, points[k]);
     before = body;
   }
   if (closed) {
-    pin(p, before, JUDGE_GROUND, points[count - 1]);
+    add_pin(p, before, JUDGE_GROUND, points[count - 1]);
   }
 }
 
@@ -392,16 +392,16 @@ static bool draw_slider_crank(pen *p)
   add_chain(p, points, 3, false);
   int kind = judge_below(d, 3);
   if (kind == 0) {
-    slide(p, JUDGE_SLOT, JUDGE_GROUND, 1, points[2], 0.0);
+    add_slider(p, JUDGE_SLOT, JUDGE_GROUND, 1, points[2], 0.0);
   } else if (kind == 1) {
     int bob = add_particle(p, points[2]);
-    pin(p, 1, bob, points[2]);
-    slide(p, JUDGE_SLOT, JUDGE_GROUND, bob, points[2], 0.0);
+    add_pin(p, 1, bob, points[2]);
+    add_slider(p, JUDGE_SLOT, JUDGE_GROUND, bob, points[2], 0.0);
   } else {
     double end[2] = {points[2][0] + 0.2, points[2][1]};
     int block = add_rod(p, points[2], end);
-    pin(p, 1, block, points[2]);
-    slide(p, JUDGE_TRANSLATIONAL, JUDGE_GROUND, block, points[2], 0.0);
+    add_pin(p, 1, block, points[2]);
+    add_slider(p, JUDGE_TRANSLATIONAL, JUDGE_GROUND, block, points[2], 0.0);
   }
   return true;
 }
@@ -419,9 +419,9 @@ static bool draw_loop(pen *p)
   draw_point(p, a, at[0]);
   draw_point(p, b, at[1]);
   if (judge_chance(&p->dice, 0.3) && !is_particle(p->s, a)) {
-    slide(p, JUDGE_SLOT, a, b, at[1], judge_between(&p->dice, 0.0, PI));
+    add_slider(p, JUDGE_SLOT, a, b, at[1], judge_between(&p->dice, 0.0, PI));
   } else {
-    hold_apart(p, a, at[0], b, at[1]);
+    add_distance(p, a, at[0], b, at[1]);
   }
   return true;
 }
@@ -441,8 +441,8 @@ static void draw_taut(pen *p)
   p->s->bodies[rod].inertia *= light;
   p->spread = 0.0;
   int bob = add_particle(p, to);
-  slide(p, JUDGE_SLOT, JUDGE_GROUND, rod, from, judge_between(d, 0.0, PI));
-  pin(p, rod, bob, to);
+  add_slider(p, JUDGE_SLOT, JUDGE_GROUND, rod, from, judge_between(d, 0.0, PI));
+  add_pin(p, rod, bob, to);
 }
 
 static bool draw_family(pen *p)
@@ -515,7 +515,7 @@ static void add_load(pen *p)
   }
 }
 
-static bool start(pen *p)
+static bool find_start(pen *p)
 {
   judge_scene *s = p->s;
   judge_dice *d = &p->dice;
@@ -566,7 +566,7 @@ static bool draw_once(judge_scene *s, uint64_t seed, int attempt)
   for (int k = 0; k < s->spring_count; k++) {
     s->conservative = s->conservative && s->springs[k].damping <= 0.0;
   }
-  return s->n > s->rows && start(&p);
+  return s->n > s->rows && find_start(&p);
 }
 
 bool judge_scene_draw(judge_scene *s, uint64_t seed)
