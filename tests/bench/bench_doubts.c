@@ -397,6 +397,10 @@ int main(int count, char **arguments)
       k++;
     }
   }
+  if (b.error_check) { /* judge_run() and judge_global_estimate() are to use it */
+    (void)fprintf(stderr, "the library has no option error_check yet\n");
+    return EXIT_FAILURE;
+  }
   b.entries = b.count > 0 ? calloc((size_t)b.count, sizeof *b.entries) : NULL;
   if (!b.entries) {
     return EXIT_FAILURE;
