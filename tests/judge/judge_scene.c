@@ -521,7 +521,8 @@ static bool find_start(pen *p)
   judge_dice *d = &p->dice;
   double least = INFINITY;
   double most = 0.0;
-  double speed = judge_chance(d, 0.15) ? 0.0 : draw_decades(d, -0.5, 0.6);
+  bool rests = judge_chance(d, 0.15) && s->gravity > 0.0;
+  double speed = rests ? 0.0 : draw_decades(d, -0.5, 0.6);
   double squares = 0.0;
   for (int k = 0; k < s->body_count; k++) {
     const judge_body *b = &s->bodies[k];
