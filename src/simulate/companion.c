@@ -26,8 +26,8 @@ static const double DOUBTFUL =
   0.03; /* between a right result, within 0.01 of the scales, and a wrong one, 0.1 */
 static const double FINE =
   0.002; /* aimed at by the step that is advised, for the error goes on growing */
-static const double NEGLIGIBLE = 1e-6; /* summed local errors, of the scales */
-static const double TOLERANCE = 1e-6;
+static const double NEGLIGIBLE = 1e-5; /* summed local errors, of the scales */
+static const double TOLERANCE = 1e-5;
 static const double LOOSER = 10.0;
 /* Evaluations, of those of the run since the companion goes along, and a few for a start. */
 static const double MOST_COST = 2.0;

@@ -27,9 +27,9 @@ void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m
   }
 }
 
-/* Largest error of the step by h relative to the scales, velocities against `rate`. */
+/* Largest error of the step by h relative to the scales, that of velocities over a `period`. */
 static double largest_error(const baum_i_local_error *e, const baum_simulation *run, double h,
-                            double rate)
+                            double period)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_state *now = &run->state;
@@ -41,7 +41,8 @@ static double largest_error(const baum_i_local_error *e, const baum_simulation *
     double dv = now->v[i] - e->v[i] - h / 720.0 * sum;
     double dq = now->q[i] - e->q[i] - 0.5 * h * (e->v[i] + now->v[i] - dv) -
                 h * h / 12.0 * (e->a[0][i] - a[i]);
-    largest = fmax(largest, fmax(fabs(dq), fabs(dv) / rate) / m->scale[i]);
+    double error = (fabs(dq) + period * fabs(dv)) / m->scale[i];
+    largest = error > largest ? error : largest;
   }
   return largest;
 }
@@ -68,7 +69,7 @@ double baum_i_local_error_of_step(baum_i_local_error *e, const baum_simulation *
   }
   if (e->known == BAUM_I_ACCELERATIONS) {
     double rate = baum_i_scaled_size(run->workspace->mechanism, run->state.v);
-    error = largest_error(e, run, h, fmax(rate, run->problem.rate));
+    error = largest_error(e, run, h, 1.0 / fmax(rate, run->problem.rate));
   } else {
     e->known++;
   }

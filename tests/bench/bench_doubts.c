@@ -151,8 +151,8 @@ static void print_run(const entry *e, int setting)
   for (int k = 0; k < r->code_count; k++) {
     (void)printf("%s%d", k > 0 ? ";" : "", r->codes[k]);
   }
-  (void)printf(",%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,", (int)r->status, c->max_phi, c->max_phi_rate,
-               c->predicted_phi, c->energy_change, c->error_estimate, judge_global_estimate(c));
+  (void)printf(",%d,%.6g,%.6g,%.6g,%.6g,%.6g,", (int)r->status, c->max_phi, c->max_phi_rate,
+               c->predicted_phi, c->energy_change, c->error_estimate);
   (void)printf("%.6g,%d,%d,%.4g,%.6g,%g,%.4g,%.3g,%d,%d,%lld,%lld,%.3g\n", e->kinetic,
                e->conservative, e->driven, e->rate, e->length, e->end, e->mass_ratio, e->agreement,
                e->n, e->rows, (long long)c->steps, (long long)c->near_singular_intervals, c->wall);
@@ -163,7 +163,7 @@ static void print_csv(const bench *b)
   (void)printf(
     "seed,family,setting,class,error,error_end,growth,growth_end,growth_q,doubted,codes,status,"
     "max_phi,max_phi_rate,predicted_phi,energy_change,error_estimate,"
-    "global_error_estimate,kinetic,conservative,driven,rate,length,end,mass_ratio,agreement,"
+    "kinetic,conservative,driven,rate,length,end,mass_ratio,agreement,"
     "coordinates,rows,steps,near_singular_intervals,wall\n");
   for (long k = 0; k < b->count; k++) {
     for (int i = 0; i < SETTINGS_COUNT; i++) {
@@ -396,10 +396,6 @@ int main(int count, char **arguments)
     if (k + 1 < count && read_argument(&b, arguments[k], arguments[k + 1])) {
       k++;
     }
-  }
-  if (b.error_check) { /* judge_run() and judge_global_estimate() are to use it */
-    (void)fprintf(stderr, "the library has no option error_check yet\n");
-    return EXIT_FAILURE;
   }
   b.entries = b.count > 0 ? calloc((size_t)b.count, sizeof *b.entries) : NULL;
   if (!b.entries) {

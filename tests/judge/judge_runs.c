@@ -119,7 +119,6 @@ void judge_run(const judge_case *c, const judge_setting *setting, bool error_che
   const baum_channel positions = {.quantity = BAUM_Q};
   baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
-  (void)error_check;
   o.integrator = setting->integrator();
   o.formulation = setting->formulation;
   if (setting->step > 0.0) {
@@ -128,6 +127,7 @@ void judge_run(const judge_case *c, const judge_setting *setting, bool error_che
     o.rtol = setting->rtol;
   }
   o.max_steps = 1000000;
+  o.error_check = error_check;
   *out = (judge_outcome){.error = (double)NAN, .error_end = (double)NAN};
   out->status = baum_simulation_create(c->m, &o, &run);
   if (!run) {
@@ -146,10 +146,4 @@ void judge_run(const judge_case *c, const judge_setting *setting, bool error_che
   (void)baum_simulation_counters(run, &out->counters, sizeof out->counters);
   out->doubted = out->counters.doubts > 0;
   baum_simulation_destroy(run);
-}
-
-double judge_global_estimate(const baum_counters *c)
-{
-  (void)c;
-  return (double)NAN;
 }

@@ -53,7 +53,4 @@ void judge_close(judge_case *c);
 void judge_run(const judge_case *c, const judge_setting *setting, bool error_check,
                judge_outcome *out);
 
-/** The estimate of the option error_check; NaN without it. */
-double judge_global_estimate(const baum_counters *c);
-
 #endif
