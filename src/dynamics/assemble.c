@@ -315,6 +315,13 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
   if (status != BAUM_OK) {
     return status;
   }
+  status = baum_i_check_sizes(w, "velocity", v);
+  if (status == BAUM_OK) {
+    status = baum_i_check_rows(w, "velocity violation", w->phi_rate);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
   baum_i_row_displacements(w, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + NO_RATE)) {

@@ -214,6 +214,9 @@ baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
+/* Likewise where one of (nv) overflows in units of its scale, as baum_i_scaled_size() takes it. */
+baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values);
+
 /* BAUM_ERR_NOT_FINITE: names whose number in J, force or rhs is not finite. */
 baum_status baum_i_fail_not_finite(const baum_workspace *w);
 

@@ -51,6 +51,23 @@ baum_status baum_i_check_velocities(const baum_workspace *w, const char *what, c
   return i < 0 ? BAUM_OK : fail_velocity(w, what, i, values[i]);
 }
 
+baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values)
+{
+  const baum_mechanism *m = w->mechanism;
+  baum_status status = baum_i_check_velocities(w, what, values);
+  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+    if (!isfinite(values[i] / m->scale[i])) {
+      char label[BAUM_I_LABEL_SIZE];
+      const baum_i_body *body = baum_i_velocity_body(m, i);
+      status = baum_i_fail(
+        BAUM_ERR_NOT_FINITE,
+        "t = %.9g s: the %s of %s is %g, too large for double precision beside its scale of %g",
+        w->point.t, what, baum_i_label(&body->element, "body", label), values[i], m->scale[i]);
+    }
+  }
+  return status;
+}
+
 baum_status baum_i_check_jacobian(const baum_workspace *w)
 {
   for (int k = 0; k < w->structure.row_block_count; k++) {

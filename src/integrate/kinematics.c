@@ -38,7 +38,7 @@ static const double SINGULAR_GAIN = 1e3;
 /* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 / gain. */
 static const double FOLD_PULL = 1e-3;
 
-enum { POSES = 4 };
+enum { POSES = 4, MOST_PIECES = 10000 /* of a step that is walked through */ };
 
 typedef struct kinematics_run {
   baum_i_continuation path;
@@ -144,7 +144,7 @@ static double change(const baum_i_verdict *verdict)
 
 static double shortest_step(const baum_i_problem *problem, double t)
 {
-  return SHORTEST / problem->rate + TIME_ROUNDINGS * DBL_EPSILON * fabs(t);
+  return fmax(SHORTEST / problem->rate + TIME_ROUNDINGS * DBL_EPSILON * fabs(t), DBL_MIN);
 }
 
 static const char *label_of(const baum_mechanism *m, int joint, char text[BAUM_I_LABEL_SIZE])
@@ -231,7 +231,7 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
     }
     run->statistics.rejected++;
     longest = 1.0 / GROWTH;
-    if (*h < shortest) {
+    if (!(*h >= shortest)) {
       return fail(run, problem, &verdict, tried);
     }
   }
@@ -239,12 +239,19 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
 
 /* ---- inside the last step ---- */
 
-/* By short steps from the left end, where the guess inside was no good. */
+/* By short steps from the left end, where the guess inside was no good. A step that the time rounds away would not
+ * lead on. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
   copy_pose(problem->workspace->mechanism, run->left, run->trial);
   double h = 0.5 * fabs(t - run->left->t);
-  while (run->trial->t != t) {
+  for (int k = 0; run->trial->t != t; k++) {
+    if (k == MOST_PIECES) {
+      return baum_i_fail(BAUM_ERR_STEP,
+                         "t = %.9g s: kinematics: %d steps inside the last one do not reach %.9g s",
+                         run->trial->t, (int)MOST_PIECES, t);
+    }
+    h = fmax(h, shortest_step(problem, t));
     baum_status status = step(run, problem, run->trial, run->spare, t, &h);
     if (status != BAUM_OK) {
       return status;

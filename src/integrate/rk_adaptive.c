@@ -64,6 +64,9 @@ static const double SHARE_OF_ERROR3 = 0.01;
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
+/* Tries of one step. Each is at most 0.9 of the one before, and half of them suffice from T to the shortest step. */
+enum { MOST_TRIES = 1000 };
+
 /* ---- failures ---- */
 
 /* h: 0 where no step has begun. */
@@ -282,7 +285,7 @@ static void accept(adaptive_run *run, double error, double length, baum_i_state 
 static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double length)
 {
   length = fmin(length, problem->max_step);
-  double shortest = SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate);
+  double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
   double left = problem->stops ? problem->direction * (problem->stop - run->t) : (double)INFINITY;
   if (length < left && 2.0 * length > left) {
     length = 0.5 * left; /* two of a length, not a last one that is tiny */
@@ -290,7 +293,8 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
   run->t_end = length < left ? run->t + problem->direction * length : problem->stop;
   length = fmin(length, left);
   run->h = run->t_end - run->t;
-  return length < shortest ? fail_short(run, problem, length) : BAUM_OK;
+  bool is_sound = length >= shortest && isfinite(run->h);
+  return is_sound ? BAUM_OK : fail_short(run, problem, length);
 }
 
 /* Error that is accepted, in units of the tolerance. */
@@ -303,7 +307,7 @@ static double largest_error(const adaptive_run *run, const baum_i_problem *probl
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_rk_pose_look(&run->pose, &run->rk, problem, run->t);
-  while (!baum_i_rk_pose_is_held(&run->pose)) {
+  for (int k = 0; k < MOST_TRIES && !baum_i_rk_pose_is_held(&run->pose); k++) {
     double error = 0.0;
     bool forced = false;
     double length = baum_i_rk_pose_length(&run->pose, run->control.step, &forced);

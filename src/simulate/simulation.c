@@ -57,10 +57,19 @@ static baum_status choose_problem(baum_simulation *run)
     .tolerance_lambda = portion * o->tolerance_lambda,
   };
   baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
+  if (status == BAUM_OK) {
+    status = baum_i_check_sizes(run->workspace, "acceleration", run->workspace->a);
+  }
   if (status != BAUM_OK) {
     return status;
   }
   double rate = baum_i_run_start_rate(run);
+  if (!isfinite(rate)) {
+    return baum_i_fail(
+      BAUM_ERR_NOT_FINITE,
+      "t = %.9g s: gravity is too large for double precision beside the size of the mechanism",
+      start->t);
+  }
   p->rate = rate > 0.0 ? rate : 1.0;
   return baum_i_run_choose_gains(run);
 }

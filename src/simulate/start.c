@@ -231,7 +231,9 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
   if (run->options.start == BAUM_START_ASSEMBLE) {
     return start_assembled(run, q, v);
   }
-  return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
+  run->workspace->point.t = t; /* for the message */
+  baum_status status = baum_i_check_sizes(run->workspace, "velocity", run->trial.v);
+  return status == BAUM_OK && run->options.start == BAUM_START_EXACT ? check_exact(run) : status;
 }
 
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to)
