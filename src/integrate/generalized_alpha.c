@@ -46,6 +46,11 @@ static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
 /* Changes that have stopped falling, and are no more than so many of these roundings, are rounding, too. */
 static const double STALLED = 64.0;
+/* Changes up to this that have stopped falling are compared with what rounding makes of the equations: that of a large
+ * coordinate is much in the scale of a small one that is tied to it. */
+static const double LARGEST_NOISE = 1e-7;
+static const double NOISES = 16.0;
+static const double NUDGE = 4.0 * DBL_EPSILON;
 
 /* Of a step, for the derivative of the acceleration by a difference: truncation is this share of terms of second order,
  * rounding its inverse of one unit. */
@@ -199,6 +204,55 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, double
   return status;
 }
 
+/* All unknowns up by some roundings; they are kept in `next`, which the end of the step fills. */
+static void nudge(alpha_run *run)
+{
+  size_t nv = (size_t)run->nv;
+  memcpy(run->next.a, run->y, nv * sizeof *run->y);
+  memcpy(run->next.rate, run->dy + nv, nv * sizeof *run->dy);
+  memcpy(run->next.lambda, run->y + 2 * nv, (size_t)run->nc * sizeof *run->y);
+  for (size_t i = 0; i < nv; i++) {
+    run->y[i] *= 1.0 + NUDGE;
+    run->dy[nv + i] *= 1.0 + NUDGE;
+  }
+  for (int i = 0; i < run->nc; i++) {
+    run->y[2 * nv + (size_t)i] *= 1.0 + NUDGE;
+  }
+}
+
+static void take_back(alpha_run *run)
+{
+  size_t nv = (size_t)run->nv;
+  memcpy(run->y, run->next.a, nv * sizeof *run->y);
+  memcpy(run->dy + nv, run->next.rate, nv * sizeof *run->dy);
+  memcpy(run->y + 2 * nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
+}
+
+/* Size of the change of the positions that rounding asks for: what the equations change by when all unknowns do so in
+ * their last digits, with signs of its own in each row, for rows are rounded each by itself. */
+static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
+                              const baum_i_step_ratios *ratios, double *noise)
+{
+  static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
+  baum_workspace *w = problem->workspace;
+  const double *rest = run->residual + run->nv;
+  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
+  memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
+  if (status == BAUM_OK) {
+    nudge(run);
+    status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
+    take_back(run);
+  }
+  if (status == BAUM_OK) {
+    for (int i = 0; i < run->nv + run->nc; i++) {
+      run->x[i] = (i < run->nv ? ratios->scale : 1.0) * fabs(rest[i] - run->x[i]);
+    }
+    baum_i_step_matrix_solve(run->matrix, run->x);
+    *noise = baum_i_scaled_size(w->mechanism, run->x);
+  }
+  return status;
+}
+
 /* Changes of positions that need no further one. */
 typedef struct limits {
   double enough;
@@ -245,8 +299,14 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     if (status != BAUM_OK) {
       return status;
     }
-    if (is_last(&last, size, before)) {
-      return BAUM_OK;
+    bool done = is_last(&last, size, before);
+    if (!done && k > 1 && size > 0.5 * before && size <= LARGEST_NOISE) {
+      double noise = 0.0;
+      status = find_noise(run, problem, state->t + h, &ratios, &noise);
+      done = size <= NOISES * noise;
+    }
+    if (status != BAUM_OK || done) {
+      return status;
     }
     /* The first may be larger than the prediction was wrong. */
     if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {

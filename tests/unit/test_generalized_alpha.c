@@ -334,6 +334,92 @@ static void only_index_3_without_gains_is_offered(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
+/* ---- a small stiff coordinate on a large one ---- */
+
+/* u = x - 0.4 of a link, of unit mass on a spring of k. */
+static int unit(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = 1.0;
+  return 0;
+}
+
+static int spring(double t, const double *q, const double *v, const double *inputs, double *out,
+                  void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  const double *k = user;
+  out[0] = -*k * q[0];
+  return 0;
+}
+
+static int follow(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[3] - (q[0] - 0.4);
+  return 0;
+}
+
+static baum_mechanism *link_with_gauge(double *k)
+{
+  baum_mechanism *m = NULL;
+  baum_body_id ids[2];
+  const double scale = 1e-5;
+  baum_planar_body_def link = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_coordinates_def gauge = baum_coordinates_def_default();
+  baum_user_constraint_def tie = baum_user_constraint_def_default();
+  link.inertia = 1.0 / 12.0;
+  link.position[0] = 0.4;
+  link.position[1] = -0.3;
+  gauge.size = 1;
+  gauge.scale = &scale;
+  gauge.mass = unit;
+  gauge.constant_mass = true;
+  gauge.force = spring;
+  gauge.user = k;
+  check(baum_mechanism_create(&m));
+  check(baum_mechanism_add_planar_body(m, &link, &ids[0]));
+  check(baum_mechanism_add_coordinates(m, &gauge, &ids[1]));
+  pin.body_a = BAUM_GROUND;
+  pin.body_b = ids[0];
+  pin.point[0] = 0.0;
+  pin.point[1] = 0.0;
+  check(baum_mechanism_add_planar_revolute(m, &pin, NULL));
+  tie.bodies = ids;
+  tie.body_count = 2;
+  tie.row_count = 1;
+  tie.phi = follow;
+  check(baum_mechanism_add_user_constraint(m, &tie, NULL));
+  check(baum_mechanism_freeze(m));
+  return m;
+}
+
+/* A last digit of x is 1e-11 of the scale of u, and no smaller step makes it less. */
+static void rounding_in_the_scale_of_a_small_coordinate_is_no_failure(void **state)
+{
+  (void)state;
+  for (double k = 1e8; k <= 1e12; k *= 100.0) {
+    baum_mechanism *m = link_with_gauge(&k);
+    for (double h = 1e-6; h < 1e-4; h *= 4.0) {
+      baum_simulation_options options = options_with(baum_generalized_alpha(), h);
+      baum_simulation *run = start(m, &options);
+      check(baum_simulation_step(run, 100));
+      assert_true(counters_of(run).max_phi < 1e-14);
+      assert_true(counters_of(run).nonlinear_iterations <= 600);
+      /* It swings about where the spring gives way to the weight. */
+      assert_true(fabs(baum_simulation_q(run)[3]) < 100.0 / k);
+      baum_simulation_destroy(run);
+    }
+    baum_mechanism_destroy(m);
+  }
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -348,6 +434,7 @@ int main(void)
     cmocka_unit_test(samples_of_a_mechanism_alter_nothing_from_the_first_step_on),
     cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
     cmocka_unit_test(only_index_3_without_gains_is_offered),
+    cmocka_unit_test(rounding_in_the_scale_of_a_small_coordinate_is_no_failure),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
