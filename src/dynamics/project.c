@@ -19,6 +19,11 @@ enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
  * curvature. */
 static const double CONVERGED = 1e-10;
+/* Roundings of all rows may add up, as those of the joints do in a chain of 1e5 links: changes of this for each row that
+ * no longer fall are rounding, where the violation is. */
+static const double STALLED = 8.0 * DBL_EPSILON;
+/* Such a violation, as a displacement, of the largest coordinate. */
+static const double NOISE = 64.0 * DBL_EPSILON;
 
 /* Solve with right side (0, w->rhs); the change is in w->a. */
 static baum_status least_change(baum_workspace *w)
@@ -94,16 +99,34 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
   return least_change(w);
 }
 
+/* Is the violation that q has nothing but rounding? */
+static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, bool *is)
+{
+  const baum_mechanism *m = w->mechanism;
+  double most = NOISE * fmax(1.0, baum_i_scaled_size(m, q));
+  baum_status status = baum_i_position_stage(w, t, q);
+  *is = status == BAUM_OK;
+  if (*is) {
+    baum_i_row_displacements(w, w->rhs);
+  }
+  for (int i = 0; i < m->nc && *is; i++) {
+    *is =
+      (w->redundancy.count > 0 && w->redundancy.dropped[i]) || fabs(w->phi[i]) <= most * w->rhs[i];
+  }
+  return status;
+}
+
 static baum_status project_positions(baum_workspace *w, double t, double *q)
 {
   const baum_mechanism *m = w->mechanism;
   double last = INFINITY;
+  double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     baum_status status = change_of_positions(w, t, q);
     if (status != BAUM_OK) {
       return status;
     }
-    double size = apply(m, w->a, q);
+    size = apply(m, w->a, q);
     if (size <= fmax(CONVERGED, rounding_of(m, q))) {
       return BAUM_OK;
     }
@@ -111,6 +134,13 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
       break;
     }
     last = size;
+  }
+  bool stalled = false;
+  if (size <= STALLED * m->nc * fmax(1.0, baum_i_scaled_size(m, q))) {
+    baum_status status = is_at_rounding(w, t, q, &stalled);
+    if (status != BAUM_OK || stalled) {
+      return status;
+    }
   }
   return baum_i_fail(
     BAUM_ERR_CONVERGENCE,

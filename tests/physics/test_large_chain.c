@@ -96,6 +96,28 @@ static void it_is_frozen_and_runs_at_once(void **state)
   baum_simulation_destroy(run);
 }
 
+/* Straight and level; roundings of its joints add up in the last links. */
+static void it_is_projected(void **state)
+{
+  (void)state;
+  model m;
+  double *angles = calloc(LINKS, sizeof *angles);
+  assert_non_null(angles);
+  const model_chain data = {.links = LINKS, .angle = angles};
+  check(model_chain_build(&data, &m));
+  free(angles);
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk4();
+  options.step = 1e-3;
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(m.mechanism, &options, &run));
+  model_destroy(&m);
+  double before = now();
+  check(baum_simulation_step(run, 12));
+  (void)lap("12 steps of rk4", before);
+  baum_simulation_destroy(run);
+}
+
 static void its_freedoms_are_counted(void **state)
 {
   (void)state;
@@ -188,6 +210,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(it_is_frozen_and_runs_at_once),
+    cmocka_unit_test(it_is_projected),
     cmocka_unit_test(its_freedoms_are_counted),
     cmocka_unit_test(every_link_obeys_newton_and_euler),
   };
