@@ -97,6 +97,18 @@ baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const do
   return status;
 }
 
+/* In the scales, where no mass is light. */
+static void find_apart_by_lengths(baum_workspace *w, double t, const double *q, look *at,
+                                  bool *found)
+{
+  const baum_mechanism *m = w->mechanism;
+  *found = false;
+  if (baum_i_position_stage(w, t, q) == BAUM_OK) {
+    memcpy(at->column_scale, m->scale, (size_t)m->nv * sizeof *m->scale);
+    (void)find_independent(w, LEAST, at, found);
+  }
+}
+
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
 {
   look at;
@@ -104,7 +116,10 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   if (begin(workspace->mechanism, &at) == BAUM_OK) {
-    (void)find_apart(workspace, t, q, &at, &found);
+    find_apart_by_lengths(workspace, t, q, &at, &found);
+    if (!found && workspace->redundancy.count > 0) {
+      (void)find_apart(workspace, t, q, &at, &found);
+    }
     finish(&at);
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);

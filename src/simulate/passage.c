@@ -7,8 +7,8 @@
  *   p < NEAR            the run is inside; the last state before and the first one after are the ends of the interval
  *   sqrt(p) has a least value among three states, and its slopes would let it reach zero between them: the least p of
  *                       the motion through the three is looked for, for fixed steps may jump over a singular pose
- *   least p < SINGULAR  it has been a passage: it is recorded, its branch decided (branch.c), and warned of; others
- *                       are nothing but poses that are worse than usual
+ *   least p < SINGULAR  it has been a passage, unless J keeps its rank there: it is recorded, its branch decided
+ *                       (branch.c), and warned of; others are nothing but poses that are worse than usual
  */
 #include "simulate/passage.h"
 
@@ -181,11 +181,11 @@ static void begin(baum_i_passages *p, double from)
     (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
 }
 
-/* Whether redundant rows would hold where those that are kept do not. */
-static bool is_of_chosen_rows(baum_simulation *run, double t, const double *q, double pivot)
+/* Whether the rows of J keep their rank where the pivot is small: redundant rows may hold where those that are kept do not,
+ * and where a light body alone moves in the direction of a row the pivot falls to the ratio of masses, but no further. */
+static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
-  baum_workspace *w = run->workspace;
-  return w->redundancy.count > 0 && pivot < SINGULAR && baum_i_rows_are_apart(w, t, q);
+  return pivot < SINGULAR && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
 /* Between the last three states. */
@@ -197,7 +197,7 @@ static void search(baum_simulation *run)
   int joint = -1;
   double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
   baum_i_hermite(p->recent, BAUM_I_RECENT, p->nv, at, p->at.q, p->at.v);
-  if (pivot < present->smallest && !is_of_chosen_rows(run, at, p->at.q, pivot)) {
+  if (pivot < present->smallest && !keeps_its_rank(run, at, p->at.q, pivot)) {
     present->smallest = pivot;
     present->at = at;
     present->joint = joint;
@@ -211,7 +211,7 @@ static void see_last(baum_simulation *run)
   baum_i_passages *p = run->passages;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   baum_i_passage *present = &p->present;
-  if (last->pivot < present->smallest && !is_of_chosen_rows(run, last->t, last->q, last->pivot)) {
+  if (last->pivot < present->smallest && !keeps_its_rank(run, last->t, last->q, last->pivot)) {
     present->smallest = last->pivot;
     present->at = last->t;
     present->joint = p->joint_noted;

@@ -190,6 +190,64 @@ static baum_status build_light_rotation(model *out)
   return status == BAUM_OK ? baum_mechanism_freeze(out->mechanism) : status;
 }
 
+/* A light rod that comes taut between a slot through the origin and a bob of 1 kg. */
+static baum_mechanism *build_taut_rod(double mass, double direction)
+{
+  baum_mechanism *m = NULL;
+  baum_planar_body_def rod = baum_planar_body_def_default();
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  rod.mass = mass;
+  rod.inertia = mass / 12.0;
+  rod.position[0] = 0.4;
+  rod.position[1] = -0.3;
+  rod.angle = -0.6435011087932844;
+  bob.position[0] = 0.8;
+  bob.position[1] = -0.6;
+  bob.velocity[0] = 2.0 * cos(direction);
+  bob.velocity[1] = 2.0 * sin(direction);
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &rod, &pin.body_a), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &pin.body_b), BAUM_OK);
+  slot.body_a = BAUM_GROUND;
+  slot.body_b = pin.body_a;
+  slot.point_a[0] = slot.point_a[1] = 0.0;
+  slot.point_b[0] = -0.5;
+  slot.point_b[1] = 0.0;
+  slot.axis[0] = 1.0;
+  slot.axis[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_pin_in_slot(m, &slot, NULL), BAUM_OK);
+  pin.point_a[0] = 0.5;
+  pin.point_a[1] = 0.0;
+  pin.point_b[0] = pin.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+/* Pivots fall to the ratio of masses where the slot holds the bob by the light rod; J keeps its rank. */
+static void a_light_rod_that_comes_taut_is_not_singular(void **state)
+{
+  (void)state;
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk8();
+  o.rtol = 1e-9;
+  for (int k = 0; k < 60; k++) {
+    baum_mechanism *m = build_taut_rod(pow(10.0, -5.0 + 4.0 * (k % 20) / 19.0), 0.9 * k);
+    baum_simulation *run = NULL;
+    baum_counters c;
+    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    assert_true(baum_simulation_advance_to(run, 1.5) >= BAUM_OK);
+    assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+    assert_true(fabs(c.energy_change) < 1e-7);
+    assert_int_equal(c.near_singular_intervals, 0);
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
 static void mechanisms_away_from_singular_poses_are_silent(void **state)
 {
   (void)state;
@@ -223,6 +281,7 @@ int main(void)
     cmocka_unit_test(fixed_steps_may_end_in_a_pose),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
     cmocka_unit_test(mechanisms_away_from_singular_poses_are_silent),
+    cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),
     cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
