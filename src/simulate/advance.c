@@ -580,7 +580,10 @@ baum_status baum_simulation_sample(baum_simulation *simulation, const double *ti
   int64_t taken = 0;
   for (int64_t k = 0; k < n && status == BAUM_OK; k++) {
     const baum_i_state *at = NULL;
-    status = sample_one(simulation, times[k], k == n - 1, &taken, &at);
+    status = baum_i_run_is_wanted(simulation);
+    if (status == BAUM_OK) {
+      status = sample_one(simulation, times[k], k == n - 1, &taken, &at);
+    }
     if (status == BAUM_OK) {
       status = baum_i_output(simulation, at, channels, count, rows + k * width);
     }

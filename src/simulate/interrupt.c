@@ -84,11 +84,25 @@ static baum_status fail_creeping(baum_simulation *run)
   return baum_i_run_explain_failure(run, status, now);
 }
 
+static double end_of_last_step(const baum_simulation *run)
+{
+  return baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
+}
+
+baum_status baum_i_run_is_wanted(baum_simulation *run)
+{
+  bool is_cancelled = atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run);
+  return is_cancelled
+           ? baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", end_of_last_step(run))
+           : BAUM_OK;
+}
+
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
 {
-  double t = baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
-  if (atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run)) {
-    return baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", t);
+  double t = end_of_last_step(run);
+  baum_status status = baum_i_run_is_wanted(run);
+  if (status != BAUM_OK) {
+    return status;
   }
   if (taken >= run->options.max_steps) {
     return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,

@@ -186,6 +186,9 @@ void baum_i_run_count_from_here(baum_simulation *run);
  * where its last step ended, which a variable-step method keeps ahead. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
+/* Before every sample, which may need no step: BAUM_OK, or BAUM_STOP_CANCELLED. */
+baum_status baum_i_run_is_wanted(baum_simulation *run);
+
 /* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read it. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);

@@ -208,6 +208,32 @@ static baum_study *study_of(const baum_mechanism *m, int *left)
   return study;
 }
 
+/* All of them inside a step that has been taken. */
+static void samples_that_need_no_step_are_cancelled(void **unused)
+{
+  (void)unused;
+  model m;
+  check(model_chain_3(&m));
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk8();
+  o.rtol = 1e-6;
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(m.mechanism, &o, &run));
+  check(baum_simulation_advance_to(run, 1e-6));
+  const double times[3] = {2e-6, 3e-6, 4e-6};
+  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  double rows[3 * 2];
+  int64_t done = -1;
+  baum_simulation_cancel(run);
+  assert_int_equal(baum_simulation_sample(run, times, 3, &energy, 1, rows, &done),
+                   BAUM_STOP_CANCELLED);
+  assert_int_equal(done, 0);
+  check(baum_simulation_sample(run, times, 3, &energy, 1, rows, &done));
+  assert_int_equal(done, 3);
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+}
+
 static void a_study_goes_on_to_the_same_rows(void **unused)
 {
   (void)unused;
@@ -237,6 +263,7 @@ int main(void)
     cmocka_unit_test(a_run_goes_on_as_if_it_had_not_been_cancelled),
     cmocka_unit_test(kinematics_go_on_likewise),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
+    cmocka_unit_test(samples_that_need_no_step_are_cancelled),
     cmocka_unit_test(a_study_goes_on_to_the_same_rows),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
