@@ -1,0 +1,379 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "redundant_mechanism.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "random_mechanism.h"
+
+enum { BODY_SIZE = 3 };
+
+/* ---- parts ---- */
+
+typedef struct builder {
+  baum_mechanism *m;
+  chance chance;
+  double ratio;
+} builder;
+
+static baum_body_id add_body(builder *b, double x, double y, double mass)
+{
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id id;
+  def.mass = mass;
+  def.inertia = mass * chance_decade(&b->chance, 0.01, 1.0);
+  def.position[0] = x;
+  def.position[1] = y;
+  check(baum_mechanism_add_planar_body(b->m, &def, &id));
+  if (chance_below(&b->chance, 3) == 0) {
+    baum_planar_load_def load = baum_planar_load_def_default();
+    double size = chance_below(&b->chance, 2) == 0 ? 10.0 * mass : 10.0;
+    load.body = id;
+    load.force[0] = size * chance_number(&b->chance, -1.0, 1.0);
+    load.force[1] = size * chance_number(&b->chance, -1.0, 1.0);
+    load.torque = size * chance_number(&b->chance, -1.0, 1.0);
+    check(baum_mechanism_add_planar_load(b->m, &load, NULL));
+  }
+  return id;
+}
+
+static baum_body_id add_any(builder *b, double x, double y)
+{
+  return add_body(b, x, y, chance_decade(&b->chance, 1.0 / b->ratio, 1.0));
+}
+
+static void add_pin(builder *b, baum_body_id body_a, baum_body_id body_b, double x, double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  def.body_a = body_a;
+  def.body_b = body_b;
+  def.point[0] = x;
+  def.point[1] = y;
+  check(baum_mechanism_add_planar_revolute(b->m, &def, NULL));
+}
+
+static baum_joint_id add_weld(builder *b, baum_body_id body_a, baum_body_id body_b, double x,
+                              double y)
+{
+  baum_planar_fixed_def def = baum_planar_fixed_def_default();
+  baum_joint_id id;
+  def.body_a = body_a;
+  def.body_b = body_b;
+  def.point[0] = x;
+  def.point[1] = y;
+  check(baum_mechanism_add_planar_fixed(b->m, &def, &id));
+  return id;
+}
+
+static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, double x, double y)
+{
+  baum_planar_translational_def def = baum_planar_translational_def_default();
+  def.body_a = body_a;
+  def.body_b = body_b;
+  def.point[0] = x;
+  def.point[1] = y;
+  check(baum_mechanism_add_planar_translational(b->m, &def, NULL));
+}
+
+/* Between points that lie in the drawn pose at these places beside the centres; bodies are drawn upright. */
+static void add_rod(builder *b, baum_body_id body_a, baum_body_id body_b, const double at_a[2],
+                    const double at_b[2])
+{
+  baum_planar_distance_def def = baum_planar_distance_def_default();
+  def.body_a = body_a;
+  def.body_b = body_b;
+  memcpy(def.point_a, at_a, sizeof def.point_a);
+  memcpy(def.point_b, at_b, sizeof def.point_b);
+  check(baum_mechanism_add_planar_distance(b->m, &def, NULL));
+}
+
+/* ---- kinds ---- */
+
+typedef enum chain_kind { CHAIN_OF_PINS, CHAIN_OF_WELDS, CHAIN_CLOSED } chain_kind;
+
+static void join(builder *b, chain_kind kind, baum_body_id before, baum_body_id body,
+                 const double at[2])
+{
+  int roll = chance_below(&b->chance, kind == CHAIN_CLOSED ? 4 : 2);
+  if (kind == CHAIN_OF_PINS || roll == 0) {
+    add_pin(b, before, body, at[0], at[1]);
+  } else if (roll == 3) {
+    add_slider(b, before, body, at[0], at[1]);
+  } else {
+    (void)add_weld(b, before, body, at[0], at[1]);
+  }
+}
+
+/* Links of about 1 m, each joint of them again at some places. */
+static void make_chain(builder *b, chain_kind kind)
+{
+  int count = 1 + chance_below(&b->chance, 6);
+  baum_body_id before = BAUM_GROUND;
+  double at[2] = {0.0, 0.0};
+  for (int k = 0; k < count; k++) {
+    double to[2] = {at[0] + chance_number(&b->chance, 0.5, 1.0),
+                    at[1] + chance_number(&b->chance, -0.7, 0.7)};
+    baum_body_id body = add_any(b, 0.5 * (at[0] + to[0]), 0.5 * (at[1] + to[1]));
+    join(b, kind, before, body, at);
+    if (k == 0 || chance_below(&b->chance, 2) == 0) {
+      join(b, kind == CHAIN_OF_PINS ? kind : CHAIN_OF_WELDS, before, body, at);
+    }
+    before = body;
+    memcpy(at, to, sizeof at);
+  }
+  if (kind == CHAIN_CLOSED) {
+    join(b, kind, before, BAUM_GROUND, at);
+  }
+}
+
+/* Equal cranks between base and coupler, at random feet, in line or not; the last may be a rod. */
+static baum_body_id make_cranks(builder *b, baum_body_id base, const double corner[2], int cranks)
+{
+  double crank[2] = {chance_number(&b->chance, -0.6, 0.6), chance_number(&b->chance, 0.5, 1.0)};
+  double slope = chance_below(&b->chance, 2) ? 0.0 : chance_number(&b->chance, -0.3, 0.3);
+  bool rod = cranks > 2 && base.index1 == BAUM_GROUND.index1 && chance_below(&b->chance, 2);
+  double centre[2] = {corner[0] + crank[0] + 0.5, corner[1] + crank[1]};
+  baum_body_id coupler = add_any(b, centre[0], centre[1]);
+  for (int k = 0; k < cranks; k++) {
+    double x = (double)k / (cranks - 1);
+    double foot[2] = {corner[0] + x, corner[1] + slope * x * (x - 1.0)};
+    double head[2] = {foot[0] + crank[0], foot[1] + crank[1]};
+    double in_coupler[2] = {head[0] - centre[0], head[1] - centre[1]};
+    if (rod && k == 1) {
+      add_rod(b, base, coupler, foot, in_coupler);
+      continue;
+    }
+    baum_body_id body = add_any(b, 0.5 * (foot[0] + head[0]), 0.5 * (foot[1] + head[1]));
+    add_pin(b, base, body, foot[0], foot[1]);
+    add_pin(b, body, coupler, head[0], head[1]);
+    if (chance_below(&b->chance, 4) == 0) {
+      add_pin(b, body, coupler, head[0], head[1]);
+    }
+  }
+  return coupler;
+}
+
+static void make_storeys(builder *b)
+{
+  baum_body_id base = BAUM_GROUND;
+  int count = 1 + chance_below(&b->chance, 3);
+  for (int k = 0; k < count; k++) {
+    const double corner[2] = {0.1 * k, 1.2 * k};
+    base = make_cranks(b, base, corner, k == 0 ? 3 : 2 + chance_below(&b->chance, 2));
+  }
+}
+
+static builder begin(uint64_t seed)
+{
+  builder b = {.chance = chance_of(seed)};
+  check(baum_mechanism_create(&b.m));
+  return b;
+}
+
+baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio)
+{
+  static const double ground[2] = {0.0, 0.0};
+  builder b = begin(seed);
+  b.ratio = chance_decade(&b.chance, 1.0, 1e12);
+  *ratio = b.ratio;
+  switch (seed % 5) {
+  case 0: make_chain(&b, CHAIN_OF_PINS); break;
+  case 1: make_chain(&b, CHAIN_OF_WELDS); break;
+  case 2: (void)make_cranks(&b, BAUM_GROUND, ground, 3 + chance_below(&b.chance, 3)); break;
+  case 3: make_storeys(&b); break;
+  default: make_chain(&b, CHAIN_CLOSED); break;
+  }
+  check(baum_mechanism_freeze(b.m));
+  return b.m;
+}
+
+baum_mechanism *redundant_bracket(double ratio, baum_joint_id *hold)
+{
+  builder b = begin(0);
+  baum_planar_body_def def = baum_planar_body_def_default();
+  baum_body_id bracket;
+  baum_body_id heavy;
+  def.mass = 1.0 / ratio;
+  def.inertia = 0.1 / ratio;
+  def.position[0] = 0.4;
+  def.position[1] = -0.3;
+  check(baum_mechanism_add_planar_body(b.m, &def, &bracket));
+  def.mass = 1.0;
+  def.inertia = 0.1;
+  def.position[0] = 1.2;
+  def.position[1] = -0.9;
+  check(baum_mechanism_add_planar_body(b.m, &def, &heavy));
+  add_pin(&b, BAUM_GROUND, bracket, 0.0, 0.0);
+  (void)add_weld(&b, bracket, BAUM_GROUND, 0.0, 0.0);
+  *hold = add_weld(&b, bracket, heavy, 0.8, -0.6);
+  check(baum_mechanism_freeze(b.m));
+  return b.m;
+}
+
+/* ---- balance ---- */
+
+static double worse(double a, double b)
+{
+  return isnan(b) || b > a ? (isnan(b) ? (double)INFINITY : b) : a;
+}
+
+/* Of what each body has, against its own largest term or a little of the largest of all. */
+static double largest_share(const double *rest, const double *size, int count, int group)
+{
+  double all = 0.0;
+  double share = 0.0;
+  for (int i = 0; i < count; i++) {
+    all = worse(all, size[i]);
+  }
+  for (int i = 0; i < count; i += group) {
+    double most = 0.0;
+    double most_rest = 0.0;
+    for (int k = i; k < i + group; k++) {
+      most = worse(most, size[k]);
+      most_rest = worse(most_rest, fabs(rest[k]));
+    }
+    /* two zeros are fine */
+    share = most_rest == 0.0 ? share : worse(share, most_rest / fmax(most, 1e-14 * all));
+  }
+  return share;
+}
+
+static void subtract(double term, double *rest, double *size)
+{
+  *rest -= term;
+  *size = worse(*size, fabs(term));
+}
+
+double redundant_imbalance(const redundant_state *s, double *rows)
+{
+  size_t n = (size_t)s->nv;
+  size_t c = (size_t)s->nc;
+  double *mass = calloc(n * n + n * c + 2 * (n + c), sizeof *mass);
+  assert_non_null(mass);
+  double *jacobian = mass + n * n;
+  double *rest = jacobian + n * c; /* (nv + nc) */
+  double *size = rest + n + c;
+  check(baum_workspace_mass(s->w, 0.0, s->q, mass));
+  check(baum_workspace_jacobian(s->w, 0.0, s->q, jacobian));
+  check(baum_workspace_force(s->w, 0.0, s->q, s->v, rest));
+  check(baum_workspace_gamma(s->w, 0.0, s->q, s->v, rest + n));
+  for (size_t i = 0; i < n + c; i++) {
+    size[i] = fabs(rest[i]);
+  }
+  for (size_t i = 0; i < n; i++) {
+    for (size_t j = 0; j < n; j++) {
+      subtract(mass[i * n + j] * s->a[j], &rest[i], &size[i]);
+    }
+    for (size_t k = 0; k < c; k++) {
+      subtract(jacobian[k * n + i] * s->lambda[k], &rest[i], &size[i]);
+      subtract(jacobian[k * n + i] * s->a[i], &rest[n + k], &size[n + k]);
+    }
+  }
+  double share = largest_share(rest, size, s->nv, BODY_SIZE);
+  if (rows) {
+    *rows = largest_share(rest + n, size + n, s->nc, s->nc);
+  }
+  free(mass);
+  return share;
+}
+
+/* ---- verdicts ---- */
+
+static redundant_verdict verdict(baum_status status, double share)
+{
+  if (status < BAUM_OK) {
+    return REDUNDANT_REFUSED;
+  }
+  return share <= REDUNDANT_ERROR ? REDUNDANT_MET : REDUNDANT_WRONG;
+}
+
+/* What a run says where it starts as given. */
+static baum_status read_run(const baum_mechanism *m, redundant_state *s)
+{
+  static const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  o.start = BAUM_START_AS_GIVEN;
+  baum_status status = baum_simulation_create(m, &o, &run);
+  if (status >= BAUM_OK) {
+    status = baum_simulation_set_state(run, 0.0, s->q, s->v);
+  }
+  if (status >= BAUM_OK) {
+    status = baum_simulation_get(run, channels, 2, s->a);
+  }
+  baum_simulation_destroy(run);
+  return status;
+}
+
+static double judge_state(redundant_state *s, baum_status status, bool on_constraints,
+                          long counts[REDUNDANT_VERDICTS])
+{
+  double rows = 0.0;
+  double share = status < BAUM_OK ? 0.0 : redundant_imbalance(s, on_constraints ? &rows : NULL);
+  share = worse(share, rows);
+  counts[verdict(status, share)]++;
+  return share;
+}
+
+static void judge_both(const baum_mechanism *m, redundant_state *s, int k, redundant_tally *tally,
+                       const char *label)
+{
+  double share[2];
+  baum_status status =
+    baum_workspace_acceleration(s->w, 0.0, s->q, s->v, 0.0, 0.0, s->a, s->lambda);
+  share[0] = judge_state(s, status, k == 0, tally->workspace[k]);
+  status = read_run(m, s);
+  share[1] = judge_state(s, status, k == 0, tally->run[k]);
+  for (int i = 0; i < 2; i++) {
+    if (share[i] > REDUNDANT_ERROR) {
+      (void)printf("%s, state %d, %s: off by %.2g\n", label, k, i ? "run" : "workspace", share[i]);
+    } else {
+      tally->worst = worse(tally->worst, share[i]);
+    }
+  }
+}
+
+void redundant_judge(uint64_t seed, redundant_tally *tally)
+{
+  static const double off[REDUNDANT_STATES] = {0.0, 1e-6, 1e-3};
+  double ratio = 0.0;
+  char label[64];
+  redundant_state s = {NULL};
+  baum_mechanism *m = redundant_mechanism(seed, &ratio);
+  chance c = chance_of(~seed);
+  (void)snprintf(label, sizeof label, "seed %llu, ratio %.0e", (unsigned long long)seed, ratio);
+  check(baum_mechanism_sizes(m, NULL, &s.nv, &s.nc));
+  check(baum_workspace_create(m, &s.w));
+  s.q = calloc((size_t)(3 * s.nv + s.nc), sizeof *s.q);
+  assert_non_null(s.q);
+  s.v = s.q + s.nv;
+  s.a = s.v + s.nv;
+  s.lambda = s.a + s.nv;
+  check(baum_workspace_drawn(s.w, s.q, NULL));
+  for (int i = 0; i < s.nv; i++) {
+    s.v[i] = chance_number(&c, -1.0, 1.0);
+  }
+  if (baum_workspace_project(s.w, 0.0, s.q, s.v) < BAUM_OK) {
+    check(baum_workspace_drawn(s.w, s.q, NULL));
+    memset(s.v, 0, (size_t)s.nv * sizeof *s.v);
+  }
+  for (int k = 0; k < REDUNDANT_STATES; k++) {
+    for (int i = 0; i < s.nv; i++) {
+      s.q[i] += off[k] * chance_number(&c, -1.0, 1.0);
+    }
+    judge_both(m, &s, k, tally, label);
+  }
+  free(s.q);
+  baum_workspace_destroy(s.w);
+  baum_mechanism_destroy(m);
+}
