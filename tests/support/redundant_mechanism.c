@@ -269,6 +269,10 @@ double redundant_imbalance(const redundant_state *s, double *rows)
     size[i] = fabs(rest[i]);
   }
   for (size_t i = 0; i < n; i++) {
+    double free = rest[i] / mass[i * n + i]; /* without constraints */
+    for (size_t k = 0; k < c; k++) {
+      size[n + k] = worse(size[n + k], fabs(jacobian[k * n + i] * free));
+    }
     for (size_t j = 0; j < n; j++) {
       subtract(mass[i * n + j] * s->a[j], &rest[i], &size[i]);
     }

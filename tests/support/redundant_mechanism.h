@@ -28,7 +28,8 @@ typedef struct redundant_state {
 } redundant_state;
 
 /* The largest row of M a + J^T lambda - g against the largest term on its body, or against 1e-14 of the largest term of all;
- * NaN is infinite. *rows, where it is given, receives the largest row of J a - gamma against the largest term of all. */
+ * NaN is infinite. *rows, where it is given, receives the largest row of J a - gamma against the largest
+ * term of all, with or without the constraints. */
 double redundant_imbalance(const redundant_state *s, double *rows);
 
 typedef enum redundant_verdict {
