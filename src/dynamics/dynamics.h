@@ -29,9 +29,12 @@ typedef struct baum_i_redundancy {
   unsigned char *dropped; /* (nc) 1 where a row is left out */
   double tried;           /* pivot at which they were last looked for; 0: as good as never */
   /* Of least_multipliers.c: */
-  baum_i_kkt *kkt;   /* NULL while nothing has been dropped */
-  double *row_scale; /* (nc) length of row i of J M^-1/2 */
-  double *part;      /* (nc) of scaled multipliers, in the null space of J^T */
+  baum_i_kkt *kkt;  /* NULL while nothing has been dropped */
+  double *weight;   /* (mass_size) block values of W */
+  double *mobility; /* (nc) square of the length of row i of J M^-1/2 */
+  double *part;     /* (nc) of multipliers, in the null space of J^T */
+  double *work;     /* (4 nc) */
+  double *system;   /* (4 (nv + nc)) */
 } baum_i_redundancy;
 
 typedef struct baum_i_block_path baum_i_block_path;

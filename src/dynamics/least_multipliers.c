@@ -1,111 +1,323 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Multipliers of least norm, where redundant rows leave them a choice.
  *
- * In rows of unit length, J_s = S^-1 J with s_i = |row i of J M^-1/2|, the multipliers S lambda
- * that hold the same forces differ by null vectors of J_s^T; of least norm is the one without any
- * part in them. With A = J_s M^-1 J_s^T,
+ * The solution lambda has zeros in the rows that are left out, d, and balances the forces with those that are kept, k. Every other
+ * one is lambda + N z, with one number z of each row of d, and null vectors
  *
- *   y <- e (A + e)^-1 y,     [ M   J^T     ] [ x  ]   [  0  ]
- *                            [ J   -e S^2  ] [ mu ] = [ S y ],   new y = -e S mu
+ *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
- * leaves the part of y in the null space as it is, and takes of all others away, the more the
- * larger their eigenvalue is against e. Repeated, it ends at the null part; the matrix is factored
- * once.
- * Parts whose eigenvalue is below e are slow: they are those of poses close to singular, and of the
- * longest loops.
+ * each solved for by
+ *
+ *   [ W     J_k^T ] [ x       ]   [ -J_d^T z ]
+ *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of lengths alone: masses do not come into the null space.
+ *
+ * In rows of unit length, s_i = |row i of J M^-1/2|, the least |S (lambda + N z)| is found by conjugate gradients on z (CGLS of
+ * A. Bjorck, preconditioned by S_d). However far they get, the forces stay balanced, whatever the masses are.
+ *
+ * Off the constraints rows that are left out need not depend on the others. Of what they would carry only that share is taken
+ * which leaves the forces balanced; mostly that is all or next to nothing.
  */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "base/golden.h"
-#include "dynamics/dynamics.h"
+#include "base/message.h"
+#include "dynamics/block_path.h"
+#include "linear/residual.h"
 
-enum { MOST_REPETITIONS = 200 };
+enum { MOST_ITERATIONS = 100 };
 
-/* e: the matrix is solved without more effort than usual. */
-static const double SHIFT = 1e-8;
-/* What a repetition changes at most, of the first y, when nothing is left but rounding. */
-static const double ROUNDING = 1e-14;
+/* Gradient at which z is found, of the first. */
+static const double FOUND = 1e-12;
+/* How far forces may be out of balance: of the terms of their own row, of the largest on the body, of the largest of all.
+ * The last is rounding. */
+static const double OF_ROW = 1e-9;
+static const double OF_BODY = 1e-11;
+static const double OF_ALL = 1e-14;
+/* Not out of balance: of all terms of the row together. */
+static const double ROUNDING = 1e-13;
+/* What N z may take of that. */
+static const double SHARE = 0.1;
 
-/* ---- the null part ---- */
+/* ---- null vectors ---- */
 
 static baum_status factor(baum_workspace *w)
 {
   const baum_i_redundancy *r = &w->redundancy;
-  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian, .shift = w->shift};
-  baum_i_row_mobilities(w, w->shift);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    r->row_scale[i] = sqrt(w->shift[i]);
-    w->shift[i] = w->shift[i] > 0.0 ? SHIFT * w->shift[i] : 1.0;
+  const baum_i_kkt_values values = {
+    .mass = r->weight, .jacobian = w->jacobian, .dropped = r->dropped};
+  for (int b = 0; b < w->structure.mass_block_count; b++) {
+    const baum_i_mass_block *block = &w->structure.mass_blocks[b];
+    for (int i = 0; i < block->size; i++) {
+      double scale = w->mechanism->scale[block->first + i];
+      r->weight[block->value + i * (block->size + 1)] = 1.0 / (scale * scale);
+    }
   }
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* One repetition on redundancy.part, and the most that it changes. */
-static baum_status filter(baum_workspace *w, double *change)
+/* out = N z; z is zero in the rows that are kept. */
+static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
-  const baum_i_redundancy *r = &w->redundancy;
   int nv = w->mechanism->nv;
   int nc = w->mechanism->nc;
-  double *zero = w->work_v;
-  double *mu = w->work_c + nc;
-  memset(zero, 0, (size_t)nv * sizeof *zero);
-  for (int i = 0; i < nc; i++) {
-    w->work_c[i] = r->row_scale[i] * r->part[i];
+  double *f = w->work_v;
+  memset(f, 0, (size_t)nv * sizeof *f);
+  memset(w->work_c, 0, (size_t)nc * sizeof *w->work_c);
+  baum_i_jacobian_transposed_times(&w->structure, w->jacobian, z, f);
+  for (int i = 0; i < nv; i++) {
+    f[i] = -f[i];
   }
-  baum_status status = baum_i_kkt_solve(r->kkt, zero, w->work_c, zero + nv, mu);
-  *change = 0.0;
+  baum_status status = baum_i_kkt_solve(w->redundancy.kkt, f, w->work_c, f + nv, out);
   for (int i = 0; i < nc && status == BAUM_OK; i++) {
-    double next = -SHIFT * r->row_scale[i] * mu[i];
-    *change = fmax(*change, fabs(next - r->part[i]));
-    r->part[i] = next;
+    out[i] += z[i];
   }
   return status;
 }
 
-/* Of redundancy.part, after factor(). */
-static baum_status find_null_part(baum_workspace *w)
+/* out = N^T u */
+static baum_status apply_transposed(baum_workspace *w, const double *u, double *out)
 {
-  double size = 0.0;
-  double change = (double)INFINITY;
-  baum_status status = BAUM_OK;
-  (void)baum_i_largest(w->redundancy.part, w->mechanism->nc, &size);
-  for (int k = 0; k < MOST_REPETITIONS && status == BAUM_OK && change > ROUNDING * size; k++) {
-    status = filter(w, &change);
+  int nv = w->mechanism->nv;
+  int nc = w->mechanism->nc;
+  double *f = w->work_v;
+  memset(f, 0, (size_t)nv * sizeof *f);
+  memset(out, 0, (size_t)nc * sizeof *out);
+  baum_status status = baum_i_kkt_solve(w->redundancy.kkt, f, u, f + nv, w->work_c);
+  if (status == BAUM_OK) {
+    baum_i_jacobian_times(&w->structure, w->jacobian, f + nv, out);
+  }
+  for (int i = 0; i < nc && status == BAUM_OK; i++) {
+    out[i] = w->redundancy.dropped[i] ? u[i] - out[i] : 0.0;
   }
   return status;
 }
 
-baum_status baum_i_make_multipliers_least(baum_workspace *w)
+/* ---- least norm ---- */
+
+/* Numbers of conjugate gradients, (nc) each. */
+typedef struct search {
+  double *u;
+  double *gradient;
+  double *direction;
+  double *image;
+} search;
+
+static search begin(const baum_workspace *w)
+{
+  double *work = w->redundancy.work;
+  int nc = w->mechanism->nc;
+  return (search){
+    .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
+}
+
+/* Gradient at lambda + part, and its size. */
+static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
   const baum_i_redundancy *r = &w->redundancy;
-  baum_status status = factor(w);
   for (int i = 0; i < w->mechanism->nc; i++) {
-    r->part[i] = r->row_scale[i] * w->lambda[i];
+    s->u[i] = r->mobility[i] * (w->lambda[i] + r->part[i]);
   }
-  if (status == BAUM_OK) {
-    status = find_null_part(w);
+  baum_status status = apply_transposed(w, s->u, s->gradient);
+  *size = 0.0;
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    *size += s->gradient[i] * s->gradient[i] / r->mobility[i];
   }
-  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
-    w->lambda[i] -= r->row_scale[i] > 0.0 ? r->part[i] / r->row_scale[i] : 0.0;
+  return status;
+}
+
+/* Adds to part what is least along the direction, of which `turned` is that before. */
+static baum_status step(baum_workspace *w, const search *s, double size, double turned)
+{
+  const baum_i_redundancy *r = &w->redundancy;
+  int nc = w->mechanism->nc;
+  for (int i = 0; i < nc; i++) {
+    s->direction[i] = turned * s->direction[i] - s->gradient[i] / r->mobility[i];
+  }
+  baum_status status = apply(w, s->direction, s->image);
+  double curvature = 0.0;
+  for (int i = 0; i < nc; i++) {
+    curvature += r->mobility[i] * s->image[i] * s->image[i];
+  }
+  for (int i = 0; i < nc && status == BAUM_OK; i++) {
+    r->part[i] += size / curvature * s->image[i];
+  }
+  return status;
+}
+
+/* N z into part. */
+static baum_status find_part(baum_workspace *w)
+{
+  baum_i_redundancy *r = &w->redundancy;
+  search s = begin(w);
+  size_t bytes = (size_t)w->mechanism->nc * sizeof *r->part;
+  int most = r->count == 1 ? 1 : 2 * r->count;
+  double size = 0.0;
+  double first = 0.0;
+  memset(r->part, 0, bytes);
+  memset(s.direction, 0, bytes);
+  baum_i_row_mobilities(w, r->mobility);
+  for (int i = 0; i < w->mechanism->nc; i++) {
+    r->mobility[i] = r->mobility[i] > 0.0 ? r->mobility[i] : 1.0;
+  }
+  baum_status status = factor(w);
+  for (int k = 0; k < most && k < MOST_ITERATIONS && status == BAUM_OK; k++) {
+    double before = size;
+    status = find_gradient(w, &s, &size);
+    first = k == 0 ? size : first;
+    if (status != BAUM_OK || size <= FOUND * FOUND * first) {
+      break;
+    }
+    status = step(w, &s, size, k == 0 ? 0.0 : size / before);
+  }
+  return status;
+}
+
+/* ---- balance ---- */
+
+/* Numbers of the whole system, (nv + nc) each. */
+typedef struct balance {
+  double *b;
+  double *x;
+  double *residual;
+  double *size;
+} balance;
+
+/* g - M a - J^T lambda */
+static balance form(const baum_workspace *w, const double *force, const double *a,
+                    const double *lambda)
+{
+  int nv = w->mechanism->nv;
+  int n = nv + w->mechanism->nc;
+  double *system = w->redundancy.system;
+  balance out = {system, system + n, system + 2 * n, system + 3 * n};
+  const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian};
+  memset(system, 0, 2 * (size_t)n * sizeof *system);
+  for (int i = 0; i < nv; i++) {
+    out.b[i] = force ? force[i] : 0.0;
+    out.x[i] = a ? a[i] : 0.0;
+  }
+  memcpy(out.x + nv, lambda, (size_t)(n - nv) * sizeof *lambda);
+  baum_i_residual_form(&w->structure, &values, out.b, out.x, out.residual, out.size);
+  return out;
+}
+
+/* Largest scaled term of some velocities. */
+static double largest_term(const baum_workspace *w, const balance *at, int first, int count)
+{
+  double most = 0.0;
+  for (int i = first; i < first + count; i++) {
+    most = fmax(most, at->size[i] * w->mechanism->scale[i]);
+  }
+  return most;
+}
+
+/* How far each row may be out of balance, into work_v. */
+static void set_limits(const baum_workspace *w, const balance *at, double of_all)
+{
+  const baum_mechanism *m = w->mechanism;
+  double all = of_all * largest_term(w, at, 0, m->nv);
+  for (int b = 1; b <= m->body_count; b++) {
+    int first = m->bodies[b]->v;
+    int end = first + m->bodies[b]->nv;
+    double least = fmax(all, OF_BODY * largest_term(w, at, first, end - first));
+    for (int i = first; i < end; i++) {
+      w->work_v[i] = fmax(least / m->scale[i], OF_ROW * at->size[i]);
+    }
+  }
+}
+
+/* The largest residual, of its limit; *worst: whose it is. NaN is infinite. */
+static double find_imbalance(const baum_workspace *w, const balance *at, int *worst)
+{
+  double most = 0.0;
+  for (int i = 0; i < w->mechanism->nv; i++) {
+    double size = fabs(at->residual[i]);
+    double share = size <= ROUNDING * at->size[i] ? 0.0 : size / w->work_v[i];
+    if (!(share <= most)) {
+      most = isnan(share) ? (double)INFINITY : share;
+      *worst = i;
+    }
+  }
+  return most;
+}
+
+/* Sets the limits, too. */
+static baum_status check_balance(const baum_workspace *w)
+{
+  const baum_i_block_path *path = w->solved_by;
+  const double *force = path && path->force_is_constant ? path->constant_force : w->force;
+  int worst = 0;
+  balance at = form(w, force, w->a, w->lambda);
+  set_limits(w, &at, OF_ALL);
+  double imbalance = find_imbalance(w, &at, &worst);
+  if (imbalance <= 1.0) {
+    set_limits(w, &at, 0.0);
+    return BAUM_OK;
+  }
+  char label[BAUM_I_LABEL_SIZE];
+  const baum_i_body *body = baum_i_velocity_body(w->mechanism, worst);
+  (void)baum_i_label(&body->element, "body", label);
+  return baum_i_fail(BAUM_ERR_SINGULAR,
+                     "t = %.9g s: the multipliers balance the forces on %s to %.2g of them only, "
+                     "must be %g; masses are "
+                     "too uneven, or the configuration is close to a singular one",
+                     w->point.t, label, imbalance * OF_ROW, OF_ROW);
+}
+
+/* How much of part leaves the forces balanced. */
+static double find_share(const baum_workspace *w)
+{
+  int worst = 0;
+  balance at = form(w, NULL, NULL, w->redundancy.part);
+  double imbalance = find_imbalance(w, &at, &worst);
+  return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
+}
+
+/* What cannot be shared out stays as it is. */
+baum_status baum_i_make_multipliers_least(baum_workspace *w)
+{
+  baum_status found = find_part(w);
+  if (found != BAUM_OK && found != BAUM_ERR_SINGULAR) {
+    return found;
+  }
+  baum_status status = check_balance(w);
+  double share = found == BAUM_OK && status == BAUM_OK ? find_share(w) : 0.0;
+  for (int i = 0; i < w->mechanism->nc && share > 0.0; i++) {
+    w->lambda[i] += share * w->redundancy.part[i];
   }
   return status;
 }
 
 /* ---- whose they are ---- */
 
-/* Part of a unit pattern in the null space above which multipliers are not unique; rounding is far below. */
+/* Part of a null vector whose rows left out are about one, above which multipliers are not unique; rounding is far below. */
 static const double SHARED = 1e-6;
 
-/* Where multipliers without a pattern have a null part, the null space reaches. */
-static baum_status find_reach(baum_workspace *w)
+/* Any null vector, as displacements, into part; *least: what of it counts. Off the constraints it spreads to rows beyond. */
+static baum_status find_reach(baum_workspace *w, double *least)
 {
-  baum_status status = factor(w);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->redundancy.part[i] = baum_i_golden(i + 1);
+  const baum_i_redundancy *r = &w->redundancy;
+  double *z = begin(w).direction;
+  double *size = begin(w).u;
+  int nc = w->mechanism->nc;
+  baum_i_row_displacements(w, size);
+  for (int i = 0; i < nc; i++) {
+    z[i] = r->dropped[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
   }
-  return status == BAUM_OK ? find_null_part(w) : status;
+  baum_status status = factor(w);
+  if (status == BAUM_OK) {
+    status = apply(w, z, r->part);
+  }
+  int worst = 0;
+  balance at = form(w, NULL, NULL, r->part);
+  set_limits(w, &at, 0.0);
+  *least = fmax(SHARED, 10.0 * OF_ROW * find_imbalance(w, &at, &worst));
+  for (int i = 0; i < nc; i++) {
+    r->part[i] *= size[i];
+  }
+  return status;
 }
 
 /* Largest part of a joint's rows. */
@@ -116,12 +328,12 @@ static double part_of(const baum_workspace *w, const baum_i_joint *joint)
   return part;
 }
 
-static void list_joints(const baum_workspace *w, char *text, size_t size)
+static void list_joints(const baum_workspace *w, double least, char *text, size_t size)
 {
   const baum_mechanism *m = w->mechanism;
   size_t used = 0;
   for (int j = 0; j < m->joint_count && used + 1 < size; j++) {
-    if (part_of(w, m->joints[j]) > SHARED) {
+    if (part_of(w, m->joints[j]) > least) {
       int wrote = snprintf(text + used, size - used, "%s\"%s\"", used ? ", " : "",
                            m->joints[j]->element.name);
       used += wrote > 0 ? (size_t)wrote : 0;
@@ -132,9 +344,10 @@ static void list_joints(const baum_workspace *w, char *text, size_t size)
 baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 {
   text[0] = '\0';
-  baum_status status = find_reach(w);
+  double least = 0.0;
+  baum_status status = find_reach(w, &least);
   if (status == BAUM_OK) {
-    list_joints(w, text, size);
+    list_joints(w, least, text, size);
   }
   return status;
 }
@@ -142,9 +355,10 @@ baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)
 {
   bool any_shared = w->redundancy.count > 0;
-  baum_status status = any_shared ? find_reach(w) : BAUM_OK;
+  double least = 0.0;
+  baum_status status = any_shared ? find_reach(w, &least) : BAUM_OK;
   for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
-    unique[i] = !any_shared || fabs(w->redundancy.part[i]) <= SHARED;
+    unique[i] = !any_shared || fabs(w->redundancy.part[i]) <= least;
   }
   return status;
 }

@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 29 };
+enum { ARRAY_COUNT = 32 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -33,7 +33,10 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->work_c, 2 * m->nc},
     {&w->shift, m->nc},
     {&w->redundancy.part, m->nc},
-    {&w->redundancy.row_scale, m->nc},
+    {&w->redundancy.weight, m->mass_size},
+    {&w->redundancy.mobility, m->nc},
+    {&w->redundancy.work, 4 * m->nc},
+    {&w->redundancy.system, 4 * (m->nv + m->nc)},
     {&w->mass_q, m->mass_size},
     {&w->body_force_q, m->mass_size},
     {&w->body_force_v, m->mass_size},
