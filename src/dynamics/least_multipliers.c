@@ -35,6 +35,8 @@ static const double FOUND = 1e-12;
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
+/* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small forces. */
+static const double OF_ALL_SHARED = 1e-24;
 /* Not out of balance: of all terms of the row together. */
 static const double ROUNDING = 1e-13;
 /* What N z may take of that. */
@@ -42,11 +44,12 @@ static const double SHARE = 0.1;
 
 /* ---- null vectors ---- */
 
-static baum_status factor(baum_workspace *w)
+/* shift (nc) or NULL: of the rows, so that nothing is singular. */
+static baum_status factor(baum_workspace *w, const double *shift)
 {
   const baum_i_redundancy *r = &w->redundancy;
   const baum_i_kkt_values values = {
-    .mass = r->weight, .jacobian = w->jacobian, .dropped = r->dropped};
+    .mass = r->weight, .jacobian = w->jacobian, .shift = shift, .dropped = r->dropped};
   for (int b = 0; b < w->structure.mass_block_count; b++) {
     const baum_i_mass_block *block = &w->structure.mass_blocks[b];
     for (int i = 0; i < block->size; i++) {
@@ -57,7 +60,7 @@ static baum_status factor(baum_workspace *w)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z; z is zero in the rows that are kept. */
+/* out = N z, where z is zero in the rows that are kept; of a null vector z what has been refined. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -146,6 +149,15 @@ static baum_status step(baum_workspace *w, const search *s, double size, double 
   return status;
 }
 
+/* Takes away what rounding of large forces has left in rows that carry little. */
+static baum_status refine_part(baum_workspace *w)
+{
+  double *refined = begin(w).image;
+  baum_status status = apply(w, w->redundancy.part, refined);
+  memcpy(w->redundancy.part, refined, (size_t)w->mechanism->nc * sizeof *refined);
+  return status;
+}
+
 /* N z into part. */
 static baum_status find_part(baum_workspace *w)
 {
@@ -161,7 +173,7 @@ static baum_status find_part(baum_workspace *w)
   for (int i = 0; i < w->mechanism->nc; i++) {
     r->mobility[i] = r->mobility[i] > 0.0 ? r->mobility[i] : 1.0;
   }
-  baum_status status = factor(w);
+  baum_status status = factor(w, NULL);
   for (int k = 0; k < most && k < MOST_ITERATIONS && status == BAUM_OK; k++) {
     double before = size;
     status = find_gradient(w, &s, &size);
@@ -171,7 +183,7 @@ static baum_status find_part(baum_workspace *w)
     }
     status = step(w, &s, size, k == 0 ? 0.0 : size / before);
   }
-  return status;
+  return status == BAUM_OK ? refine_part(w) : status;
 }
 
 /* ---- balance ---- */
@@ -203,12 +215,12 @@ static balance form(const baum_workspace *w, const double *force, const double *
   return out;
 }
 
-/* Largest scaled term of some velocities. */
-static double largest_term(const baum_workspace *w, const balance *at, int first, int count)
+/* Of some velocities. */
+static double largest_scaled(const baum_workspace *w, const double *terms, int first, int count)
 {
   double most = 0.0;
   for (int i = first; i < first + count; i++) {
-    most = fmax(most, at->size[i] * w->mechanism->scale[i]);
+    most = fmax(most, fabs(terms[i]) * w->mechanism->scale[i]);
   }
   return most;
 }
@@ -217,11 +229,11 @@ static double largest_term(const baum_workspace *w, const balance *at, int first
 static void set_limits(const baum_workspace *w, const balance *at, double of_all)
 {
   const baum_mechanism *m = w->mechanism;
-  double all = of_all * largest_term(w, at, 0, m->nv);
+  double all = of_all * largest_scaled(w, at->size, 0, m->nv);
   for (int b = 1; b <= m->body_count; b++) {
     int first = m->bodies[b]->v;
     int end = first + m->bodies[b]->nv;
-    double least = fmax(all, OF_BODY * largest_term(w, at, first, end - first));
+    double least = fmax(all, OF_BODY * largest_scaled(w, at->size, first, end - first));
     for (int i = first; i < end; i++) {
       w->work_v[i] = fmax(least / m->scale[i], OF_ROW * at->size[i]);
     }
@@ -253,7 +265,7 @@ static baum_status check_balance(const baum_workspace *w)
   set_limits(w, &at, OF_ALL);
   double imbalance = find_imbalance(w, &at, &worst);
   if (imbalance <= 1.0) {
-    set_limits(w, &at, 0.0);
+    set_limits(w, &at, OF_ALL_SHARED);
     return BAUM_OK;
   }
   char label[BAUM_I_LABEL_SIZE];
@@ -266,7 +278,7 @@ static baum_status check_balance(const baum_workspace *w)
                      w->point.t, label, imbalance * OF_ROW, OF_ROW);
 }
 
-/* How much of part leaves the forces balanced. */
+/* How much of part leaves the forces balanced, by the limits. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
@@ -295,29 +307,35 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 /* Part of a null vector whose rows left out are about one, above which multipliers are not unique; rounding is far below. */
 static const double SHARED = 1e-6;
 
-/* Any null vector, as displacements, into part; *least: what of it counts. Off the constraints it spreads to rows beyond. */
+/* Rows in which a null vector is found with six digits at least are farther than 1e-2 from dependent. */
+static const double SHIFT = 1e-10;
+
+/* Some null vector, of rows as displacements, into part; *least: what of it counts. Off the constraints it spreads to other
+ * rows, by as much as it is out of balance. */
 static baum_status find_reach(baum_workspace *w, double *least)
 {
   const baum_i_redundancy *r = &w->redundancy;
+  int nc = w->mechanism->nc;
   double *z = begin(w).direction;
   double *size = begin(w).u;
-  int nc = w->mechanism->nc;
   baum_i_row_displacements(w, size);
   for (int i = 0; i < nc; i++) {
     z[i] = r->dropped[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
+    w->shift[i] = SHIFT * size[i] * size[i];
   }
-  baum_status status = factor(w);
-  if (status == BAUM_OK) {
-    status = apply(w, z, r->part);
+  baum_status status = factor(w, w->shift);
+  status = status == BAUM_OK ? apply(w, z, r->part) : status;
+  if (status != BAUM_OK) {
+    return status;
   }
-  int worst = 0;
   balance at = form(w, NULL, NULL, r->part);
-  set_limits(w, &at, 0.0);
-  *least = fmax(SHARED, 10.0 * OF_ROW * find_imbalance(w, &at, &worst));
+  double off = largest_scaled(w, at.residual, 0, w->mechanism->nv) /
+               largest_scaled(w, at.size, 0, w->mechanism->nv);
+  *least = fmax(SHARED, 10.0 * off);
   for (int i = 0; i < nc; i++) {
     r->part[i] *= size[i];
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Largest part of a joint's rows. */
