@@ -64,6 +64,9 @@ int main(int count, char **arguments)
   }
   wrong += report("workspace", tally.workspace);
   wrong += report("run", tally.run);
-  (void)printf("largest imbalance of those met: %.2g\n", tally.worst);
+  wrong += tally.wrong_unique;
+  (void)printf(
+    "largest imbalance of those met: %.2g; %ld multipliers wrongly called unique or not\n",
+    tally.worst, tally.wrong_unique);
   return wrong == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

@@ -289,6 +289,77 @@ double redundant_imbalance(const redundant_state *s, double *rows)
   return share;
 }
 
+/* ---- uniqueness: a row has a multiplier of its own where it does not depend on the others ---- */
+
+/* Take the parts along some orthonormal rows (count x n) away; what is left. Twice, because once leaves rounding. */
+static double leave(const double *rows, int count, int n, double *row)
+{
+  double size = 0.0;
+  for (int pass = 0; pass < 2; pass++) {
+    for (int k = 0; k < count; k++) {
+      double along = 0.0;
+      for (int i = 0; i < n; i++) {
+        along += rows[k * n + i] * row[i];
+      }
+      for (int i = 0; i < n; i++) {
+        row[i] -= along * rows[k * n + i];
+      }
+    }
+  }
+  for (int i = 0; i < n; i++) {
+    size += row[i] * row[i];
+  }
+  return sqrt(size);
+}
+
+static void divide(double *row, int n, double by)
+{
+  for (int i = 0; i < n; i++) {
+    row[i] /= by;
+  }
+}
+
+/* Of one unit row from all others. */
+static double distance(const double *jacobian, int nc, int n, int which, double *room)
+{
+  static const double DEPENDENT = 1e-7;
+  int count = 0;
+  for (int k = 0; k <= nc; k++) {
+    int row = k < nc ? k : which;
+    double *next = room + (ptrdiff_t)count * n;
+    memcpy(next, jacobian + (ptrdiff_t)row * n, (size_t)n * sizeof *next);
+    double left = k == which ? 0.0 : leave(room, count, n, next);
+    if (k == nc) {
+      return left;
+    }
+    if (left > DEPENDENT) {
+      divide(next, n, left);
+      count++;
+    }
+  }
+  return 0.0;
+}
+
+/* How many of s->unique are wrong; all but dependent rows are not asked. */
+static int count_wrong_unique(const redundant_state *s)
+{
+  size_t n = (size_t)s->nv;
+  size_t c = (size_t)s->nc;
+  int wrong = 0;
+  double *jacobian = calloc((2 * c + 1) * n, sizeof *jacobian);
+  assert_non_null(jacobian);
+  check(baum_workspace_jacobian(s->w, 0.0, s->q, jacobian));
+  for (size_t k = 0; k < c; k++) {
+    divide(jacobian + k * n, s->nv, leave(NULL, 0, s->nv, jacobian + k * n));
+  }
+  for (int k = 0; k < s->nc; k++) {
+    double apart = distance(jacobian, s->nc, s->nv, k, jacobian + n * c);
+    wrong += (apart < 1e-9 && s->unique[k]) || (apart > 1e-5 && !s->unique[k]) ? 1 : 0;
+  }
+  free(jacobian);
+  return wrong;
+}
+
 /* ---- verdicts ---- */
 
 static redundant_verdict verdict(baum_status status, double share)
@@ -315,6 +386,9 @@ static baum_status read_run(const baum_mechanism *m, redundant_state *s)
   if (status >= BAUM_OK) {
     status = baum_simulation_get(run, channels, 2, s->a);
   }
+  if (status >= BAUM_OK) {
+    status = baum_simulation_unique_multipliers(run, s->unique);
+  }
   baum_simulation_destroy(run);
   return status;
 }
@@ -338,6 +412,11 @@ static void judge_both(const baum_mechanism *m, redundant_state *s, int k, redun
   share[0] = judge_state(s, status, k == 0, tally->workspace[k]);
   status = read_run(m, s);
   share[1] = judge_state(s, status, k == 0, tally->run[k]);
+  int wrong = status >= BAUM_OK && k == 0 ? count_wrong_unique(s) : 0;
+  if (wrong > 0) {
+    (void)printf("%s: %d multipliers are wrongly called unique, or not unique\n", label, wrong);
+    tally->wrong_unique += wrong;
+  }
   for (int i = 0; i < 2; i++) {
     if (share[i] > REDUNDANT_ERROR) {
       (void)printf("%s, state %d, %s: off by %.2g\n", label, k, i ? "run" : "workspace", share[i]);
@@ -359,7 +438,9 @@ void redundant_judge(uint64_t seed, redundant_tally *tally)
   check(baum_mechanism_sizes(m, NULL, &s.nv, &s.nc));
   check(baum_workspace_create(m, &s.w));
   s.q = calloc((size_t)(3 * s.nv + s.nc), sizeof *s.q);
+  s.unique = calloc((size_t)s.nc, sizeof *s.unique);
   assert_non_null(s.q);
+  assert_non_null(s.unique);
   s.v = s.q + s.nv;
   s.a = s.v + s.nv;
   s.lambda = s.a + s.nv;
@@ -377,6 +458,7 @@ void redundant_judge(uint64_t seed, redundant_tally *tally)
     }
     judge_both(m, &s, k, tally, label);
   }
+  free(s.unique);
   free(s.q);
   baum_workspace_destroy(s.w);
   baum_mechanism_destroy(m);

@@ -5,6 +5,7 @@
 #ifndef BAUM_TEST_REDUNDANT_MECHANISM_H
 #define BAUM_TEST_REDUNDANT_MECHANISM_H
 
+#include <stdbool.h>
 #include <stdint.h>
 
 #include <baum/baum.h>
@@ -25,6 +26,7 @@ typedef struct redundant_state {
   double *v;
   double *a;
   double *lambda; /* (nc) */
+  bool *unique;   /* (nc) */
 } redundant_state;
 
 /* The largest row of M a + J^T lambda - g against the largest term on its body, or against 1e-14 of the largest term of all;
@@ -49,6 +51,8 @@ typedef struct redundant_tally {
   long workspace[REDUNDANT_STATES][REDUNDANT_VERDICTS];
   long run[REDUNDANT_STATES][REDUNDANT_VERDICTS];
   double worst; /* imbalance of those met */
+  long
+    wrong_unique; /* multipliers that the run calls unique and are not, or the reverse, on the constraints */
 } redundant_tally;
 
 /* Judge the workspace and a run that starts as given, in the three states. What is wrong is printed. */

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Reactions balance the forces whatever rows are redundant and however uneven masses are; who shares forces is named. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "redundant_mechanism.h"
+
+enum { MECHANISMS = 60, RATIOS = 15 };
+
+static baum_simulation *run_bracket(const baum_mechanism *m)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_simulation *run = NULL;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  check(baum_simulation_create(m, &o, &run));
+  return run;
+}
+
+/* m g of the heavy body, and its moment about the joint 0.4 m beside its centre. */
+static void check_hold(const double reaction[3])
+{
+  assert_true(fabs(reaction[0]) <= 9.81e-9);
+  assert_true(fabs(reaction[1] - 9.81) <= 9.81e-9);
+  assert_true(fabs(reaction[2] - 0.4 * 9.81) <= 9.81e-9);
+}
+
+static void a_light_bracket_carries_what_hangs_on_it(void **state)
+{
+  (void)state;
+  for (int k = 0; k < RATIOS; k++) {
+    double q[6];
+    double v[6] = {0.0};
+    double lambda[8];
+    double reaction[3];
+    baum_channel channel = {.quantity = BAUM_JOINT_REACTION};
+    baum_workspace *w = NULL;
+    baum_mechanism *m = redundant_bracket(pow(10.0, k), &channel.joint);
+    baum_simulation *run = run_bracket(m);
+    check(baum_simulation_get(run, &channel, 1, reaction));
+    check_hold(reaction);
+    check(baum_workspace_create(m, &w));
+    check(baum_workspace_drawn(w, q, NULL));
+    check(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda));
+    check(baum_workspace_reaction(w, 0.0, q, lambda, channel.joint, reaction));
+    check_hold(reaction);
+    baum_workspace_destroy(w);
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static void only_joints_that_share_forces_are_named(void **state)
+{
+  (void)state;
+  for (int k = 0; k < RATIOS; k++) {
+    baum_joint_id hold;
+    char text[320];
+    bool unique[8];
+    baum_mechanism *m = redundant_bracket(pow(10.0, k), &hold);
+    baum_simulation *run = run_bracket(m);
+    check(baum_simulation_warning(run, 0, text, sizeof text));
+    assert_non_null(strstr(text, "among \"joint1\", \"joint2\":"));
+    check(baum_simulation_unique_multipliers(run, unique));
+    for (int i = 0; i < 8; i++) { /* the moments of the weld and all of the third joint */
+      assert_true(unique[i] == (i >= 4));
+    }
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
+/* Least norm in rows scaled by M: joints on the same body share by halves. */
+static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
+{
+  (void)state;
+  for (int k = 0; k < RATIOS; k++) {
+    double ratio = pow(10.0, k);
+    baum_joint_id hold;
+    double lambda[8];
+    const baum_channel channel = {.quantity = BAUM_LAMBDA};
+    baum_mechanism *m = redundant_bracket(ratio, &hold);
+    baum_simulation *run = run_bracket(m);
+    check(baum_simulation_get(run, &channel, 1, lambda));
+    double want = 0.5 * 9.81 * (1.0 + 1.0 / ratio);
+    assert_true(fabs(fabs(lambda[1]) - want) <= 1e-9 * want);
+    assert_true(fabs(fabs(lambda[3]) - want) <= 1e-9 * want);
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
+static void random_redundant_mechanisms_are_in_balance(void **state)
+{
+  (void)state;
+  redundant_tally tally = {.worst = 0.0};
+  for (uint64_t k = 0; k < MECHANISMS; k++) {
+    redundant_judge(k, &tally);
+  }
+  printf("largest imbalance %.2g\n", tally.worst);
+  for (int k = 0; k < REDUNDANT_STATES; k++) { /* nothing is refused, either */
+    assert_int_equal(tally.workspace[k][REDUNDANT_MET], MECHANISMS);
+    assert_int_equal(tally.run[k][REDUNDANT_MET], MECHANISMS);
+  }
+  assert_int_equal(tally.wrong_unique, 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(a_light_bracket_carries_what_hangs_on_it),
+    cmocka_unit_test(only_joints_that_share_forces_are_named),
+    cmocka_unit_test(a_pin_and_a_weld_share_by_halves_at_any_mass),
+    cmocka_unit_test(random_redundant_mechanisms_are_in_balance),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
