@@ -307,8 +307,8 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 /* Part of a null vector whose rows left out are about one, above which multipliers are not unique; rounding is far below. */
 static const double SHARED = 1e-6;
 
-/* Rows in which a null vector is found with six digits at least are farther than 1e-2 from dependent. */
-static const double SHIFT = 1e-10;
+/* Keeps nothing from being solved for; what it takes away is brought back by refinement. */
+static const double SHIFT = 1e-12;
 
 /* Some null vector, of rows as displacements, into part; *least: what of it counts. Off the constraints it spreads to other
  * rows, by as much as it is out of balance. */
@@ -325,6 +325,9 @@ static baum_status find_reach(baum_workspace *w, double *least)
   }
   baum_status status = factor(w, w->shift);
   status = status == BAUM_OK ? apply(w, z, r->part) : status;
+  for (int k = 0; k < 2 && status == BAUM_OK; k++) {
+    status = refine_part(w);
+  }
   if (status != BAUM_OK) {
     return status;
   }
