@@ -38,7 +38,7 @@ static const double OF_ALL = 1e-14;
 /* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small forces. */
 static const double OF_ALL_SHARED = 1e-24;
 /* Not out of balance: of all terms of the row together. */
-static const double ROUNDING = 1e-13;
+static const double ROUNDING = 1e-11;
 /* What N z may take of that. */
 static const double SHARE = 0.1;
 
