@@ -273,7 +273,7 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
 /* ---- least_multipliers.c: where rows have been dropped, with M and J in the workspace ---- */
 
 /* workspace->lambda becomes the one of least norm, in rows scaled by M, that holds the same forces.
- * Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+ * BAUM_ERR_SINGULAR where it does not balance the forces; also BAUM_ERR_MEMORY. */
 baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 
 /* Names of the joints whose multipliers are not unique, into text. Likewise; then it is empty. */

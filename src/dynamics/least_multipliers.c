@@ -40,7 +40,7 @@ static const double OF_ALL_SHARED = 1e-24;
 /* Not out of balance: of all terms of the row together. */
 static const double ROUNDING = 1e-11;
 /* What N z may take of that. */
-static const double SHARE = 0.1;
+static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
 
@@ -255,17 +255,29 @@ static double find_imbalance(const baum_workspace *w, const balance *at, int *wo
   return most;
 }
 
-/* Sets the limits, too. */
-static baum_status check_balance(const baum_workspace *w)
+/* Of the last solution. */
+static balance form_solution(const baum_workspace *w)
 {
   const baum_i_block_path *path = w->solved_by;
   const double *force = path && path->force_is_constant ? path->constant_force : w->force;
+  return form(w, force, w->a, w->lambda);
+}
+
+static double find_imbalance_of_solution(const baum_workspace *w)
+{
   int worst = 0;
-  balance at = form(w, force, w->a, w->lambda);
+  balance at = form_solution(w);
+  set_limits(w, &at, OF_ALL_SHARED);
+  return find_imbalance(w, &at, &worst);
+}
+
+static baum_status check_balance(const baum_workspace *w)
+{
+  int worst = 0;
+  balance at = form_solution(w);
   set_limits(w, &at, OF_ALL);
   double imbalance = find_imbalance(w, &at, &worst);
   if (imbalance <= 1.0) {
-    set_limits(w, &at, OF_ALL_SHARED);
     return BAUM_OK;
   }
   char label[BAUM_I_LABEL_SIZE];
@@ -287,17 +299,48 @@ static double find_share(const baum_workspace *w)
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
+/* Null vectors may take large forces off light bodies, and leave the rounding of these. */
+static baum_status refine_multipliers(baum_workspace *w)
+{
+  int nv = w->mechanism->nv;
+  double *change = begin(w).image;
+  balance at = form_solution(w);
+  memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
+  baum_status status =
+    baum_i_kkt_solve(w->redundancy.kkt, at.residual, w->work_c, w->work_v + nv, change);
+  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
+    w->lambda[i] += change[i];
+  }
+  return status;
+}
+
+/* Adds what can be shared out of part, or nothing where that costs the balance. */
+static void share_out(baum_workspace *w)
+{
+  double *before = begin(w).direction;
+  size_t bytes = (size_t)w->mechanism->nc * sizeof *before;
+  double imbalance_before = find_imbalance_of_solution(w);
+  double share = find_share(w);
+  memcpy(before, w->lambda, bytes);
+  for (int i = 0; i < w->mechanism->nc && share > 0.0; i++) {
+    w->lambda[i] += share * w->redundancy.part[i];
+  }
+  double imbalance = find_imbalance_of_solution(w);
+  if (imbalance > SHARE && refine_multipliers(w) == BAUM_OK) {
+    imbalance = find_imbalance_of_solution(w);
+  }
+  if (imbalance > fmax(imbalance_before, SHARE)) {
+    memcpy(w->lambda, before, bytes);
+  }
+}
+
 /* What cannot be shared out stays as it is. */
 baum_status baum_i_make_multipliers_least(baum_workspace *w)
 {
   baum_status found = find_part(w);
-  if (found != BAUM_OK && found != BAUM_ERR_SINGULAR) {
-    return found;
-  }
-  baum_status status = check_balance(w);
-  double share = found == BAUM_OK && status == BAUM_OK ? find_share(w) : 0.0;
-  for (int i = 0; i < w->mechanism->nc && share > 0.0; i++) {
-    w->lambda[i] += share * w->redundancy.part[i];
+  baum_status status = found == BAUM_OK || found == BAUM_ERR_SINGULAR ? check_balance(w) : found;
+  if (found == BAUM_OK && status == BAUM_OK) {
+    share_out(w);
   }
   return status;
 }
