@@ -176,6 +176,7 @@ stage_random() {
   need_venv
   build release random -DBAUM_TESTS=ON
   build/random/tests/bench_random 10000
+  build/random/tests/bench_reactions 1000
 }
 
 stage_analyzer() {

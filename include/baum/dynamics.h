@@ -99,7 +99,8 @@ BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, 
 
 /** Acceleration and multipliers of M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi
  *  (7); with alpha = beta = 0 those of (5). Redundant rows are left out of the solution; where
- *  multipliers are not unique they are those of least norm in rows scaled by M. Which rows are left
+ *  multipliers are not unique they are those of least norm in rows scaled by M, as far as the
+ *  constraints are met, and balance the forces to 1e-9 in any case. Which rows are left
  *  out changes where the others come close to dependent; this allocates, and the residual forms
  *  leave them out, too, from then on.
  *  @param      alpha,beta  [1/s] finite

@@ -398,7 +398,8 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 
 /** Tell which multipliers are unique at the present state. Where rows are redundant, forces can be
  *  shared between joints in more than one way: BAUM_LAMBDA, BAUM_JOINT_REACTION and
- *  BAUM_DRIVE_EFFORT are then those of least norm in rows scaled by M.
+ *  BAUM_DRIVE_EFFORT are then those of least norm in rows scaled by M, as far as the constraints are
+ *  met, and balance the forces to 1e-9 in any case.
  *  @param[out] unique  (nc) per row, true where its multiplier has no choice
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
  *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY

@@ -117,7 +117,6 @@ baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const doub
   if (status == BAUM_OK && w->redundancy.count > 0) {
     status = baum_i_evaluate_mass(w);
     status = status == BAUM_OK ? baum_i_make_multipliers_least(w) : status;
-    status = status == BAUM_ERR_NOT_FINITE ? translate(w, status) : status;
   }
   return status;
 }

@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Multipliers of least norm, where redundant rows leave them a choice.
  *
- * The solution lambda has zeros in the rows that are left out, d, and balances the forces with those that are kept, k. Every other
- * one is lambda + N z, with one number z of each row of d, and null vectors
+ * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k. Every other one is lambda + N z,
+ * with one number z per omitted row, and null vectors
  *
  *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
- * each solved for by
+ * found from
  *
  *   [ W     J_k^T ] [ x       ]   [ -J_d^T z ]
- *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of lengths alone: masses do not come into the null space.
+ *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of characteristic lengths, so that uneven masses do not blur them.
  *
  * In rows of unit length, s_i = |row i of J M^-1/2|, the least |S (lambda + N z)| is found by conjugate gradients on z (CGLS of
- * A. Bjorck, preconditioned by S_d). However far they get, the forces stay balanced, whatever the masses are.
+ * A. Bjorck, preconditioned by S_d). Wherever they end, the forces stay in balance.
  *
- * Off the constraints rows that are left out need not depend on the others. Of what they would carry only that share is taken
- * which leaves the forces balanced; mostly that is all or next to nothing.
+ * Where the constraints are violated, omitted rows need not depend on the others. Then only such a share of N z is added as keeps
+ * the balance: mostly all of it or next to nothing.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,16 +30,16 @@ enum { MOST_ITERATIONS = 100 };
 
 /* Gradient at which z is found, of the first. */
 static const double FOUND = 1e-12;
-/* How far forces may be out of balance: of the terms of their own row, of the largest on the body, of the largest of all.
+/* How far M a + J^T lambda = g may be off: times the terms of the row, of the largest row of the body, of the largest row of all.
  * The last is rounding. */
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
 /* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small forces. */
 static const double OF_ALL_SHARED = 1e-24;
-/* Not out of balance: of all terms of the row together. */
+/* Times the terms of the row, what counts as balanced. */
 static const double ROUNDING = 1e-11;
-/* What N z may take of that. */
+/* Share of these limits that N z may use up. */
 static const double SHARE = 0.02;
 
 /* ---- null vectors ---- */
@@ -60,7 +60,7 @@ static baum_status factor(baum_workspace *w, const double *shift)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z, where z is zero in the rows that are kept; of a null vector z what has been refined. */
+/* out = N z, where z is zero in kept rows. Where z is a null vector already, out is that vector refined. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -130,7 +130,7 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
   return status;
 }
 
-/* Adds to part what is least along the direction, of which `turned` is that before. */
+/* Minimizes along the new direction, to which `turned` of the last one belongs. */
 static baum_status step(baum_workspace *w, const search *s, double size, double turned)
 {
   const baum_i_redundancy *r = &w->redundancy;
@@ -225,7 +225,7 @@ static double largest_scaled(const baum_workspace *w, const double *terms, int f
   return most;
 }
 
-/* How far each row may be out of balance, into work_v. */
+/* How far each row may be off, into work_v. */
 static void set_limits(const baum_workspace *w, const balance *at, double of_all)
 {
   const baum_mechanism *m = w->mechanism;
@@ -240,7 +240,7 @@ static void set_limits(const baum_workspace *w, const balance *at, double of_all
   }
 }
 
-/* The largest residual, of its limit; *worst: whose it is. NaN is infinite. */
+/* The largest residual over its limit; *worst: its row. NaN counts as infinite. */
 static double find_imbalance(const baum_workspace *w, const balance *at, int *worst)
 {
   double most = 0.0;
@@ -290,7 +290,7 @@ static baum_status check_balance(const baum_workspace *w)
                      w->point.t, label, imbalance * OF_ROW, OF_ROW);
 }
 
-/* How much of part leaves the forces balanced, by the limits. */
+/* The share of part that keeps the forces within the limits. */
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
@@ -299,7 +299,7 @@ static double find_share(const baum_workspace *w)
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
 
-/* Null vectors may take large forces off light bodies, and leave the rounding of these. */
+/* N z may take large forces off light bodies; their rounding would stay. */
 static baum_status refine_multipliers(baum_workspace *w)
 {
   int nv = w->mechanism->nv;
@@ -314,7 +314,7 @@ static baum_status refine_multipliers(baum_workspace *w)
   return status;
 }
 
-/* Adds what can be shared out of part, or nothing where that costs the balance. */
+/* Adds the share of part that keeps the balance, or nothing where rounding prevents that. */
 static void share_out(baum_workspace *w)
 {
   double *before = begin(w).direction;
@@ -326,18 +326,21 @@ static void share_out(baum_workspace *w)
     w->lambda[i] += share * w->redundancy.part[i];
   }
   double imbalance = find_imbalance_of_solution(w);
-  if (imbalance > SHARE && refine_multipliers(w) == BAUM_OK) {
+  if (imbalance > 2.0 * SHARE && refine_multipliers(w) == BAUM_OK) {
     imbalance = find_imbalance_of_solution(w);
   }
-  if (imbalance > fmax(imbalance_before, SHARE)) {
+  if (imbalance > fmax(imbalance_before, 1.0)) {
     memcpy(w->lambda, before, bytes);
   }
 }
 
-/* What cannot be shared out stays as it is. */
 baum_status baum_i_make_multipliers_least(baum_workspace *w)
 {
   baum_status found = find_part(w);
+  if (found == BAUM_ERR_NOT_FINITE) {
+    w->point.retry = true;
+    return baum_i_fail_not_finite(w);
+  }
   baum_status status = found == BAUM_OK || found == BAUM_ERR_SINGULAR ? check_balance(w) : found;
   if (found == BAUM_OK && status == BAUM_OK) {
     share_out(w);
@@ -347,14 +350,14 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 
 /* ---- whose they are ---- */
 
-/* Part of a null vector whose rows left out are about one, above which multipliers are not unique; rounding is far below. */
+/* Component of a null vector above which a multiplier is not unique; those of omitted rows are about 1, rounding is far less. */
 static const double SHARED = 1e-6;
 
-/* Keeps nothing from being solved for; what it takes away is brought back by refinement. */
+/* Makes every matrix regular; refinement brings back what it costs. */
 static const double SHIFT = 1e-12;
 
-/* Some null vector, of rows as displacements, into part; *least: what of it counts. Off the constraints it spreads to other
- * rows, by as much as it is out of balance. */
+/* A generic null vector, in rows scaled to displacements, into part; *least: components that count. Where the constraints are
+ * violated it spreads to other rows by as much as it is out of balance. */
 static baum_status find_reach(baum_workspace *w, double *least)
 {
   const baum_i_redundancy *r = &w->redundancy;
