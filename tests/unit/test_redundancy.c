@@ -226,6 +226,23 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* 1e-6 of 10 N */
+static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
+{
+  (void)state;
+  baum_mechanism *m = parallelogram(3, 0.7);
+  const double v[12] = {0};
+  baum_workspace *w = NULL;
+  assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
+  assert_int_equal(baum_i_reported_acceleration(w, 0.0, m->drawn_q, v), BAUM_OK);
+  assert_int_equal(baum_i_make_multipliers_least(w), BAUM_OK);
+  w->lambda[0] += 1e-5;
+  assert_int_equal(baum_i_make_multipliers_least(w), BAUM_ERR_SINGULAR);
+  assert_non_null(strstr(baum_message(), "balance the forces on body 2 \"first\""));
+  baum_workspace_destroy(w);
+  baum_mechanism_destroy(m);
+}
+
 static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
 {
   (void)state;
@@ -497,6 +514,7 @@ int main(void)
     cmocka_unit_test(a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_named),
     cmocka_unit_test(many_duplicated_joints_share_their_forces),
     cmocka_unit_test(multipliers_of_least_norm_still_balance_the_forces),
+    cmocka_unit_test(multipliers_that_do_not_balance_the_forces_are_refused),
     cmocka_unit_test(a_flat_parallelogram_is_singular_and_not_redundant),
     cmocka_unit_test(the_rank_does_not_depend_on_the_unit_of_length),
     cmocka_unit_test(a_body_without_a_joint_is_named),
