@@ -4,15 +4,16 @@
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
 #   format build test asan minimal install python
-#   tidy coverage valgrind thread analyzer sweeps fuzz random browser   longer or rarer, by name only
+#   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   longer or rarer, by name only
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders have 100 in any case.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
+# BAUM_FRESH="build test" are the stages that stage fresh runs in the bare system, all of the first row otherwise.
 set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
 usual="format build test asan minimal install python"
-named="tidy coverage valgrind thread analyzer sweeps fuzz random browser"
+named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
 
@@ -177,6 +178,15 @@ stage_random() {
   build release random -DBAUM_TESTS=ON
   build/random/tests/bench_random 10000
   build/random/tests/bench_reactions 1000
+}
+
+# The README's two commands on a bare Debian 12; before any release or large change.
+stage_fresh() {
+  need_packages debootstrap git
+  rm -rf build/fresh-clone
+  git clone --quiet . build/fresh-clone
+  # shellcheck disable=SC2086
+  as_root sh tests/install/fresh.sh "$PWD/build/fresh" "$PWD/build/fresh-clone" ${BAUM_FRESH:-}
 }
 
 stage_analyzer() {
