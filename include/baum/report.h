@@ -28,9 +28,10 @@ typedef enum baum_report_form {
   BAUM_REPORT_PAGE = 3 /**< One HTML page with charts and a table to sort, which loads nothing. */
 } baum_report_form;
 
-/** Write a report into a file. One that is there already is replaced when the new one is complete, and stays as it is on
- *  failure; while it is written there is a file beside it whose name has ".part" behind. What is no regular file, such as
- *  a pipe or a link, is written in place.
+/** Write a report into a file, and wait until it is on the disk. An older file is replaced, with its mode, when the new one
+ *  is complete; on failure it stays as it is. While it is written, the new file has a name of its own in the same folder
+ *  (.baum-*.part). What replacing would break is written in place, and may be incomplete after a failure: a pipe, a device,
+ *  a symbolic link, a file with several hard links, and one of another owner.
  *  @param form   which
  *  @param title  of text, JSON and page. NULL: "Study"
  *  @param path   of the file

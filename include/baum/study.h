@@ -208,9 +208,9 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  all times, one after the other. Rows that fail, are refused or reach the limit are rows like others. A finer setting of a
  *  method that has reached the row limit is not tried. Another call goes on where one has stopped, with rows that were
  *  added since.
- *  With the option file every result is appended to it as a line of text when it is known; a study of the same
- *  mechanism, span, samples, error and reference takes its rows from there, also where a line is cut off. What functions of
- *  the user do is not compared. One process at a time.
+ *  With the option file every result is appended to it as a line of text when it is known, and all are on the disk when
+ *  this returns; a study of the same mechanism, span, samples, error and reference takes its rows from there, also where a
+ *  line is cut off. What functions of the user do is not compared. One process at a time.
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also the time budget is
  *           spent), BAUM_ERR_STATE (no rows, or under way), BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another
  *           study's: the sentence says what differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what

@@ -3,6 +3,8 @@
 #ifndef BAUM_I_STUDY_REPORT_H
 #define BAUM_I_STUDY_REPORT_H
 
+#include <stdio.h>
+
 #include <baum/report.h>
 
 #include "study/report_buffer.h"
@@ -144,5 +146,8 @@ bool baum_i_is_no_file(const char *path);
 
 /* All of it or nothing, see baum_study_write(). */
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size);
+
+/* What was flushed reaches the disk; 0, or the reason (errno) why not. */
+int baum_i_sync_file(FILE *file);
 
 #endif

@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A file that is there as a whole or not at all: it is written beside the old one, which it then replaces. */
 #include <errno.h>
+#include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include "base/alloc.h"
 #include "study/report.h"
+
+enum { TRIES = 100, NAME = 64 };
 
 bool baum_i_is_no_file(const char *path)
 {
@@ -19,54 +23,104 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Devices, pipes and links are not to be replaced. */
-static bool is_special(const char *path)
+/* Is the name all that the file has? Replacing would lose devices, pipes, links, other names and another owner. */
+static bool is_replaceable(const struct stat *found)
 {
-  struct stat found;
-  return lstat(path, &found) == 0 && !S_ISREG(found.st_mode);
+  return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
 }
 
-/* Into the file itself or, exclusively, the one beside it; sentences name the one that was asked for. */
-static baum_status write_bytes(const char *into, const char *mode, const char *path,
-                               const char *bytes, size_t size)
+int baum_i_sync_file(FILE *file)
 {
-  FILE *file = fopen(into, mode);
-  if (!file) {
-    return fail(path, "written", errno);
-  }
+  bool done = fsync(fileno(file)) == 0 || errno == EINVAL || errno == EROFS; /* devices, pipes */
+  return done ? 0 : errno;
+}
+
+/* The reason of the first failure, or 0. Closes the file in any case. */
+static int write_bytes(FILE *file, const char *bytes, size_t size)
+{
   int reason = fwrite(bytes, 1, size, file) == size && fflush(file) == 0 ? 0 : errno;
+  if (reason == 0) {
+    reason = baum_i_sync_file(file);
+  }
   if (fclose(file) != 0 && reason == 0) {
     reason = errno;
   }
+  return reason;
+}
+
+static baum_status write_in_place(const char *path, const char *bytes, size_t size)
+{
+  FILE *file = fopen(path, "w");
+  int reason = file ? write_bytes(file, bytes, size) : errno;
   return reason ? fail(path, "written", reason) : BAUM_OK;
 }
 
-/* Exclusively, so that nothing else is followed or overwritten there; what a program that was killed has left is removed. */
-static baum_status write_part(const char *part, const char *path, const char *bytes, size_t size)
+/* Create a file in the folder of `path`, the first `folder` characters of it, under a name that nothing has. */
+static FILE *create_part(const char *path, size_t folder, mode_t mode, char *part, size_t capacity)
 {
-  (void)remove(part);
-  baum_status status = write_bytes(part, "wx", path, bytes, size);
+  for (int k = 0; k < TRIES; k++) {
+    (void)snprintf(part, capacity, "%.*s.baum-%ld-%d.part", (int)folder, path, (long)getpid(), k);
+    int descriptor = open(part, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode);
+    if (descriptor >= 0) {
+      return fdopen(descriptor, "w");
+    }
+    if (errno != EEXIST) {
+      break;
+    }
+  }
+  return NULL;
+}
+
+/* The new name reaches the disk with the folder; nothing is lost where that cannot be asked for. */
+static void sync_folder(const char *folder)
+{
+  int descriptor = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor >= 0) {
+    (void)fsync(descriptor);
+    (void)close(descriptor);
+  }
+}
+
+/* `old` is the file that is replaced, or NULL. `part` has room for the name of the new one. */
+static baum_status replace(const char *path, const struct stat *old, const char *bytes, size_t size,
+                           char *part, size_t capacity)
+{
+  const char *slash = strrchr(path, '/');
+  size_t folder = slash ? (size_t)(slash - path) + 1 : 0;
+  mode_t mode = old ? old->st_mode & 07777 : 0666;
+  FILE *file = create_part(path, folder, mode, part, capacity);
+  if (!file) {
+    return fail(path, "written", errno);
+  }
+  int reason = old && fchmod(fileno(file), mode) != 0 ? errno : 0; /* open() obeys the umask */
+  int written = write_bytes(file, bytes, size);
+  reason = reason ? reason : written;
+  baum_status status = reason ? fail(path, "written", reason) : BAUM_OK;
   if (status == BAUM_OK && rename(part, path) != 0) {
     status = fail(path, "replaced", errno);
   }
   if (status != BAUM_OK) {
     (void)remove(part);
+    return status;
   }
-  return status;
+  part[folder] = '\0';
+  sync_folder(folder ? part : ".");
+  return BAUM_OK;
 }
 
 baum_status baum_i_write_file(const char *path, const char *bytes, size_t size)
 {
-  if (is_special(path)) {
-    return write_bytes(path, "w", path, bytes, size);
+  struct stat found;
+  bool exists = lstat(path, &found) == 0;
+  if (exists && !is_replaceable(&found)) {
+    return write_in_place(path, bytes, size);
   }
-  size_t length = strlen(path) + sizeof ".part";
-  char *part = baum_i_alloc(length, 1);
+  size_t capacity = strlen(path) + NAME;
+  char *part = baum_i_alloc(capacity, 1);
   if (!part) {
     return baum_i_fail_memory();
   }
-  (void)snprintf(part, length, "%s.part", path);
-  baum_status status = write_part(part, path, bytes, size);
+  baum_status status = replace(path, exists ? &found : NULL, bytes, size, part, capacity);
   baum_i_free(part);
   return status;
 }

@@ -408,8 +408,12 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
 baum_status baum_i_study_file_close(baum_i_study_file *file)
 {
   baum_status status = BAUM_OK;
-  if (file && file->stream && fclose(file->stream) != 0) {
-    status = complain(file, "written");
+  if (file && file->stream) {
+    int reason = baum_i_sync_file(file->stream);
+    if (fclose(file->stream) != 0 || reason != 0) {
+      errno = reason ? reason : errno;
+      status = complain(file, "written");
+    }
   }
   baum_i_free(file);
   return status;

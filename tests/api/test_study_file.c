@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A study that was interrupted goes on from its file: no row is lost, none is run twice. */
 #define _GNU_SOURCE /* fork, mkstemp */
+#include <errno.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -21,6 +22,16 @@
 #include "study_rows.h"
 
 enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
+
+static int sync_error;
+
+/* Takes the place of the system's for the library in this program. */
+int fsync(int descriptor)
+{
+  (void)descriptor;
+  errno = sync_error;
+  return sync_error ? -1 : 0;
+}
 
 typedef struct scene {
   model m;
@@ -363,6 +374,19 @@ static void a_full_disk_is_a_status_and_loses_nothing(void **state)
   }
 }
 
+static void a_file_that_does_not_reach_the_disk_is_a_status(void **state)
+{
+  (void)state;
+  scene s = make_scene();
+  baum_study *study = study_of(&s);
+  sync_error = EIO;
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_FILE, "cannot be written: Input/output error");
+  sync_error = 0;
+  assert_int_equal(baum_study_run(study), BAUM_OK);
+  baum_study_destroy(study);
+  end_scene(&s);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -375,6 +399,7 @@ int main(void)
     cmocka_unit_test(lines_may_end_as_on_other_systems),
     cmocka_unit_test(what_is_no_regular_file_is_refused),
     cmocka_unit_test(a_missing_folder_is_a_status),
+    cmocka_unit_test(a_file_that_does_not_reach_the_disk_is_a_status),
     cmocka_unit_test(a_full_disk_is_a_status_and_loses_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,16 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports of a study: what is in them, what users' names cannot do to them, and files that are whole or not there. */
+/* Reports of a study: what is in them, what users' names cannot do to them. */
 #include <math.h>
 #include <setjmp.h>
-#include <signal.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
 
 #include <cmocka.h>
 
@@ -22,7 +19,6 @@ static const baum_report_form FORMS[] = {BAUM_REPORT_TEXT, BAUM_REPORT_CSV, BAUM
 enum { FORM_COUNT = sizeof FORMS / sizeof FORMS[0] };
 
 static const char PATH[] = "test_study_report.out";
-static const char PART[] = "test_study_report.out.part";
 
 static report_scene scene;
 
@@ -37,7 +33,6 @@ static int tear_down(void **state)
 {
   (void)state;
   report_scene_end(&scene);
-  (void)remove(PATH);
   return 0;
 }
 
@@ -203,89 +198,6 @@ static void bad_calls_are_refused(void **state)
   ASSERT_SAYS(baum_study_write(NULL, BAUM_REPORT_CSV, NULL, PATH), BAUM_ERR_ARGUMENT, "NULL");
 }
 
-/* ---- files ---- */
-
-static char *read_file(const char *path)
-{
-  static char text[1 << 20];
-  FILE *file = fopen(path, "rb");
-  assert_non_null(file);
-  size_t size = fread(text, 1, sizeof text - 1, file);
-  (void)fclose(file);
-  text[size] = '\0';
-  return text;
-}
-
-static bool exists(const char *path)
-{
-  struct stat found;
-  return stat(path, &found) == 0;
-}
-
-static void a_file_has_what_is_printed_and_replaces_an_older_one(void **state)
-{
-  (void)state;
-  for (int k = 0; k < 2; k++) {
-    char *text = print(scene.study, BAUM_REPORT_CSV);
-    assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_CSV, NULL, PATH), BAUM_OK);
-    assert_string_equal(read_file(PATH), text);
-    assert_false(exists(PART));
-    free(text);
-  }
-}
-
-static void a_full_disk_is_told_and_a_device_stays_one(void **state)
-{
-  (void)state;
-  struct stat found;
-  if (stat("/dev/full", &found) != 0) {
-    skip();
-  }
-  for (int k = 0; k < FORM_COUNT; k++) {
-    ASSERT_SAYS(baum_study_write(scene.study, FORMS[k], NULL, "/dev/full"), BAUM_ERR_FILE,
-                "/dev/full|written|No space left");
-  }
-  assert_int_equal(stat("/dev/full", &found), 0);
-  assert_true(S_ISCHR(found.st_mode));
-}
-
-/* A limit on the size of files stands for a disk that is full in the midst. */
-static void a_failed_write_leaves_the_older_file(void **state)
-{
-  (void)state;
-  assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_CSV, NULL, PATH), BAUM_OK);
-  char *before = print(scene.study, BAUM_REPORT_CSV);
-  struct rlimit old;
-  assert_int_equal(getrlimit(RLIMIT_FSIZE, &old), 0);
-  const struct rlimit little = {.rlim_cur = 4096, .rlim_max = old.rlim_max};
-  void (*handler)(int) = signal(SIGXFSZ, SIG_IGN);
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &little), 0);
-  baum_status status = baum_study_write(scene.study, BAUM_REPORT_PAGE, NULL, PATH);
-  assert_int_equal(setrlimit(RLIMIT_FSIZE, &old), 0);
-  (void)signal(SIGXFSZ, handler);
-  ASSERT_SAYS(status, BAUM_ERR_FILE, "test_study_report.out|written|too large");
-  assert_string_equal(read_file(PATH), before);
-  assert_false(exists(PART));
-  free(before);
-}
-
-static void a_folder_that_is_not_there_is_told(void **state)
-{
-  (void)state;
-  ASSERT_SAYS(baum_study_write(scene.study, BAUM_REPORT_PAGE, NULL, "no/such/folder.html"),
-              BAUM_ERR_FILE, "no/such/folder.html: cannot be written: No such file");
-}
-
-static void what_a_killed_program_has_left_is_no_hindrance(void **state)
-{
-  (void)state;
-  FILE *left = fopen(PART, "w");
-  assert_non_null(left);
-  (void)fclose(left);
-  assert_int_equal(baum_study_write(scene.study, BAUM_REPORT_JSON, NULL, PATH), BAUM_OK);
-  assert_false(exists(PART));
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -298,11 +210,6 @@ int main(void)
     cmocka_unit_test(a_study_that_has_not_been_run_is_reported_too),
     cmocka_unit_test(a_buffer_that_is_too_short_gets_the_beginning),
     cmocka_unit_test(bad_calls_are_refused),
-    cmocka_unit_test(a_file_has_what_is_printed_and_replaces_an_older_one),
-    cmocka_unit_test(a_full_disk_is_told_and_a_device_stays_one),
-    cmocka_unit_test(a_failed_write_leaves_the_older_file),
-    cmocka_unit_test(a_folder_that_is_not_there_is_told),
-    cmocka_unit_test(what_a_killed_program_has_left_is_no_hindrance),
   };
   return cmocka_run_group_tests(tests, set_up, tear_down);
 }

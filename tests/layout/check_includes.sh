@@ -17,7 +17,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
       return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|klu))\.[ch]$/
     if (header == "pthread.h") return file == "src/study/threads.h"
-    if (header == "sys/stat.h") return file == "src/study/report_file.c"
+    if (header ~ /^(fcntl|unistd|sys\/stat)\.h$/) return file == "src/study/report_file.c"
     if (header == "immintrin.h") return file == "src/base/four.h"
     if (header ~ /^gsl\//) return file == "src/mechanism/joints/spline_driver.c"
     return 0
