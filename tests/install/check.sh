@@ -55,6 +55,35 @@ echo "pkg-config --static baum: $(pkg-config --static --libs baum)"
   $(pkg-config --static --cflags --libs baum | sed 's/-lbaum/-l:libbaum.a/')
 "$build/static"
 
+# link OUT ARGUMENT...: a program that reaches every backend, on the archives.
+link() {
+  out=$1
+  shift
+  # shellcheck disable=SC2046
+  "$cc" -std=c11 "$source/every_backend.c" -o "$out" \
+    $(pkg-config --static --cflags --libs baum_catalog | sed 's/-lbaum\(_catalog\)\{0,1\} /-l:libbaum\1.a /g') "$@"
+  "$out"
+}
+
+echo "every backend on archives of baum"
+link "$build/every_backend"
+if readelf -d "$build/every_backend" | grep 'NEEDED.*libbaum'; then
+  fail "the static program loads the shared library"
+fi
+
+# All of it static. Where METIS is a shared library only, functions that are never called stand for its own.
+echo "every backend on archives alone"
+cat >"$build/metis.c" <<'EOF'
+int METIS_NodeND(void);
+int METIS_ComputeVertexSeparator(void);
+int METIS_NodeND(void) { return -1; }
+int METIS_ComputeVertexSeparator(void) { return -1; }
+EOF
+"$cc" -c "$build/metis.c" -o "$build/metis.o"
+metis=$("$cc" -print-file-name=libmetis.a)
+[ "$metis" != libmetis.a ] || metis=$build/metis.o
+link "$build/all_static" -static "$metis"
+
 echo "no path of the build is installed"
 if grep -rF "$project" "$libraries/cmake" "$pc" "$prefix/include"; then
   fail "these lines name the folder of the build"
