@@ -2,7 +2,6 @@
 /* What the examples share. Not a part of the library.
  *
  *   example_begin()   reads the command line: [--json FILE] [--data FILE] [--page FILE]
- *   CHECK()           ends the program with the library's sentence when a call fails
  *   example_table()   begins a table; its cells follow row by row
  *   example_expect()  a check, which decides the exit code; checks come after all tables
  *   example_end()     closes the files and gives the exit code
@@ -19,6 +18,8 @@
 #include <string.h>
 
 #include <baum/baum.h>
+
+#include "check.h"
 
 enum { EXAMPLE_SKIPPED = 77 };
 
@@ -43,21 +44,6 @@ static struct {
   int checks;
   int failures;
 } example;
-
-/* ---- Statuses ------------------------------------------------------------- */
-
-#define CHECK(call) example_check((call), #call, __FILE__, __LINE__)
-
-static inline void example_check(baum_status status, const char *call, const char *file, int line)
-{
-  if (status >= BAUM_WARNED) {
-    printf("note   %s\n", baum_message());
-  } else if (status != BAUM_OK) {
-    (void)fprintf(stderr, "%s:%d: %s\n%s: %s\n", file, line, call, baum_status_name(status),
-                  baum_message());
-    exit(EXIT_FAILURE);
-  }
-}
 
 /* ---- Begin ---------------------------------------------------------------- */
 

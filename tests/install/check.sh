@@ -84,6 +84,32 @@ metis=$("$cc" -print-file-name=libmetis.a)
 [ "$metis" != libmetis.a ] || metis=$build/metis.o
 link "$build/all_static" -static "$metis"
 
+# The C of its first chapter, in its order: functions as they are, statements as the body of main.
+echo "the tutorial's program, as it is printed"
+awk -v main="$build/main" '
+  /^## / { chapter++ }
+  chapter == 1 && /^```/ { inside = $0 == "```c"; first = 1; next }
+  chapter == 1 && inside { if (first) body = /^ /; first = 0; if (body) print > main; else print }' \
+  "$project/docs/tutorial.md" >"$build/tutorial.c"
+{
+  echo "int main(void)"
+  echo "{"
+  echo "  baum_mechanism *mechanism = pendulum();"
+  echo "  double t = 1.0;"
+  echo "  baum_counters counters;"
+  cat "$build/main"
+  echo "}"
+} >>"$build/tutorial.c"
+# shellcheck disable=SC2046
+"$cc" -std=c11 "$build/tutorial.c" -o "$build/tutorial" $(pkg-config --cflags --libs baum)
+LD_LIBRARY_PATH=$libraries "$build/tutorial"
+
+echo "every example, on what is installed"
+for example in "$project"/examples/*.c; do
+  # shellcheck disable=SC2046
+  "$cc" -std=c11 "$example" -o "$build/example" $(pkg-config --cflags --libs baum_catalog) -lm
+done
+
 echo "no path of the build is installed"
 if grep -rF "$project" "$libraries/cmake" "$pc" "$prefix/include"; then
   fail "these lines name the folder of the build"

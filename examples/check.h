@@ -1,0 +1,24 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* CHECK(call) prints the message of a warning; after a failure it prints the message and ends the program. */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <baum/baum.h>
+
+#define CHECK(call) check_status((call), #call, __FILE__, __LINE__)
+
+static inline void check_status(baum_status status, const char *call, const char *file, int line)
+{
+  if (status >= BAUM_WARNED) {
+    printf("note   %s\n", baum_message());
+  } else if (status != BAUM_OK) {
+    (void)fprintf(stderr, "%s:%d: %s\n%s: %s\n", file, line, call, baum_status_name(status),
+                  baum_message());
+    exit(EXIT_FAILURE);
+  }
+}
+
+#endif
