@@ -20,6 +20,8 @@
  *  They may call the library, but not with the workspace or the run that is calling them: what
  *  returns a status fails there (BAUM_ERR_STATE), and it cannot be destroyed; time, q, v, inputs
  *  and texts can be read, and the run be cancelled.
+ *  Names of elements, inputs and events are labels in messages: NULL stands for the default; empty ones and ones with
+ *  control characters, such as line breaks, are refused.
  *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are
  *  only ever appended: a struct of a program that was compiled with an older version is smaller,
  *  and what it lacks has its default. A larger one, of a newer version, is refused

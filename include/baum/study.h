@@ -62,9 +62,10 @@ typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_
 /** How to study. Start from baum_study_options_default(). */
 typedef struct baum_study_options {
   size_t struct_size; /**< Set by the default. Do not write. */
-  int32_t samples;    /**< [-] >= 2, at which errors are taken. Default: 100. */
-  int32_t threads;    /**< [-] >= 1, for errors; times are always taken one by one. Default: 1. */
-  int32_t repeats;    /**< [-] >= 1, most runs for the time of a row; fewer where they are long.
+  int32_t
+    samples; /**< [-] 2 to 1e6, at which errors are taken; at most 1e8 / (nq + nv + nc) for large mechanisms. Default: 100. */
+  int32_t threads; /**< [-] 1 to 1024, for errors; times are always taken one by one. Default: 1. */
+  int32_t repeats; /**< [-] 1 to 1e6, most runs for the time of a row; fewer where they are long.
                             Default: 5. */
   double
     row_limit; /**< [s] > 0 of CPU time, longest run of a row; may be infinite. The reference may

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { DELETE = 0x7f };
+
 int baum_i_format(char *text, size_t size, const char *format, va_list arguments)
 {
   locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0); /* no memory: that of the program */
@@ -34,4 +36,22 @@ void baum_i_append(char *text, size_t size, const char *format, ...)
   va_start(arguments, format);
   (void)baum_i_format(text + used, size - used, format, arguments);
   va_end(arguments);
+}
+
+baum_status baum_i_check_name(const char *family, int number, const char *name)
+{
+  if (name && !name[0]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d: name is empty; NULL stands for the default name",
+                       family, number);
+  }
+  for (const char *at = name; at && *at; at++) {
+    unsigned char byte = (unsigned char)*at;
+    if (byte < ' ' || byte == DELETE) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s %d: name has the control character 0x%02x (at %d), must have none, "
+                         "because messages contain names",
+                         family, number, byte, (int)(at - name));
+    }
+  }
+  return BAUM_OK;
 }

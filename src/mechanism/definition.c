@@ -15,6 +15,7 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "base/sized.h"
+#include "base/text.h"
 
 /* ---- checks ---- */
 
@@ -199,6 +200,10 @@ static baum_status check(const baum_mechanism *mechanism, const kind *k, const v
     return status;
   }
   const char *name = out->head.name;
+  status = baum_i_check_name(k->family, number, name);
+  if (status != BAUM_OK) {
+    return status;
+  }
   char label[BAUM_I_LABEL_SIZE];
   if (name) {
     (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", k->family, number, name);

@@ -5,6 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "base/text.h"
 #include "mechanism/mechanism.h"
 
 /* ---- ids ---- */
@@ -107,7 +108,10 @@ baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name
   int number = mechanism->input_count + 1;
   (void)snprintf(default_name, sizeof default_name, "input%d", number);
   const char *given = name ? name : default_name;
-  status = check_value(call, number, given, initial);
+  status = baum_i_check_name("input", number, name);
+  if (status == BAUM_OK) {
+    status = check_value(call, number, given, initial);
+  }
   if (status == BAUM_OK) {
     status = append(mechanism, given, initial);
   }

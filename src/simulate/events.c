@@ -11,6 +11,7 @@
 
 #include "base/alloc.h"
 #include "base/sized.h"
+#include "base/text.h"
 #include "mechanism/definition.h"
 #include "mechanism/joints/coordinate.h"
 
@@ -283,7 +284,10 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
-  status = check(simulation->workspace->mechanism, &given, label);
+  status = baum_i_check_name("event", number, given.name);
+  if (status == BAUM_OK) {
+    status = check(simulation->workspace->mechanism, &given, label);
+  }
   if (status == BAUM_OK && !simulation->events) {
     status = create(simulation);
   }

@@ -102,10 +102,20 @@ void baum_study_cancel(baum_study *study)
 
 /* ---- options ---- */
 
+enum { SAMPLES = 100, MOST_SAMPLES = 1000000, MOST_THREADS = 1024, MOST_REPEATS = 1000000 };
+static const double MOST_NUMBERS =
+  1e8; /* q, v and lambda at all samples, which each thread keeps */
+
+static int most_samples(const baum_mechanism *m)
+{
+  double each = (double)m->nq + m->nv + m->nc;
+  return (int)fmax(SAMPLES, fmin(MOST_SAMPLES, MOST_NUMBERS / each));
+}
+
 void baum_study_options_init(baum_study_options *options, size_t caller_size)
 {
   const baum_study_options defaults = {
-    .samples = 100,
+    .samples = SAMPLES,
     .threads = 1,
     .repeats = 5,
     .row_limit = 10.0,
@@ -118,15 +128,20 @@ void baum_study_options_init(baum_study_options *options, size_t caller_size)
   }
 }
 
-static baum_status check_options(const baum_study_options *o)
+static baum_status check_options(const baum_study *study, const baum_study_options *o)
 {
-  const char *const counts[3] = {"samples", "threads", "repeats"};
-  const int32_t count[3] = {o->samples, o->threads, o->repeats};
-  for (int k = 0; k < 3; k++) {
-    int32_t least = k == 0 ? 2 : 1;
-    if (count[k] < least) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %d, must be >= %d", counts[k],
-                         (int)count[k], (int)least);
+  const struct {
+    const char *name;
+    int32_t value;
+    int least;
+    int most;
+  } counts[] = {{"samples", o->samples, 2, most_samples(study->mechanism)},
+                {"threads", o->threads, 1, MOST_THREADS},
+                {"repeats", o->repeats, 1, MOST_REPEATS}};
+  for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
+    if (counts[k].value < counts[k].least || counts[k].value > counts[k].most) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %d, must be %d to %d",
+                         counts[k].name, (int)counts[k].value, counts[k].least, counts[k].most);
     }
   }
   const char *const times[2] = {"row_limit", "time_budget"};
@@ -196,7 +211,7 @@ baum_status baum_study_set_options(baum_study *study, const baum_study_options *
   baum_study_options o = baum_study_options_default();
   baum_status status = baum_i_study_take(&o, sizeof o, options, call);
   if (status == BAUM_OK) {
-    status = check_options(&o);
+    status = check_options(study, &o);
   }
   if (status == BAUM_OK) {
     status = baum_i_study_check_idle(study, call);

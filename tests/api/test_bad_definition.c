@@ -90,6 +90,28 @@ static void a_wrong_struct_size_is_refused(void **state)
   for_every_kind(check_struct_sizes);
 }
 
+/* ---- names ---- */
+
+static void check_names(every_element *parts, const element_kind *kind)
+{
+  const char *const names[] = {"", "two\nlines", "a\ttab", "\r", "last\x7f", "\x01"};
+  any_def def;
+  kind->good(parts, &def);
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    def.head.name = names[k];
+    check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT,
+                  names[k][0] ? ": name has the control character 0x|must have none"
+                              : ": name is empty; NULL stands for the default name");
+    assert_null(strpbrk(baum_message(), "\n\t\r\x7f\x01"));
+  }
+}
+
+static void names_that_break_messages_are_refused(void **state)
+{
+  (void)state;
+  for_every_kind(check_names);
+}
+
 /* ---- NULL ---- */
 
 static void check_nulls(every_element *parts, const element_kind *kind)
@@ -531,6 +553,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_wrong_struct_size_is_refused),
+    cmocka_unit_test(names_that_break_messages_are_refused),
     cmocka_unit_test(null_is_refused_by_add_get_and_set),
     cmocka_unit_test(numbers_that_are_not_finite_are_refused),
     cmocka_unit_test(masses_inertias_and_lengths_out_of_range_are_refused),

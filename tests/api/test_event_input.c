@@ -53,6 +53,10 @@ static void definitions_are_checked(void **state)
   swing s = swing_make(1.0);
   baum_simulation *run = open_mode(&s, (step_mode){baum_rk4(), true});
   baum_event_def def = baum_event_def_default();
+  def.name = "";
+  refuse(run, &def, "event 0: name is empty; NULL stands for the default name");
+  def.name = "sto\np";
+  refuse(run, &def, "event 0: name has the control character 0x0a (at 3)");
   def.name = "stop";
   refuse(run, NULL, "the definition is NULL");
   refuse(NULL, &def, "the simulation is NULL");

@@ -114,8 +114,8 @@ static void options_out_of_range_are_refused_by_name(void **state)
     baum_study_options options;
     const char *says;
   } wrong[] = {
-    {{.samples = 1}, "samples is 1, must be >= 2"},
-    {{.threads = 0}, "threads is 0, must be >= 1"},
+    {{.samples = 1}, "samples is 1, must be 2 to 1000000"},
+    {{.threads = 0}, "threads is 0, must be 1 to 1024"},
     {{.repeats = -1}, "repeats is -1"},
     {{.row_limit = 0.0}, "row_limit is 0 s, must be > 0"},
     {{.time_budget = (double)NAN}, "time_budget is nan s"},
@@ -135,6 +135,47 @@ static void options_out_of_range_are_refused_by_name(void **state)
   o.struct_size = 3;
   ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_STRUCT, "struct_size is 3");
   baum_study_destroy(study);
+}
+
+/* Many coordinates leave room for fewer samples. */
+static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state)
+{
+  baum_study *study = make(*state);
+  const struct {
+    int32_t sizes[3];
+    const char *says;
+  } large[] = {
+    {{INT32_MAX, 1, 1}, "study options: samples is 2147483647, must be 2 to 1000000"},
+    {{1000001, 1, 1}, "samples is 1000001"},
+    {{2, 1025, 1}, "study options: threads is 1025, must be 1 to 1024"},
+    {{2, 1, INT32_MAX}, "study options: repeats is 2147483647, must be 1 to 1000000"},
+  };
+  baum_study_options o = baum_study_options_default();
+  for (size_t k = 0; k < sizeof large / sizeof large[0]; k++) {
+    o.samples = large[k].sizes[0];
+    o.threads = large[k].sizes[1];
+    o.repeats = large[k].sizes[2];
+    ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT, large[k].says);
+  }
+  o = (baum_study_options){.samples = 1000000, .threads = 1024, .repeats = 1000000};
+  o.struct_size = sizeof o;
+  o.row_limit = o.time_budget = 1.0;
+  assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
+  baum_study_destroy(study);
+
+  enum { BODIES = 200 }; /* 1200 numbers at each sample */
+  baum_mechanism *mechanism = NULL;
+  const baum_planar_body_def body = baum_planar_body_def_default();
+  assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
+  for (int k = 0; k < BODIES; k++) {
+    assert_int_equal(baum_mechanism_add_planar_body(mechanism, &body, NULL), BAUM_OK);
+  }
+  assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
+  study = make(&(model){.mechanism = mechanism});
+  ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT,
+              "samples is 1000000, must be 2 to 83333");
+  baum_study_destroy(study);
+  baum_mechanism_destroy(mechanism);
 }
 
 static void grids_out_of_range_are_refused_and_add_nothing(void **state)
@@ -431,6 +472,7 @@ int main(void)
     cmocka_unit_test(making_one_is_refused_without_a_frozen_mechanism_or_a_span),
     cmocka_unit_test(calls_on_no_study_are_refused),
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
+    cmocka_unit_test(sizes_that_cannot_be_meant_are_refused_with_their_limit),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
     cmocka_unit_test(progress_cannot_change_what_is_under_way),
     cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),

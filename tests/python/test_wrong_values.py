@@ -47,7 +47,8 @@ class Values(unittest.TestCase):
     def test_names_reach_the_library_whole(self):
         m = baum.Mechanism()
         self.says(ValueError, "the name of a body is ''", m.planar_body, "")
-        self.says(ValueError, "must have letters, but no NUL", m.planar_body, "a\0b")
+        for name in "", "a\0b", "a\nb", "a\tb", "a\x7f":
+            self.says(ValueError, "must have letters, but no control characters", m.planar_body, name)
         self.says(ValueError, "the name of an input is ''", m.input, "")
 
     def test_sizes_below_one_are_refused_by_the_library(self):

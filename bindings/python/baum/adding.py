@@ -429,8 +429,8 @@ class Adding:
             name = f"{family}{1 + self._count(family)}"
         if not isinstance(name, str):
             raise TypeError(f"the name of {one(family)} is a string, not {name!r}")
-        if not name or "\0" in name:
-            raise ValueError(f"the name of {one(family)} is {name!r}, must have letters, but no NUL")
+        if not name or any(ord(c) < 32 or ord(c) == 127 for c in name):
+            raise ValueError(f"the name of {one(family)} is {name!r}, must have letters, but no control characters")
         if name in self._entries:
             raise ValueError(f'there is already {one(self._entries[name].family)} "{name}"')
         return name
