@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSD-3-Clause
-# usage: check_numpy.sh PROJECT CMAKE CTEST
+# usage: check_numpy.sh PROJECT CMAKE CTEST GENERATOR
 # Where Python has no NumPy, the build omits the tests that need it and says how to get them.
 set -eu
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 printf '#!/bin/sh\nexec python3 -I -S "$@"\n' >"$scratch/python3" # without site-packages
 chmod +x "$scratch/python3"
-"$2" -S "$1" -B "$scratch/build" -DPython3_EXECUTABLE="$scratch/python3" -DBAUM_EXAMPLES=OFF >"$scratch/log" 2>&1 ||
+"$2" -S "$1" -B "$scratch/build" -G "$4" -DPython3_EXECUTABLE="$scratch/python3" -DBAUM_EXAMPLES=OFF >"$scratch/log" 2>&1 ||
   { cat "$scratch/log"; exit 1; }
 grep "Tests of Python are omitted.*$scratch/python3 has no NumPy. Install" "$scratch/log" ||
   { echo "no message about NumPy"; exit 1; }
