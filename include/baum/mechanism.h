@@ -424,7 +424,10 @@ BAUM_API int32_t baum_mechanism_input_count(const baum_mechanism *mechanism);
 BAUM_API baum_status baum_mechanism_create(baum_mechanism **out);
 
 /** Copy a mechanism; the copy is not frozen, and the ids of one are valid in the other as long as
- *  nothing is added. Functions and their `user` pointers are shared.
+ *  nothing is added. Functions and their `user` pointers are shared. Definitions are copied as they
+ *  were given: a joint with `point`, and lengths, angles and offsets that were left out, are taken
+ *  from the copy's own design configuration, so give point_a, point_b and these numbers before you
+ *  set another position or angle of a body.
  *  @param[in]  mechanism  frozen or not
  *  @param[out] out        receives the copy, NULL on failure
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_MEMORY

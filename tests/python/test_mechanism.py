@@ -297,6 +297,66 @@ class Copies(unittest.TestCase):
         self.assertAlmostEqual(baum.Workspace(m).phi(0, (2, 0))[0], 3)
 
 
+class MovedCopies(unittest.TestCase):
+    """A copy with another position or angle of a body is the same mechanism elsewhere."""
+
+    def everything(self):
+        m = baum.Mechanism()
+        a = m.planar_body("a", mass=1, inertia=1, position=(1, 0.5), angle=0.3)
+        b = m.planar_body("b", mass=1, inertia=1, position=(2, 0.7), angle=-0.4)
+        c = m.planar_body("c", mass=1, inertia=1, position=(3, -0.2), angle=0.1)
+        p = m.planar_particle("p", mass=1, position=(2.5, 1))
+        pin = m.revolute("pin", a, b, point=(1.5, 0.6))
+        slide = m.translational("slide", b, c, point=(2.5, 0.2), axis=(1, 2))
+        m.revolute("bead", b, p, point=(2.5, 1))
+        m.pin_in_slot("slot", a, c, point=(0.2, 0.1), axis=(-1, 1))
+        m.rack_and_pinion("rack", a, b, 0.3, point=(1.1, 0.4))
+        m.gear("gear", a, b, 0.2, 0.3, carrier=c)
+        m.curve("curve", a, b, lambda xy: (xy[1], 0, 1, 0, 0, 0), point=(1.2, 0))
+        m.fixed("weld", b, c, point_a=(0.1, 0), point_b=(0, 0.2))
+        m.distance("rod", a, c, point_a=(0.1, 0), point_b=(0, 0.2))
+        m.coupling("cam", pin, slide, ratio=2)
+        m.spring("spring", a, c, point_a=(0.1, 0), point_b=(0, 0.3), stiffness=1)
+        m.torsion_spring("torsion", a, c, stiffness=1)
+        return m
+
+    def test_joints_and_forces_stay_as_they_were(self):
+        m = self.everything().freeze()
+        place = dict(position=(5, -3), angle=1.0)
+        moved = baum.Workspace(m.copy(a=place, b=place, c=place))
+        there = baum.Workspace(m)
+        q, v = there.drawn()
+        q = q + 0.1 * np.sin(np.arange(len(q)))
+        v = np.cos(np.arange(len(v)))
+        np.testing.assert_allclose(moved.phi(0, q), there.phi(0, q), atol=1e-14)
+        np.testing.assert_allclose(moved.jacobian(0, q), there.jacobian(0, q), atol=1e-14)
+        np.testing.assert_allclose(moved.force(0, q, v), there.force(0, q, v), atol=1e-14)
+
+    def test_an_arm_keeps_its_pin(self):
+        m = baum.Mechanism()
+        arm = m.planar_body("arm", mass=1, inertia=0.1, position=(0, -0.5))
+        m.revolute("pin", m.ground, arm, point=(0, 0))
+        turned = m.freeze().copy(arm=dict(angle=0.5))
+        self.assertEqual(turned["pin"].definition["point_b"], (0.0, 0.5))
+        s = turned.simulation("rk4", step=1e-3)
+        np.testing.assert_allclose(np.hypot(*s.q[:2]), 0.5)
+        fits = m.copy(arm=dict(position=(0.5, 0), angle=np.pi / 2)).simulation("rk4", step=1e-3)
+        np.testing.assert_allclose(fits.q, (0.5, 0, np.pi / 2), atol=1e-15)
+
+    def test_what_is_given_is_placed_anew(self):
+        m = self.everything()
+        copy = m.copy(b=dict(angle=1.0), pin=dict(point=(1.4, 0.6)), rod=dict(length=2))
+        self.assertEqual(copy["pin"].definition["point"], (1.4, 0.6))
+        self.assertEqual(copy["rod"].definition["length"], 2.0)
+
+    def test_what_is_elsewhere_is_left_alone(self):
+        m = self.everything()
+        copy = m.copy(p=dict(position=(2.5, 1.5)))
+        for joint in ("pin", "slide", "cam"):
+            np.testing.assert_equal(copy[joint].definition, m[joint].definition)
+        self.assertEqual(copy["bead"].definition["point_b"], (0.0, 0.0))
+
+
 class Ownership(unittest.TestCase):
     def test_a_simulation_keeps_its_mechanism(self):
         s = pendulum().simulation("rk4", step=1e-3)

@@ -6,7 +6,7 @@ from collections import namedtuple
 
 import numpy as np
 
-from . import _abi, _calls
+from . import _abi, _calls, design
 from .adding import Adding
 from .channels import WHOLE, Channel
 from .definitions import KINDS, Definition
@@ -257,7 +257,14 @@ class Mechanism(Adding):
     def copy(self, **changes):
         """A copy with some definitions changed, for example m.copy(rod=dict(mass=0.04)). It is
         frozen when this one is. Handles of one are good for the other as long as nothing is
-        added."""
+        added.
+
+        With another position or angle of a body the copy is the same mechanism in another initial
+        configuration: joints and forces keep their points in body axes, and the lengths, angles and
+        offsets that they took from the design configuration. Their definitions in the copy have the
+        numbers. Assembly closes the joints, which may move the changed body too: give position and
+        angle that fit, or held=True. A joint or force that is itself changed in `point`, `point_a`
+        or `point_b` is placed in the new design configuration."""
         copy = self.thawed(**changes)
         return copy.freeze() if self.frozen else copy
 
@@ -267,9 +274,19 @@ class Mechanism(Adding):
         _calls.make(lib.baum_mechanism_copy, self.handle, ctypes.byref(out))
         copy = Mechanism.__new__(Mechanism)
         copy._adopt(out.value, self)
-        for name, fields in changes.items():
+        for name, fields in [*self._kept_when_moved(changes), *changes.items()]:
             copy.change(copy[name], fields)
         return copy
+
+    def _kept_when_moved(self, changes):
+        """What joints and forces must be given so that bodies of other positions do not alter them."""
+        given = {name: set(fields) for name, fields in changes.items() if isinstance(fields, dict)}
+        moved = {name for name in given if self[name].family == "body"}
+        moved = {name for name in moved if given[name] & {"position", "angle"}}
+        for element in self if moved else ():
+            placed_anew = given.get(element.name, set()) & {"point", "point_a", "point_b"}
+            if element.family in ("joint", "force") and not placed_anew:
+                yield element.name, design.taken(element, moved)
 
     @property
     def sizes(self):
