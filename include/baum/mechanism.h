@@ -525,7 +525,7 @@ typedef struct baum_mobility {
 
 /** Count freedoms, redundant and conflicting rows and free bodies at the assembled start pose, at
  *  t = 0.
- *  @param[in]  mechanism    frozen
+ *  @param[in]  mechanism    frozen; otherwise a copy is frozen and examined
  *  @param[out] out          filled also when rows conflict
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
@@ -565,7 +565,7 @@ typedef struct baum_report {
 
 /** Find out what a mechanism costs, at the assembled start pose, at t = 0, with the solver that a run
  *  takes by itself.
- *  @param[in]  mechanism    frozen
+ *  @param[in]  mechanism    frozen; otherwise a copy is frozen and examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY

@@ -5,20 +5,13 @@
 #include "base/message.h"
 #include "base/sized.h"
 
-baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
-                          const baum_i_survey_out *to)
+static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
+                           const baum_i_survey_out *to)
 {
-  baum_status status = baum_i_check_sized(to->out, to->caller_size, to->call);
-  if (status == BAUM_OK) {
-    status = baum_i_check_frozen(mechanism, to->call);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
-  status = baum_workspace_create(mechanism, &w);
+  baum_status status = baum_workspace_create(mechanism, &w);
   if (status != BAUM_OK) {
     return status;
   }
@@ -30,4 +23,33 @@ baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
   baum_i_free(q);
   baum_workspace_destroy(w);
   return baum_i_message_settle(status, &kept);
+}
+
+/* The same of a frozen copy. */
+static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *look,
+                                const baum_i_survey_out *to)
+{
+  baum_mechanism *copy = NULL;
+  baum_status status = baum_mechanism_copy(mechanism, &copy);
+  if (status == BAUM_OK) {
+    status = baum_mechanism_freeze(copy);
+  }
+  if (status == BAUM_OK) {
+    status = look_at(copy, look, to);
+  }
+  baum_mechanism_destroy(copy);
+  return status;
+}
+
+baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
+                          const baum_i_survey_out *to)
+{
+  baum_status status = baum_i_check_sized(to->out, to->caller_size, to->call);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", to->call);
+  }
+  return mechanism->frozen ? look_at(mechanism, look, to) : look_at_copy(mechanism, look, to);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on a frozen mechanism at a pose of their own finding, outside any run. */
+/* Reports on a mechanism, or a frozen copy of it, at a configuration of their own finding, outside any run. */
 #ifndef BAUM_I_DYNAMICS_SURVEY_H
 #define BAUM_I_DYNAMICS_SURVEY_H
 

@@ -193,7 +193,7 @@ class ForceFunctions(unittest.TestCase):
     def test_an_input_of_another_mechanism_is_refused(self):
         m, other = several(), baum.Mechanism()
         stranger, namesake = other.input("d"), other.input("c")
-        with self.assertRaisesRegex(KeyError, "no 'd'"):
+        with self.assertRaisesRegex(KeyError, "no input 'd'"):
             m.force("push", ["x"], lambda t, q, v, d: q, inputs=[stranger])
         with self.assertRaisesRegex(ValueError, '"push": <input \'c\'> is an input of another'):
             m.force("push", ["x"], lambda t, q, v, c: q, inputs=[namesake])

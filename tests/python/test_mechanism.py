@@ -222,7 +222,7 @@ class BadInput(unittest.TestCase):
             self.m.__getitem__,
             "bodi",
         )
-        self.says(KeyError, "no 'x'", self.m.revolute, "pin", "ground", "x", point=(0, 0))
+        self.says(KeyError, "no body 'x'", self.m.revolute, "pin", "ground", "x", point=(0, 0))
         self.says(
             TypeError, "a body or its name is wanted, not 3", self.m.revolute, "pin", 3, "body"
         )
@@ -295,6 +295,23 @@ class Copies(unittest.TestCase):
         longer = m.copy(circle=dict(phi=lambda t, q: q @ q - 4), bob=dict(position=(2, 0)))
         self.assertAlmostEqual(baum.Workspace(longer).phi(0, (2, 0))[0], 0)
         self.assertAlmostEqual(baum.Workspace(m).phi(0, (2, 0))[0], 3)
+
+
+class Drafts(unittest.TestCase):
+    def test_a_draft_can_be_examined(self):
+        m = baum.Mechanism()
+        arm = m.planar_body("arm", mass=1, inertia=1)
+        m.revolute("pin", m.ground, arm, point=(0, 0))
+        self.assertEqual((m.mobility().freedoms, m.report().rows, m.frozen), (1, 2, False))
+        m.fixed("weld", m.ground, arm, point=(0, 0))
+        self.assertEqual((m.mobility().freedoms, m.mobility().redundant_rows), (0, 2))
+
+    def test_a_handle_is_the_same_while_it_is_kept(self):
+        m = slider_crank()
+        self.assertIs(m.ground, m.ground)
+        b = m["B"]
+        self.assertIs(m["B"], b)
+        self.assertIs(m.simulation("rk4", step=1e-3).mechanism["B"], b)
 
 
 class MovedCopies(unittest.TestCase):

@@ -77,6 +77,53 @@ class Values(unittest.TestCase):
         self.says(KeyError, "body29 and 11 more", m.__getitem__, "nobody")
 
 
+class Instead(unittest.TestCase):
+    """Messages say what to do in Python, and speak of nothing else."""
+
+    def says(self, kind, sentence, call, *arguments, **fields):
+        with self.assertRaisesRegex(kind, sentence) as caught:
+            call(*arguments, **fields)
+        self.assertNotRegex(str(caught.exception), r"baum_|BAUM_")
+
+    def test_without_an_integrator_the_names_of_python_are_listed(self):
+        m = rod_pendulum()
+        wanted = "no integrator is given; choose one of euler, .*rk4, .*kinematics"
+        self.says(baum.Error, wanted, m.simulate, [0, 1])
+        self.says(baum.Error, wanted, m.simulation, step=1e-3)
+
+    def test_a_wrong_name_lists_those_that_would_do(self):
+        m = baum.Mechanism()
+        m.revolute("pin", m.ground, m.planar_body("arm", mass=1, inertia=1), point=(0, 0))
+        m.input("torque")
+        s = m.freeze().simulation("rk4", step=0.1)
+        self.says(KeyError, "no input 'x' in this mechanism; there are: torque\\W*$", s.set_input, "x", 1)
+        self.says(KeyError, "no joint 'x' .* there are: pin\\W*$", s.set_driver, "x", 1)
+        self.says(KeyError, "no body 'x' .* there are: ground, arm\\W*$", m.columns, "x")
+
+    def test_a_mechanism_that_is_not_frozen(self):
+        m = baum.Mechanism()
+        m.planar_body("arm", mass=1, inertia=1)
+        self.says(baum.Error, "^the mechanism is not frozen", m.simulation, "rk4", step=0.1)
+
+    def test_a_run_is_not_read_in_its_own_functions(self):
+        m = rod_pendulum()
+        s = m.simulation("rk4", step=1e-2)
+        w = baum.Workspace(m)
+        read = lambda t, q, v: s.get("rod.multipliers")[0]
+        self.says(baum.Error, "for multipliers acceleration.t, q, v. of a baum.Workspace", s.event, function=read)
+        s.event(function=lambda t, q, v: abs(w.acceleration(t, q, v)[1][0]) - 9.81)
+        self.assertEqual(s.advance_to(1), baum.Status.STOP_EVENT)
+        self.assertAlmostEqual(abs(s.get("rod.multipliers")[0]), 9.81, 6)
+
+    def test_a_function_is_looked_at_before_what_it_is_given(self):
+        m = baum.Mechanism()
+        pin = m.revolute("pin", m.ground, m.planar_body("arm", mass=1, inertia=1), point=(0, 0))
+        for user in None, 5, [1, 2]:
+            self.says(TypeError, "law: a function or the address", m.driver, "d", pin, law=[1, 2, 3], user=user)
+        self.says(TypeError, "user: an address or an object of ctypes is wanted, not .1, 2.", m.driver, "d",
+                  pin, law=lambda t: (0, 0, 0), user=[1, 2])
+
+
 class One(unittest.TestCase):
     """One body or channel needs no list."""
 

@@ -11,6 +11,7 @@ they are.
 import contextvars
 import os
 import queue
+import re
 import threading
 import weakref
 
@@ -50,8 +51,8 @@ def make(function, *arguments):
 
 
 def message():
-    """This thread's last sentence."""
-    return lib.baum_message().decode(errors="replace")
+    """This thread's last message, without the name of the C function that it begins with."""
+    return re.sub(r"^baum_\w+: ", "", lib.baum_message().decode(errors="replace"))
 
 
 # ---- the second thread ---------------------------------------------------------------------------
@@ -197,10 +198,15 @@ class Handle:
         me = object()
         try:
             if self._users.setdefault("now", me) is not me:
-                raise errors.Error(
-                    errors.Status.ERR_STATE, f"this {self._what} is in use by another call"
-                )
+                raise errors.Error(errors.Status.ERR_STATE, self._in_use())
             return make(function, self._address, *arguments)
         finally:
             if self._users.get("now") is me:
                 del self._users["now"]
+
+    def _in_use(self):
+        instead = (
+            "; its functions have the t, q and v that they are given, and for multipliers "
+            "acceleration(t, q, v) of a baum.Workspace"
+        )
+        return f"this {self._what} is in use by another call" + instead * (self._what == "simulation")

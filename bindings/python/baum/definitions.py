@@ -104,11 +104,14 @@ class Definition:
         }
         if inputs and not functions:
             raise TypeError(f"{self._label}: inputs are given together with the functions of them")
+        user = given.pop("user", None)
         self._set_count(given)
         for name, value in given.items():
             self._set(name, value)
         for name, function in functions.items():
             self._set_function(name, function, inputs)
+        if user is not None:
+            self._set("user", user)
         return self
 
     def _places(self, inputs):
@@ -156,7 +159,12 @@ class Definition:
         """`user` is an address or something of ctypes; the others are arrays of numbers."""
         if name == "user":
             self.keep.append(value)
-            return value if isinstance(value, int) else ctypes.cast(value, ctypes.c_void_p).value
+            try:
+                return value if isinstance(value, int) else ctypes.cast(value, ctypes.c_void_p).value
+            except ctypes.ArgumentError:
+                raise TypeError(
+                    f"{label}: an address or an object of ctypes is wanted, not {value!r}"
+                ) from None
         array = vector(value, length(self.struct), label)
         self.keep.append(array)
         return address(array)

@@ -2,6 +2,7 @@
 """What is simulated: bodies, joints, forces and inputs."""
 
 import ctypes
+import weakref
 from collections import namedtuple
 
 import numpy as np
@@ -84,6 +85,7 @@ class Mechanism(Adding):
         self.has_python = like is not None and like.has_python
         self._keep = [] if like is None else list(like._keep)
         self._entries = {"ground": GROUND} if like is None else dict(like._entries)
+        self._handles = weakref.WeakValueDictionary()
 
     @classmethod
     def of_library(cls, address):
@@ -112,15 +114,23 @@ class Mechanism(Adding):
 
     def __getitem__(self, name):
         """The body, joint, force or input of that name."""
-        try:
-            entry = self._entries[name]
-        except KeyError:
-            known = list(self._entries)
+        return self._handle(name, CLASSES)
+
+    def _handle(self, name, families):
+        """The handle of an element of one of these families. As long as somebody keeps it, it is the
+        same one."""
+        entry = self._entries.get(name)
+        if entry is None:
+            known = [known for known, entry in self._entries.items() if entry.family in families]
             more = f" and {len(known) - LISTED} more" if len(known) > LISTED else ""
+            what = families[0] + " " if len(families) == 1 else ""
             raise KeyError(
-                f"no {name!r} in this mechanism; there are: {', '.join(known[:LISTED])}{more}"
-            ) from None
-        return CLASSES[entry.family](self, name, entry)
+                f"no {what}{name!r} in this mechanism; there are: {', '.join(known[:LISTED])}{more}"
+            )
+        handle = self._handles.get(name)
+        if handle is None:
+            handle = self._handles[name] = CLASSES[entry.family](self, name, entry)
+        return handle
 
     def __contains__(self, name):
         return name in self._entries
@@ -139,7 +149,7 @@ class Mechanism(Adding):
         "none"."""
         if isinstance(value, ctypes.Structure):
             return self._of_id(family, value)
-        element = self[value] if isinstance(value, str) else value
+        element = self._handle(value, [family]) if isinstance(value, str) else value
         if not isinstance(element, Element) or element.family != family:
             raise TypeError(f"{one(family)} or its name is wanted, not {value!r}")
         return element

@@ -11,7 +11,7 @@ from .callbacks import event_function
 from .channels import Channel, Layout, q as ALL_Q, v as ALL_V
 from .errors import Error, Status, as_warning, warn
 from .gains import Gains
-from .integrators import FORMULATIONS, Integrator, lookup, names
+from .integrators import FORMULATIONS, Integrator, integrators, lookup, names
 from ._lib import default, lib
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from ._values import address, integer, number, truth, vector
@@ -80,7 +80,10 @@ def make_options(method, values):
     options = default(_abi.baum_simulation_options)
     if isinstance(method, (str, Integrator)):
         options.integrator = lookup(method).address
-    elif method is not None:
+    elif method is None:
+        sentence = f"no integrator is given; choose one of {', '.join(integrators())}"
+        raise Error(Status.ERR_ARGUMENT, sentence)
+    else:
         raise TypeError(f"integrator: a name is wanted, not {method!r}")
     for name, value in values.items():
         if name not in CONVERT:
