@@ -120,6 +120,31 @@ class Values(unittest.TestCase):
         self.assertTrue(any((view != copy).any() for view, copy in seen))
 
 
+class Costs(unittest.TestCase):
+    def calls(self, **functions):
+        """Calls in a step of rk4 of a pendulum with these functions."""
+        calls = []
+
+        def counted(function):
+            return lambda *arguments: calls.append(0) or function(*arguments)
+
+        m = pendulum(**{name: counted(function) for name, function in functions.items()})
+        s = m.simulation("rk4", step=1e-3)
+        s.step(10)
+        calls.clear()
+        s.step(10)
+        return len(calls) / 10
+
+    def test_derivatives_spare_most_calls(self):
+        """The figures of the documentation, which tests/bench/bench_python.py prints."""
+        plain = self.calls(phi=circle)
+        given = self.calls(
+            phi=circle, jacobian=lambda t, q: 2 * q, gamma=lambda t, q, v: -2 * (v @ v)
+        )
+        self.assertTrue(120 <= plain <= 160, plain)
+        self.assertTrue(40 <= given <= 60, given)
+
+
 class Exceptions(unittest.TestCase):
     def failing(self, error, after):
         """A pendulum whose function raises at later times than that, once it is armed."""

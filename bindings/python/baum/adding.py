@@ -278,7 +278,10 @@ class Adding:
         """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`, one or several:
         phi(t, q) gives Phi (rows), jacobian(t, q) J (rows x nv), nu(t, q) -dPhi/dt (rows),
         gamma(t, q, v) the right side of J a = gamma (rows). Only phi is needed; the others are
-        found by differences."""
+        found by differences, which calls phi often: about 140 times in a step of "rk4" for two
+        coordinates, against 50 calls in all with jacobian and gamma. A call takes one to two
+        microseconds even for a short Python function. Where that matters give the derivatives, or
+        compiled functions: addresses, ctypes function pointers, Numba's cfunc."""
         return self._add(
             "user_constraint",
             name,

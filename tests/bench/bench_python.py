@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What functions in Python cost: calls in a step of rk4, and what a call takes beyond the function.
+
+    PYTHONPATH=bindings/python python3 tests/bench/bench_python.py
+
+The mechanism is the pendulum of the README. Overheads are differences from a run whose functions give
+the same values in C, which needs a C compiler; they are CPU times, the least of several runs.
+"""
+import ctypes
+import sys
+import time
+import timeit
+from functools import partial
+from pathlib import Path
+
+import numpy as np
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "python"))
+
+import baum
+from compiler import CC, Folder
+
+STEPS, REPEATS = 1000, 7
+
+C = """
+int phi(double t, const double *q, double *out, void *user)
+{ (void)t; (void)user; out[0] = q[0] * q[0] + q[1] * q[1] - 1.0; return 0; }
+int jacobian(double t, const double *q, double *out, void *user)
+{ (void)t; (void)user; out[0] = 2.0 * q[0]; out[1] = 2.0 * q[1]; return 0; }
+int gamma(double t, const double *q, const double *v, double *out, void *user)
+{ (void)t; (void)q; (void)user; out[0] = -2.0 * (v[0] * v[0] + v[1] * v[1]); return 0; }
+"""
+
+PYTHON = {
+    "phi": lambda t, q: q @ q - 1,
+    "jacobian": lambda t, q: 2 * q,
+    "gamma": lambda t, q, v: -2 * (v @ v),
+}
+
+
+def pendulum(functions):
+    m = baum.Mechanism()
+    bob = m.planar_particle("bob", mass=1, position=(1, 0))
+    m.constraint("rod", [bob], rows=1, **functions)
+    return m.freeze()
+
+
+def seconds_of(functions):
+    """Least CPU time of the steps."""
+    times = []
+    for _ in range(REPEATS):
+        s = pendulum(functions).simulation("rk4", step=1e-3)
+        begun = time.process_time()
+        s.step(STEPS)
+        times.append(time.process_time() - begun)
+    return min(times)
+
+
+def calls_of(functions):
+    """Calls of each function in a step."""
+    calls = dict.fromkeys(functions, 0)
+
+    def counted(name):
+        def call(*arguments):
+            calls[name] += 1
+            return functions[name](*arguments)
+
+        return call
+
+    s = pendulum({name: counted(name) for name in functions}).simulation("rk4", step=1e-3)
+    s.step(100)
+    before = dict(calls)
+    s.step(100)
+    return {name: (calls[name] - before[name]) / 100 for name in calls}
+
+
+def own_seconds(name):
+    """What the function itself takes."""
+    q = np.array([0.6, 0.8])
+    arguments = (0.0, q, q) if name == "gamma" else (0.0, q)
+    timer = timeit.Timer(partial(PYTHON[name], *arguments), timer=time.process_time)
+    return min(timer.repeat(number=20000, repeat=REPEATS)) / 20000
+
+
+def report(names, library):
+    functions = {name: PYTHON[name] for name in names}
+    calls = calls_of(functions)
+    step = seconds_of(functions) / STEPS
+    print(f"{', '.join(names)}: {sum(calls.values()):.0f} calls a step, {1e6 * step:.0f} us a step")
+    if library is not None:
+        compiled = seconds_of({name: getattr(library, name) for name in names}) / STEPS
+        own = sum(calls[name] * own_seconds(name) for name in names)
+        beyond = (step - compiled - own) / sum(calls.values())
+        print(f"    {1e6 * compiled:.1f} us a step with the same functions in C")
+        print(f"    {1e6 * beyond:.2f} us a call beyond what the function itself takes")
+
+
+folder = Folder()
+compiled = ctypes.CDLL(folder.shared_object(C)) if CC else None
+report(["phi"], compiled)
+report(["phi", "jacobian", "gamma"], compiled)
