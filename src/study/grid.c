@@ -7,6 +7,8 @@
  *   order      1      2      3 to 5   8
  *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, baum_i_study_rate()
  *   factor     3      3      2        1.5
+ *
+ * The quick grid has the first five of these steps, and five tolerances over the same span.
  */
 #include <math.h>
 #include <string.h>
@@ -21,7 +23,7 @@
 #include "simulate/run.h"
 #include "study/study.h"
 
-enum { MOST_SETTINGS = 64, MOST_CONSTANTS = 4, LOOKS = 20 };
+enum { MOST_SETTINGS = 64, MOST_CONSTANTS = 4, LOOKS = 20, QUICK_SETTINGS = 5 };
 static const double LARGEST_RTOL = 1e-2;
 static const double LEAST_RTOL = 1e-13;
 
@@ -113,9 +115,15 @@ static double finest_of(const grid *g)
   return isnan(finest) ? fmax(LEAST_RTOL, noise) : finest;
 }
 
+static int settings_of(const grid *g)
+{
+  int settings = g->wanted->settings;
+  return g->wanted->quick && settings > QUICK_SETTINGS ? QUICK_SETTINGS : settings;
+}
+
 static double rtol_at(const grid *g, int k)
 {
-  int last = g->wanted->settings > 1 ? g->wanted->settings - 1 : 1;
+  int last = settings_of(g) > 1 ? settings_of(g) - 1 : 1;
   double rtol = LARGEST_RTOL * pow(finest_of(g) / LARGEST_RTOL, (double)k / last);
   double decade = pow(10.0, floor(log10(rtol) + 1e-9));
   return decade * round(rtol / decade);
@@ -124,7 +132,7 @@ static double rtol_at(const grid *g, int k)
 static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fixed)
 {
   baum_status status = BAUM_OK;
-  for (int k = 0; k < g->wanted->settings && status == BAUM_OK; k++) {
+  for (int k = 0; k < settings_of(g) && status == BAUM_OK; k++) {
     o.step = fixed ? step_at(g, o.integrator->order, k) : (double)NAN;
     o.rtol = fixed ? (double)NAN : rtol_at(g, k);
     status = baum_study_add(g->study, &o);
@@ -152,7 +160,7 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
   baum_status status = add_settings(g, &o);
-  if (o.formulation != BAUM_FORMULATION_BAUMGARTE) {
+  if (g->wanted->quick || o.formulation != BAUM_FORMULATION_BAUMGARTE) {
     return status;
   }
   if (status == BAUM_OK && o.integrator->gains != BAUM_GAINS_AUTO) {
@@ -172,13 +180,13 @@ static baum_status add_integrator(const grid *g, const baum_integrator *integrat
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
-  if (integrator->without_freedom) {
-    return g->wanted->formulation == BAUM_FORMULATION_DEFAULT ? add_gains(g, o) : BAUM_OK;
+  bool all = g->wanted->formulation == BAUM_FORMULATION_DEFAULT;
+  if (integrator->without_freedom || (g->wanted->quick && all)) {
+    return all ? add_gains(g, o) : BAUM_OK;
   }
   baum_status status = BAUM_OK;
   for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
-    bool wanted = g->wanted->formulation == BAUM_FORMULATION_DEFAULT ||
-                  g->wanted->formulation == (baum_formulation)f;
+    bool wanted = all || g->wanted->formulation == (baum_formulation)f;
     o.formulation = (baum_formulation)f;
     if (wanted && status == BAUM_OK && baum_i_integrator_offers(integrator, o.formulation)) {
       status = add_gains(g, o);

@@ -427,6 +427,40 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
   baum_study_destroy(study);
 }
 
+/* One method for each kind of step that an integrator takes, as it is when nothing else is given. */
+static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
+{
+  baum_study *study = make(*state);
+  baum_study_grid g = baum_study_grid_default();
+  g.quick = true;
+  assert_int_equal(baum_study_add_standard(study, &g), BAUM_OK);
+  int32_t methods = 0;
+  for (int32_t i = 0; baum_integrator_at(i); i++) {
+    const baum_integrator *integrator = baum_integrator_at(i);
+    bool of_sundials = strncmp(baum_integrator_name(integrator), "cvode", 5) == 0 ||
+                       strcmp(baum_integrator_name(integrator), "ida") == 0;
+    int kinds =
+      baum_integrator_has_fixed_step(integrator) + baum_integrator_has_variable_step(integrator);
+    methods += of_sundials && !baum_has("sundials") ? 0 : kinds > 0 ? kinds : 1;
+  }
+  assert_int_equal(baum_study_method_count(study), methods);
+  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
+    baum_study_row row = study_row(study, k);
+    assert_int_equal(row.gains.rule, BAUM_GAINS_DEFAULT);
+    baum_study_method method;
+    assert_int_equal(baum_study_method_at(study, row.method, &method, sizeof method), BAUM_OK);
+    assert_true(method.rows <= 5);
+  }
+  int32_t rows = baum_study_row_count(study);
+  g.settings = 2;
+  g.integrator = baum_rk4();
+  g.formulation = BAUM_FORMULATION_BAUMGARTE;
+  assert_int_equal(baum_study_add_standard(study, &g), BAUM_OK);
+  assert_int_equal(baum_study_row_count(study), rows + 2);
+  assert_int_equal(study_row(study, rows).formulation, BAUM_FORMULATION_BAUMGARTE);
+  baum_study_destroy(study);
+}
+
 /* ---- memory ---- */
 
 static baum_status study_little(const model *m)
@@ -483,6 +517,7 @@ int main(void)
     cmocka_unit_test(nothing_is_recommended_where_nothing_was_compared),
     cmocka_unit_test(a_setting_that_cannot_be_run_is_a_row_with_its_reason),
     cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
+    cmocka_unit_test(the_quick_grid_has_all_integrators_as_they_are_by_default),
     cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),
   };
   return cmocka_run_group_tests(tests, build, clear);

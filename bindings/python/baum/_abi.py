@@ -668,6 +668,7 @@ class baum_study_grid(Structure):
         ("constants", c_int32),
         ("coarsest", c_double),
         ("finest", c_double),
+        ("quick", c_bool),
     ]
 
 

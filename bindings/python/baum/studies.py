@@ -9,11 +9,12 @@ import numpy as np
 
 from . import _abi, _calls
 from ._lib import default, lib
-from ._values import address, integer, number, numbers, vector
+from ._values import address, integer, number, numbers, truth, vector
 from .channels import Channel
 from .errors import Status, Warning, as_status, warn
 from .gains import Gains
 from .integrators import FORMULATIONS, lookup, names
+from .progress import Line, stream
 from .simulation import SOLVERS, STARTS, _row_gains, make_options
 
 COSTS = names(_abi.baum_study_cost, "BAUM_STUDY_")
@@ -122,13 +123,23 @@ class Study:
     samples, repeats, row_limit [s of CPU time], time_budget [s of wall time], energy_account,
         rehearse, file: see baum_study_options in study.h. threads: left out as many as there are
         processors, but one for a mechanism with functions of Python.
-    progress(done, total) is called after rows and cancels when it returns something true;
-        of the study it can use cancel() and len() alone.
+    grid: what run() adds to a study without settings: "quick", about a minute where functions of
+        Python are called and a second or two otherwise, or "full", some ten to a hundred times as long.
+    progress: left out, a line with an estimate of the time left where somebody watches, in a terminal
+        or a notebook; False: nothing. progress(done, total) is called after rows, of which timed ones
+        count twice, and cancels when it returns something true; of the study it can use cancel() and
+        len() alone.
     """
 
     def __init__(self, mechanism, t0, t1, *, error=None, unit=1.0, reference=None, solution=None,
-                 digits=None, progress=None, threads=None, file=None, **options):
+                 digits=None, progress=None, threads=None, file=None, grid="quick", **options):
         self.mechanism = mechanism
+        if grid not in ("quick", "full"):
+            raise ValueError(f'no grid {grid!r}; there are: quick, full')
+        if not (progress is None or progress is False or callable(progress)):
+            raise TypeError(f"progress: a function or False is wanted, not {progress!r}")
+        self._quick = grid == "quick"
+        self._progress = progress
         out = ctypes.c_void_p()
         _calls.make(lib.baum_study_create, mechanism.handle, number(t0, "t0"), number(t1, "t1"),
                     ctypes.byref(out))
@@ -137,7 +148,7 @@ class Study:
         self._keep = []
         if threads is None:
             threads = 1 if mechanism.has_python else os.cpu_count() or 1
-        self._set_options(progress, file, dict(options, threads=threads))
+        self._set_options(file, dict(options, threads=threads))
         if error is not None:
             self._set_error(error, unit)
         if (reference is None and solution is None) != (digits is None):
@@ -156,7 +167,7 @@ class Study:
 
     # ---- what is studied -------------------------------------------------------------------------
 
-    def _set_options(self, progress, file, values):
+    def _set_options(self, file, values):
         struct = default(_abi.baum_study_options)
         whole = {"samples", "threads", "repeats"}
         for name, value in values.items():
@@ -166,8 +177,7 @@ class Study:
                 value = integer(value, name)
             setattr(struct, name, value)
         struct.file = None if file is None else os.fsencode(file)
-        if progress is not None:
-            struct.progress = self._hold(_abi.baum_study_progress_fn, self._call_progress(progress))
+        struct.progress = self._hold(_abi.baum_study_progress_fn, self._call_progress)
         self._owner.call(lib.baum_study_set_options, ctypes.byref(struct))
 
     def _hold(self, kind, function):
@@ -175,15 +185,12 @@ class Study:
         self._keep.append(kind(function))
         return self._keep[-1]
 
-    def _call_progress(self, progress):
-        def call(study, done, total, user):
-            try:
-                return int(bool(progress(done, total)))
-            except BaseException as error:
-                self._error = error
-                return 1
-
-        return call
+    def _call_progress(self, study, done, total, user):
+        try:
+            return int(bool(self._progress and self._progress(done, total)))
+        except BaseException as error:
+            self._error = error
+            return 1
 
     def _set_error(self, error, unit):
         error = [error] if isinstance(error, (str, Channel)) else error
@@ -235,8 +242,9 @@ class Study:
         return self
 
     def add_standard(self, integrator=None, formulation="default", **grid):
-        """Add the standard grid, or what of it is of one integrator or formulation; settings,
-        constants, coarsest [s], finest: see baum_study_grid in study.h. Returns the study."""
+        """Add the full standard grid, or with quick=True the quick one, or what of it is of one
+        integrator or formulation; settings, constants, coarsest [s], finest: see baum_study_grid in
+        study.h. Returns the study."""
         struct = default(_abi.baum_study_grid)
         if integrator is not None:
             struct.integrator = lookup(integrator).address
@@ -244,9 +252,9 @@ class Study:
             raise ValueError(f"no formulation {formulation!r}; there are: {', '.join(FORMULATIONS)}")
         struct.formulation = FORMULATIONS[formulation]
         for name, value in grid.items():
-            if name not in ("settings", "constants", "coarsest", "finest"):
+            if name not in ("settings", "constants", "coarsest", "finest", "quick"):
                 raise TypeError(f"the standard grid has no option {name!r}")
-            setattr(struct, name, value)
+            setattr(struct, name, truth(value, name) if name == "quick" else value)
         self._long(lib.baum_study_add_standard, ctypes.byref(struct))
         return self
 
@@ -260,13 +268,22 @@ class Study:
     # ---- running ---------------------------------------------------------------------------------
 
     def run(self):
-        """Make the reference and run the rows that are not done; without any the standard grid is
-        added first. A reference that is not to be trusted, and a budget that is spent, are Python
+        """Make the reference and run the rows that are not done; without any the grid of the study
+        is added first. A reference that is not to be trusted, and a budget that is spent, are Python
         warnings. Where a function of the mechanism raises, the row fails, and its message tells
         what was raised. Returns the study."""
         if len(self) == 0:
-            self.add_standard()
-        status, sentence = self._long(lib.baum_study_run)
+            self.add_standard(quick=self._quick)
+        out = stream() if self._progress is None else None
+        if out is None:
+            status, sentence = self._long(lib.baum_study_run)
+        else:
+            self._progress = Line(out, [row.method for row in self.rows])
+            try:
+                status, sentence = self._long(lib.baum_study_run)
+            finally:
+                self._progress.close()
+                self._progress = None
         if status != Status.OK:
             warn(Warning(sentence))
         return self
