@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What functions in Python cost: calls in a step of rk4, and what a call takes beyond the function.
+"""What functions in Python cost: calls in a step of rk4, and what a call takes beyond the function
 
-    PYTHONPATH=bindings/python python3 tests/bench/bench_python.py
+    PYTHONPATH=bindings/python python3 tests/bench/bench_python.py [quick] [full]
+
+and what a study of it over 2 s takes with those grids.
 
 The mechanism is the pendulum of the README. Overheads are differences from a run whose functions give
 the same values in C, which needs a C compiler; they are CPU times, the least of several runs.
@@ -95,7 +97,18 @@ def report(names, library):
         print(f"    {1e6 * beyond:.2f} us a call beyond what the function itself takes")
 
 
+def report_study(grid, language, phi):
+    begun = time.process_time()
+    study = baum.study(pendulum({"phi": phi}), 0, 2, grid=grid).run()
+    seconds = time.process_time() - begun
+    print(f"study with the {grid} grid, phi in {language}: {len(study)} settings, {seconds:.1f} s")
+
+
 folder = Folder()
 compiled = ctypes.CDLL(folder.shared_object(C)) if CC else None
 report(["phi"], compiled)
 report(["phi", "jacobian", "gamma"], compiled)
+for grid in sys.argv[1:]:
+    report_study(grid, "Python", PYTHON["phi"])
+    if compiled is not None:
+        report_study(grid, "C", compiled.phi)
