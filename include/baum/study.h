@@ -125,7 +125,7 @@ typedef struct baum_study_grid {
   double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: NaN, 1e-13, or
                         1e-11 where a constraint of the user has neither jacobian nor gamma: what
                         differences leave there. */
-  bool quick;      /**< The quick grid, a first answer for a tenth of the cost or less: every
+  bool quick;      /**< The quick grid, a first answer for about a 25th of the cost: every
                         integrator with its default formulation (or the one above) and its own rule
                         for gains, at most 5 settings; `constants` does not apply. Default: false. */
 } baum_study_grid;

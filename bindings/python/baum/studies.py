@@ -123,8 +123,8 @@ class Study:
     samples, repeats, row_limit [s of CPU time], time_budget [s of wall time], energy_account,
         rehearse, file: see baum_study_options in study.h. threads: left out as many as there are
         processors, but one for a mechanism with functions of Python.
-    grid: what run() adds to a study without settings: "quick", about a minute where functions of
-        Python are called and a second or two otherwise, or "full", some ten to a hundred times as long.
+    grid: what run() adds to a study without settings: "quick", which takes about a minute where
+        functions of Python are called and seconds otherwise, or "full", about 25 times as long.
     progress: left out, a line with an estimate of the time left where somebody watches, in a terminal
         or a notebook; False: nothing. progress(done, total) is called after rows, of which timed ones
         count twice, and cancels when it returns something true; of the study it can use cancel() and
