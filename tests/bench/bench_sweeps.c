@@ -1,0 +1,187 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Sweeps over steps and tolerances in scenes that are hard on a method: how many runs are wrong, and which of them
+ * silently.
+ *
+ *   bench_sweeps [four-bar | taut | rk8 | singular | all] [--full] [--csv FILE]
+ *
+ *   four-bar  linkages within 1 % of a change point, every method of fixed step
+ *   taut      a light rod that comes taut, 20 mass ratios, every method of fixed step
+ *   rk8       the same rod, 250 mass ratios, rk8 at rtol 1e-9, which has to be right and not doubted
+ *   singular  through singular configurations, 60 tolerances, every method of variable step
+ *
+ * References are integrated in reduced coordinates and owe nothing to the library. Errors are the largest of positions at
+ * ten samples, lengths by the characteristic length: right below 0.01, grey below 0.1, wrong above. A false alarm is
+ * a right run with a warning that doubts the motion; a silent one is wrong without. --full: every linkage with and without
+ * gravity, and more steps. --csv: a line for each run. Fails where a run is silently wrong.
+ */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "sweep_runs.h"
+
+static const double MOST_STEPS = 3e4;
+static sweep_tally tally; /* too large for a stack */
+
+typedef struct arguments {
+  const char *part;
+  bool full;
+  FILE *csv;
+} arguments;
+
+/* The k-th of n numbers from first to last, geometrically. */
+static double spread(double first, double last, int k, int n)
+{
+  return first * pow(last / first, (double)k / (n - 1));
+}
+
+static void sweep_steps(const sweep_scene *s, double first, double last, int n)
+{
+  for (int method = 0; method < tally.method_count; method++) {
+    for (int k = 0; k < n; k++) {
+      (void)sweep_run(&tally, s, method, spread(first, last, k, n) / s->rate);
+    }
+  }
+}
+
+/* From a step that is too long down to one that is right, then to both sides of it: about half of the runs are right. */
+static void sweep_limit(const sweep_scene *s, double longest, int n)
+{
+  for (int method = 0; method < tally.method_count; method++) {
+    double step = longest;
+    double least = s->span / MOST_STEPS;
+    while (step > least && sweep_run(&tally, s, method, step) != SWEEP_RIGHT) {
+      step /= 1.6;
+    }
+    for (int k = 0; step > least && k < n; k++) {
+      (void)sweep_run(&tally, s, method, spread(fmax(least, step / 4.0), step * 4.0, k, n));
+    }
+  }
+}
+
+static int sweep_four_bars(const arguments *with)
+{
+  sweep_begin(&tally, "four-bar", true, with->csv);
+  for (int k = 0; k < SWEEP_FOUR_BARS; k++) {
+    for (int gravity = 0; gravity < 2; gravity++) {
+      if (with->full || gravity == k % 2) {
+        sweep_scene s = sweep_four_bar(k, gravity == 1);
+        printf("%s, %g of a length, gravity %g m/s^2: growth %.2g\n", s.name, s.parameter,
+               s.gravity, s.growth);
+        (void)fflush(stdout);
+        sweep_steps(&s, 0.03, 0.1, with->full ? 40 : 20); /* [rad] */
+        sweep_steps(&s, 0.003, 0.03, with->full ? 20 : 10);
+        sweep_limit(&s, 0.2 / s.rate, with->full ? 60 : 30);
+        sweep_close(&s);
+      }
+    }
+  }
+  return sweep_print(&tally);
+}
+
+static int sweep_taut_steps(const arguments *with)
+{
+  enum { RATIOS = 20 };
+  sweep_begin(&tally, "taut", true, with->csv);
+  for (int k = 0; k < RATIOS; k++) {
+    sweep_scene s = sweep_taut(spread(1e-5, 1e-1, k, RATIOS), true);
+    double turn =
+      sqrt(s.parameter) * s.rate; /* it comes taut within about sqrt(mass ratio) radians */
+    sweep_steps(&s, 5e-4 * s.rate, 2e-2 * s.rate, with->full ? 60 : 15);
+    sweep_limit(&s, 0.3 * turn / s.rate, with->full ? 60 : 30);
+    sweep_close(&s);
+  }
+  return sweep_print(&tally);
+}
+
+static int sweep_taut_rk8(const arguments *with)
+{
+  enum { RATIOS = 250 };
+  sweep_begin(&tally, "rk8", false, with->csv);
+  for (int k = 0; k < RATIOS; k++) {
+    sweep_scene s = sweep_taut(spread(1e-5, 1e-1, k, RATIOS), false);
+    for (int method = 0; method < tally.method_count; method++) {
+      if (tally.methods[method].integrator == baum_rk8()) {
+        (void)sweep_run(&tally, &s, method, 1e-9);
+      }
+    }
+    sweep_close(&s);
+  }
+  return sweep_print(&tally);
+}
+
+static int sweep_crossings(const arguments *with)
+{
+  enum { TOLERANCES = 60 };
+  int n = with->full ? 4 * TOLERANCES : TOLERANCES;
+  sweep_begin(&tally, "singular", false, with->csv);
+  for (int k = 0; k < SWEEP_SINGULAR; k++) {
+    sweep_scene s = sweep_singular(k);
+    for (int method = 0; method < tally.method_count; method++) {
+      for (int i = 0; i < n; i++) {
+        (void)sweep_run(&tally, &s, method, spread(1e-3, 1e-13, i, n));
+      }
+    }
+    sweep_close(&s);
+  }
+  return sweep_print(&tally);
+}
+
+typedef struct part {
+  const char *name;
+  int (*sweep)(const arguments *with);
+} part;
+
+static const part PARTS[] = {
+  {"four-bar", sweep_four_bars},
+  {"taut", sweep_taut_steps},
+  {"rk8", sweep_taut_rk8},
+  {"singular", sweep_crossings},
+};
+enum { PART_COUNT = sizeof PARTS / sizeof *PARTS };
+
+static bool read_arguments(int count, char **words, arguments *out)
+{
+  *out = (arguments){.part = "all"};
+  bool known = true;
+  for (int k = 1; k < count && known; k++) {
+    if (strcmp(words[k], "--full") == 0) {
+      out->full = true;
+    } else if (strcmp(words[k], "--csv") == 0 && k + 1 < count) {
+      out->csv = fopen(words[++k], "w");
+      known = out->csv != NULL;
+    } else {
+      out->part = words[k];
+      known = strcmp(out->part, "all") == 0;
+      for (int i = 0; i < PART_COUNT; i++) {
+        known = known || strcmp(out->part, PARTS[i].name) == 0;
+      }
+    }
+  }
+  return known;
+}
+
+int main(int count, char **words)
+{
+  arguments with;
+  int silent = 0;
+  if (!read_arguments(count, words, &with)) {
+    (void)fprintf(
+      stderr,
+      "usage: bench_sweeps [four-bar | taut | rk8 | singular | all] [--full] [--csv FILE]\n");
+    return 2;
+  }
+  if (with.csv) {
+    sweep_csv_head(with.csv);
+  }
+  for (int k = 0; k < PART_COUNT; k++) {
+    if (strcmp(with.part, "all") == 0 || strcmp(with.part, PARTS[k].name) == 0) {
+      silent += PARTS[k].sweep(&with);
+    }
+  }
+  if (with.csv && fclose(with.csv) != 0) {
+    return 2;
+  }
+  return silent == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+}

@@ -1,0 +1,215 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "sweep_runs.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "problems.h"
+#include "timing.h"
+
+static const double RIGHT = 0.01;
+static const double GREY = 0.1;
+static const char *const NAMES[SWEEP_CLASSES] = {"right", "grey", "wrong", "stopped"};
+
+void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv)
+{
+  memset(tally, 0, sizeof *tally);
+  tally->part = part;
+  tally->csv = csv;
+  for (int k = 0; baum_integrator_at(k); k++) {
+    const baum_integrator *integrator = baum_integrator_at(k);
+    bool offered = fixed ? baum_integrator_has_fixed_step(integrator)
+                         : baum_integrator_has_variable_step(integrator);
+    for (int f = BAUM_FORMULATION_UNSTABILIZED; offered && f <= BAUM_FORMULATION_INDEX3; f++) {
+      if (baum_integrator_offers(integrator, (baum_formulation)f)) {
+        tally->methods[tally->method_count++] =
+          (sweep_method){integrator, (baum_formulation)f, fixed};
+      }
+    }
+  }
+}
+
+/* ---- one run ---- */
+
+typedef struct outcome {
+  sweep_class class;
+  baum_status status;
+  double error;     /* largest at a sample */
+  double error_end; /* at the last */
+  baum_counters c;
+  int doubts; /* warnings that doubt the motion */
+  double seconds;
+  char text[400]; /* first of these, or why it stopped */
+} outcome;
+
+static bool doubts_motion(const char *text)
+{
+  bool singular = strstr(text, "singular pose") && !strstr(text, "goes on smoothly");
+  return singular || strstr(text, "too long") || strstr(text, "violated");
+}
+
+static void read_warnings(const baum_simulation *run, outcome *out)
+{
+  char text[sizeof out->text];
+  for (int64_t k = 0; k < out->c.warnings && k < 200; k++) {
+    if (baum_simulation_warning(run, k, text, sizeof text) == BAUM_OK && doubts_motion(text)) {
+      if (out->doubts == 0) {
+        memcpy(out->text, text, sizeof text);
+      }
+      out->doubts++;
+    }
+  }
+}
+
+static double error_at(const sweep_scene *s, int k, const double *q)
+{
+  double error = 0.0;
+  for (int i = 0; i < s->nq; i++) {
+    double one = fabs(q[i] - s->want[k][i]) / s->unit[i];
+    error = one <= error ? error : one; /* NaN stays */
+  }
+  return error;
+}
+
+static sweep_class class_of(const outcome *out)
+{
+  if (out->status < BAUM_OK) {
+    return SWEEP_STOPPED;
+  }
+  if (out->error < RIGHT) {
+    return SWEEP_RIGHT;
+  }
+  return out->error < GREY ? SWEEP_GREY : SWEEP_WRONG;
+}
+
+static outcome run_once(const sweep_scene *s, const baum_simulation_options *o)
+{
+  const baum_channel positions = {.quantity = BAUM_Q};
+  double *flat = calloc((size_t)SWEEP_SAMPLES * (size_t)s->nq, sizeof *flat);
+  baum_simulation *run = NULL;
+  int64_t done = 0;
+  double begin = timing_now();
+  outcome out = {.status = baum_simulation_create(s->m.mechanism, o, &run)};
+  if (run && flat) {
+    out.status = baum_simulation_sample(run, s->times, SWEEP_SAMPLES, &positions, 1, flat, &done);
+    (void)baum_simulation_counters(run, &out.c, sizeof out.c);
+  }
+  out.seconds = timing_now() - begin;
+  for (int k = 0; k < done; k++) {
+    out.error_end = error_at(s, k, flat + (ptrdiff_t)k * s->nq);
+    out.error = out.error_end <= out.error ? out.error : out.error_end;
+  }
+  if (out.status < BAUM_OK) {
+    (void)snprintf(out.text, sizeof out.text, "%.399s", baum_message());
+  } else {
+    read_warnings(run, &out);
+  }
+  out.class = class_of(&out);
+  baum_simulation_destroy(run);
+  free(flat);
+  return out;
+}
+
+/* ---- what is kept of it ---- */
+
+void sweep_csv_head(FILE *csv)
+{
+  (void)fprintf(
+    csv, "part,scene,parameter,gravity,growth,integrator,formulation,setting,step_rad,status,"
+         "class,doubts,warnings,error,error_end,max_phi,predicted_phi,max_phi_rate,"
+         "energy_change,energy,intervals,branch_warnings,near_singular,forced,steps,rejected,"
+         "evaluations,seconds,text\n");
+}
+
+static void write_csv(FILE *csv, const char *part, const sweep_scene *s, const sweep_method *with,
+                      double setting, const outcome *r)
+{
+  (void)fprintf(csv, "%s,%s,%.9g,%g,%.4g,%s,%s,%.9g,%.4g,%s,%s,%d,%lld,", part, s->name,
+                s->parameter, s->gravity, s->growth, baum_integrator_name(with->integrator),
+                baum_formulation_name(with->formulation), setting,
+                with->fixed ? setting * s->rate : (double)NAN, baum_status_name(r->status),
+                NAMES[r->class], r->doubts, (long long)r->c.warnings);
+  (void)fprintf(csv, "%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%lld,%lld,%lld,%lld,%lld,%lld,%lld,%.3g,",
+                r->error, r->error_end, r->c.max_phi, r->c.predicted_phi, r->c.max_phi_rate,
+                r->c.energy_change, s->energy, (long long)r->c.near_singular_intervals,
+                (long long)r->c.branch_warnings, (long long)r->c.near_singular,
+                (long long)r->c.forced_steps, (long long)r->c.steps, (long long)r->c.rejected,
+                (long long)r->c.evaluations, r->seconds);
+  (void)fputc('"', csv);
+  for (const char *c = r->text; *c; c++) {
+    (void)fputc(*c == '"' ? '\'' : *c, csv);
+  }
+  (void)fputs("\"\n", csv);
+}
+
+static void keep_fault(sweep_tally *tally, const sweep_scene *s, int method, double setting,
+                       const outcome *r)
+{
+  if (tally->fault_count < SWEEP_FAULTS) {
+    sweep_fault *fault = &tally->faults[tally->fault_count++];
+    fault->method = method;
+    (void)snprintf(fault->text, sizeof fault->text,
+                   "%-18s %-8.4g gravity %-4g growth %-7.2g %s %-10.4g error %-8.2g max |Phi| "
+                   "%-8.1e energy %+.2g of %.2g J",
+                   s->name, s->parameter, s->gravity, s->growth,
+                   tally->methods[method].fixed ? "step" : "rtol", setting, r->error, r->c.max_phi,
+                   r->c.energy_change, s->energy);
+  }
+}
+
+sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting)
+{
+  const sweep_method *with = &tally->methods[method];
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = with->integrator;
+  o.formulation = with->formulation;
+  o.max_steps = with->fixed ? 1000000 : 10000; /* right ones take up to 8300 */
+  *(with->fixed ? &o.step : &o.rtol) = setting;
+  outcome r = run_once(scene, &o);
+  tally->runs[method][r.class]++;
+  tally->doubted[method][r.class] += r.doubts > 0;
+  if (r.class == SWEEP_WRONG && r.doubts == 0) {
+    keep_fault(tally, scene, method, setting, &r);
+  }
+  if (tally->csv) {
+    write_csv(tally->csv, tally->part, scene, with, setting, &r);
+  }
+  return r.class;
+}
+
+/* ---- print ---- */
+
+static void print_counts(const char *name, const int *runs, const int *doubted)
+{
+  int all = runs[SWEEP_RIGHT] + runs[SWEEP_GREY] + runs[SWEEP_WRONG] + runs[SWEEP_STOPPED];
+  double share = runs[SWEEP_RIGHT] ? 100.0 * doubted[SWEEP_RIGHT] / runs[SWEEP_RIGHT] : 0.0;
+  printf("%-34s %6d %6d %6d %5.1f%% %6d %6d %6d %6d %6d\n", name, all, runs[SWEEP_RIGHT],
+         doubted[SWEEP_RIGHT], share, runs[SWEEP_GREY], doubted[SWEEP_GREY], runs[SWEEP_WRONG],
+         runs[SWEEP_WRONG] - doubted[SWEEP_WRONG], runs[SWEEP_STOPPED]);
+}
+
+int sweep_print(const sweep_tally *tally)
+{
+  int runs[SWEEP_CLASSES] = {0};
+  int doubted[SWEEP_CLASSES] = {0};
+  char name[PAIR_SIZE];
+  printf("\n%-34s %6s %6s %13s %6s %6s %6s %6s %7s\n", tally->part, "runs", "right", "false alarms",
+         "grey", "doubt", "wrong", "silent", "stopped");
+  for (int k = 0; k < tally->method_count; k++) {
+    problem_pair(tally->methods[k].integrator, tally->methods[k].formulation, name);
+    print_counts(name, tally->runs[k], tally->doubted[k]);
+    for (int c = 0; c < SWEEP_CLASSES; c++) {
+      runs[c] += tally->runs[k][c];
+      doubted[c] += tally->doubted[k][c];
+    }
+  }
+  print_counts("all", runs, doubted);
+  for (int k = 0; k < tally->fault_count; k++) {
+    const sweep_method *with = &tally->methods[tally->faults[k].method];
+    problem_pair(with->integrator, with->formulation, name);
+    printf("silent: %-32s %s\n", name, tally->faults[k].text);
+  }
+  (void)fflush(stdout);
+  return runs[SWEEP_WRONG] - doubted[SWEEP_WRONG];
+}
