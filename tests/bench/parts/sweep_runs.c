@@ -38,26 +38,20 @@ typedef struct outcome {
   double error;     /* largest at a sample */
   double error_end; /* at the last */
   baum_counters c;
-  int doubts; /* warnings that doubt the motion */
   double seconds;
-  char text[400]; /* first of these, or why it stopped */
+  const char *doubt; /* kind of the first warning that doubts the motion; "" */
+  char text[400];    /* of it, or why the run has stopped */
 } outcome;
 
-static bool doubts_motion(const char *text)
+/* The first one's code and text. */
+static void read_doubts(const baum_simulation *run, outcome *out)
 {
-  bool singular = strstr(text, "singular pose") && !strstr(text, "goes on smoothly");
-  return singular || strstr(text, "too long") || strstr(text, "violated");
-}
-
-static void read_warnings(const baum_simulation *run, outcome *out)
-{
-  char text[sizeof out->text];
-  for (int64_t k = 0; k < out->c.warnings && k < 200; k++) {
-    if (baum_simulation_warning(run, k, text, sizeof text) == BAUM_OK && doubts_motion(text)) {
-      if (out->doubts == 0) {
-        memcpy(out->text, text, sizeof text);
-      }
-      out->doubts++;
+  for (int64_t k = 0; k < out->c.warnings && !out->doubt[0]; k++) {
+    baum_warning warning;
+    if (baum_simulation_warning(run, k, &warning, sizeof warning) == BAUM_OK &&
+        warning.doubts_motion) {
+      out->doubt = baum_warning_name(warning.code);
+      (void)snprintf(out->text, sizeof out->text, "%.399s", warning.text);
     }
   }
 }
@@ -90,7 +84,7 @@ static outcome run_once(const sweep_scene *s, const baum_simulation_options *o)
   baum_simulation *run = NULL;
   int64_t done = 0;
   double begin = timing_now();
-  outcome out = {.status = baum_simulation_create(s->m.mechanism, o, &run)};
+  outcome out = {.doubt = "", .status = baum_simulation_create(s->m.mechanism, o, &run)};
   if (run && flat) {
     out.status = baum_simulation_sample(run, s->times, SWEEP_SAMPLES, &positions, 1, flat, &done);
     (void)baum_simulation_counters(run, &out.c, sizeof out.c);
@@ -103,7 +97,7 @@ static outcome run_once(const sweep_scene *s, const baum_simulation_options *o)
   if (out.status < BAUM_OK) {
     (void)snprintf(out.text, sizeof out.text, "%.399s", baum_message());
   } else {
-    read_warnings(run, &out);
+    read_doubts(run, &out);
   }
   out.class = class_of(&out);
   baum_simulation_destroy(run);
@@ -119,23 +113,23 @@ void sweep_csv_head(FILE *csv)
     csv, "part,scene,parameter,gravity,growth,integrator,formulation,setting,step_rad,status,"
          "class,doubts,warnings,error,error_end,max_phi,predicted_phi,max_phi_rate,"
          "energy_change,energy,intervals,branch_warnings,near_singular,forced,steps,rejected,"
-         "evaluations,seconds,text\n");
+         "evaluations,seconds,doubt,text\n");
 }
 
 static void write_csv(FILE *csv, const char *part, const sweep_scene *s, const sweep_method *with,
                       double setting, const outcome *r)
 {
-  (void)fprintf(csv, "%s,%s,%.9g,%g,%.4g,%s,%s,%.9g,%.4g,%s,%s,%d,%lld,", part, s->name,
+  (void)fprintf(csv, "%s,%s,%.9g,%g,%.4g,%s,%s,%.9g,%.4g,%s,%s,%lld,%lld,", part, s->name,
                 s->parameter, s->gravity, s->growth, baum_integrator_name(with->integrator),
                 baum_formulation_name(with->formulation), setting,
                 with->fixed ? setting * s->rate : (double)NAN, baum_status_name(r->status),
-                NAMES[r->class], r->doubts, (long long)r->c.warnings);
-  (void)fprintf(csv, "%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%lld,%lld,%lld,%lld,%lld,%lld,%lld,%.3g,",
-                r->error, r->error_end, r->c.max_phi, r->c.predicted_phi, r->c.max_phi_rate,
-                r->c.energy_change, s->energy, (long long)r->c.near_singular_intervals,
-                (long long)r->c.branch_warnings, (long long)r->c.near_singular,
-                (long long)r->c.forced_steps, (long long)r->c.steps, (long long)r->c.rejected,
-                (long long)r->c.evaluations, r->seconds);
+                NAMES[r->class], (long long)r->c.doubts, (long long)r->c.warnings);
+  (void)fprintf(
+    csv, "%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%lld,%lld,%lld,%lld,%lld,%lld,%lld,%.3g,%s,", r->error,
+    r->error_end, r->c.max_phi, r->c.predicted_phi, r->c.max_phi_rate, r->c.energy_change,
+    s->energy, (long long)r->c.near_singular_intervals, (long long)r->c.branch_warnings,
+    (long long)r->c.near_singular, (long long)r->c.forced_steps, (long long)r->c.steps,
+    (long long)r->c.rejected, (long long)r->c.evaluations, r->seconds, r->doubt);
   (void)fputc('"', csv);
   for (const char *c = r->text; *c; c++) {
     (void)fputc(*c == '"' ? '\'' : *c, csv);
@@ -168,8 +162,8 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   *(with->fixed ? &o.step : &o.rtol) = setting;
   outcome r = run_once(scene, &o);
   tally->runs[method][r.class]++;
-  tally->doubted[method][r.class] += r.doubts > 0;
-  if (r.class == SWEEP_WRONG && r.doubts == 0) {
+  tally->doubted[method][r.class] += r.c.doubts > 0;
+  if (r.class == SWEEP_WRONG && r.c.doubts == 0) {
     keep_fault(tally, scene, method, setting, &r);
   }
   if (tally->csv) {
