@@ -531,7 +531,8 @@ typedef enum baum_branch {
 
 /** One interval in which a run was near a singular pose. The pivot is the smallest of the equations
  *  of motion against the largest of the run so far; it falls with the square of the distance from a
- *  singular pose. Intervals with a pivot below 1e-3 are listed, when the run has come out of them. */
+ *  singular pose. Intervals with a pivot below 1e-3, or as small as the constraint violation of the
+ *  run makes it, are listed when the run has come out of them. */
 typedef struct baum_near_singular {
   size_t struct_size;  /**< Set by baum_simulation_near_singular(). */
   double begin;        /**< [s] last step before it. */

@@ -26,10 +26,15 @@ static const double LARGE_JUMP = 0.3;
 /* Smaller ones are of steps with poor accelerations, if they are so many times their error: in 2688 right runs none was. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
+/* Larger ones lead off the branch at the next crossing, if not at once. Errors of polynomials are known within a factor of
+ * ten; they follow the steps, and with them the tolerance. */
+static const double LARGE_KICK = 1e-2;
+static const double LIKELY = 10.0;
 static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
 static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
 /* A violation opens a gap whose least pivot is some five times as large, by an example. */
 static const double OPENED = 30.0;
+static const double GAP_OF_VIOLATION = 10.0;
 static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing branches is 0 */
 
 /* ---- least pivot of the motion ---- */
@@ -136,6 +141,14 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   return violation > noise || (pivot > noise && pivot > OPENED * violation);
 }
 
+/* Branches that cross no longer do so where the constraints are violated: the motion of a run that has drifted turns
+ * sharply from one to the other at a distance. */
+bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
+{
+  const baum_i_passages *p = run->passages;
+  return pivot < GAP_OF_VIOLATION * violation_at(run, &p->recent[p->recent_count - 1]);
+}
+
 /* ---- jump ---- */
 
 /* Largest difference of two velocities, over the scales. */
@@ -175,7 +188,7 @@ static baum_branch judge(double jump, double error, bool gap, double largest_tur
   if (!(error <= KNOWN)) {
     return BAUM_BRANCH_UNKNOWN;
   }
-  bool kicked = jump > fmax(KICK, SURELY * error);
+  bool kicked = jump > fmax(KICK, SURELY * error) || jump > fmax(LARGE_KICK, LIKELY * error);
   if (!kicked && jump <= fmax(SMALL_JUMP, 4.0 * error)) {
     return BAUM_BRANCH_CONTINUED;
   }

@@ -255,10 +255,17 @@ static void record(baum_simulation *run, double to)
   }
 }
 
+/* Small, or opened by the violation of the run. */
+static bool is_singular(baum_simulation *run)
+{
+  double pivot = run->passages->present.smallest;
+  return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
+}
+
 static void close_passage(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
-  if (p->present.smallest < SINGULAR) {
+  if (is_singular(run)) {
     record(run, p->recent[p->recent_count - 1].t);
   }
   p->open = false;
@@ -287,7 +294,7 @@ static bool has_jumped(baum_simulation *run)
   }
   begin(p, p->recent[0].t);
   search(run);
-  p->open = p->present.smallest < SINGULAR;
+  p->open = is_singular(run);
   return p->open;
 }
 

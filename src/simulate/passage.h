@@ -80,4 +80,7 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 bool baum_i_branch_has_gap_at_end(baum_simulation *run);
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot);
 
+/* branch.c: could the violation of the last recent state have made such a least pivot of a singular configuration? */
+bool baum_i_branch_is_opened(baum_simulation *run, double pivot);
+
 #endif

@@ -146,6 +146,51 @@ static void intervals_have_times_joints_and_branches(void **state)
 
 /* ---- away from singular poses ---- */
 
+/* The configuration at 10 s; false where the run has stopped or doubts the motion. */
+static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
+                   double rtol, double *angle)
+{
+  baum_simulation *run = NULL;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = method;
+  options.formulation = formulation;
+  options.rtol = rtol;
+  options.max_steps = 10000;
+  assert_int_equal(baum_simulation_create(m->mechanism, &options, &run), BAUM_OK);
+  baum_status status = baum_simulation_advance_to(run, 10.0);
+  baum_counters c;
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  *angle = baum_simulation_q(run)[2];
+  baum_simulation_destroy(run);
+  return status >= BAUM_OK && c.branch_warnings == 0;
+}
+
+/* A small kick at a singular configuration leaves a violation that takes the next ones out of reach: the motion turns before
+ * them, to the other branch. */
+static void drifting_runs_that_leave_their_branch_doubt_the_motion(void **state)
+{
+  (void)state;
+  static const double ANGLE = -30.343944970943127; /* [rad] closed form, A Coruna A02 */
+  model_n_four_bar data = model_n_four_bar_a02(1);
+  model m;
+  int trusted = 0;
+  assert_int_equal(model_n_four_bar_build(&data, &m), BAUM_OK);
+  for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_PROJECTION; f++) {
+    for (int k = 12; k <= 24; k++) {
+      const baum_integrator *const METHODS[] = {baum_dp5(), baum_rk8()};
+      for (int i = 0; i < 2; i++) {
+        double angle = 0.0;
+        if (trusts(&m, METHODS[i], (baum_formulation)f, pow(10.0, -0.5 * k), &angle)) {
+          assert_true(fabs(angle - ANGLE) < WRONG);
+          trusted++;
+        }
+      }
+    }
+  }
+  assert_true(trusted >= 26); /* at least with projection */
+  model_destroy(&m);
+}
+
 static void assert_silent(baum_status built, model *m, const baum_integrator *method, double step,
                           double end)
 {
@@ -280,6 +325,7 @@ int main(void)
     cmocka_unit_test(recommended_setting_is_accurate),
     cmocka_unit_test(fixed_steps_may_end_in_a_pose),
     cmocka_unit_test(intervals_have_times_joints_and_branches),
+    cmocka_unit_test(drifting_runs_that_leave_their_branch_doubt_the_motion),
     cmocka_unit_test(mechanisms_away_from_singular_poses_are_silent),
     cmocka_unit_test(a_light_rod_that_comes_taut_is_not_singular),
     cmocka_unit_test(every_wrong_run_warns_and_right_ones_have_no_branch_warning),
