@@ -2,22 +2,11 @@
 #include "sweep_scenes.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include "gragg.h"
+#include "sweep_motion.h"
 
 static const double GRAVITY = 9.81;
-static const long double TOLERANCE = 1e-16L;
-
-static void must(bool fine, const char *what)
-{
-  if (!fine) {
-    (void)fprintf(stderr, "%s: %s\n", what, baum_message());
-    exit(EXIT_FAILURE);
-  }
-}
 
 /* Where a body stands in q. */
 static void place(long double *q, int body, long double x, long double y, long double angle)
@@ -58,152 +47,6 @@ static void set_turning(baum_planar_body_def *def, double rate)
   def->velocity[0] = -def->position[1] * rate;
   def->velocity[1] = def->position[0] * rate;
   def->angular_velocity = rate;
-}
-
-/* ---- motions and growth of perturbations ----
- *
- * A perturbation is a combination of the directions. From differences of neighbours A_k holds, for each direction, the
- * changes of q and, over the rate, of v at the time k. From j to k perturbations grow by at most the Frobenius norm of the
- * matrix that takes A_j to the positions in A_k, the root of the trace of G_j^-1 G_k, where G are Gram matrices.
- */
-
-enum { NUMBERS = 4, INSTANTS = 200 };
-
-typedef struct motion {
-  void (*rate)(const void *data, const long double *y, long double *dy);
-  void (*q)(const void *data, const long double *y, long double *q);
-  const void *data;
-  int n; /* numbers in y */
-  long double y[NUMBERS];
-  int directions;
-  long double direction[NUMBERS][NUMBERS];
-} motion;
-
-typedef struct neighbours {
-  long double change[NUMBERS][2 * SWEEP_NQ]; /* for each direction */
-  long double positions[NUMBERS][NUMBERS];   /* Gram matrices */
-  long double both[NUMBERS][NUMBERS];        /* and then its Cholesky factor */
-} neighbours;
-
-/* q, and v over the rate, in units of errors. */
-static void measure(const sweep_scene *s, const motion *m, const long double *y, long double *z)
-{
-  static const long double SHORT = 1e-6L; /* [s] */
-  long double dy[NUMBERS];
-  m->rate(m->data, y, dy);
-  for (int side = -1; side <= 1; side++) {
-    long double near[NUMBERS];
-    long double q[SWEEP_NQ];
-    for (int i = 0; i < m->n; i++) {
-      near[i] = y[i] + side * SHORT * dy[i];
-    }
-    m->q(m->data, near, q);
-    for (int i = 0; i < s->nq; i++) {
-      long double unit = (long double)s->unit[i];
-      z[s->nq + i] = side < 0 ? 0.0L : z[s->nq + i];
-      z[s->nq + i] += side * q[i] / unit / (2.0L * SHORT * (long double)s->rate);
-      z[i] = side <= 0 ? q[i] / unit : z[i];
-    }
-  }
-}
-
-static void add_neighbour(const sweep_scene *s, const motion *m, int d, long double nudge,
-                          neighbours *at)
-{
-  gragg g = {m->rate, m->data, m->n, TOLERANCE, 0.0L};
-  long double y[NUMBERS];
-  long double z[2 * SWEEP_NQ];
-  for (int i = 0; i < m->n; i++) {
-    y[i] = m->y[i] + nudge * m->direction[d][i];
-  }
-  for (int k = 0; k < INSTANTS; k++) {
-    measure(s, m, y, z);
-    for (int i = 0; i < 2 * s->nq; i++) {
-      at[k].change[d][i] += z[i] / (2.0L * nudge);
-    }
-    must(gragg_advance(&g, (long double)s->span / (INSTANTS - 1), y), s->name);
-  }
-}
-
-static void find_gram(const sweep_scene *s, int directions, neighbours *at)
-{
-  for (int a = 0; a < directions; a++) {
-    for (int b = 0; b < directions; b++) {
-      for (int i = 0; i < 2 * s->nq; i++) {
-        long double product = at->change[a][i] * at->change[b][i];
-        at->both[a][b] += product;
-        at->positions[a][b] += i < s->nq ? product : 0.0L;
-      }
-    }
-  }
-  for (int a = 0; a < directions; a++) {
-    for (int b = 0; b <= a; b++) {
-      long double sum = at->both[a][b];
-      for (int i = 0; i < b; i++) {
-        sum -= at->both[a][i] * at->both[b][i];
-      }
-      at->both[a][b] = a == b ? sqrtl(sum) : sum / at->both[b][b];
-    }
-  }
-}
-
-/* Trace of G^-1 P with G = L L^T. */
-static long double trace_of(int n, const neighbours *from, const neighbours *to)
-{
-  long double trace = 0.0L;
-  for (int c = 0; c < n; c++) {
-    long double x[NUMBERS];
-    for (int i = 0; i < n; i++) {
-      x[i] = to->positions[i][c];
-      for (int j = 0; j < i; j++) {
-        x[i] -= from->both[i][j] * x[j];
-      }
-      x[i] /= from->both[i][i];
-    }
-    for (int i = n - 1; i >= c; i--) {
-      for (int j = i + 1; j < n; j++) {
-        x[i] -= from->both[j][i] * x[j];
-      }
-      x[i] /= from->both[i][i];
-    }
-    trace += x[c];
-  }
-  return trace;
-}
-
-static double find_growth(const sweep_scene *s, const motion *m)
-{
-  static const long double NUDGE = 1e-6L;
-  static neighbours at[INSTANTS];
-  long double most = 0.0L;
-  memset(at, 0, sizeof at);
-  for (int d = 0; d < m->directions; d++) {
-    add_neighbour(s, m, d, NUDGE, at);
-    add_neighbour(s, m, d, -NUDGE, at);
-  }
-  for (int k = 0; k < INSTANTS; k++) {
-    find_gram(s, m->directions, &at[k]);
-    for (int j = 0; j < k; j++) {
-      most = fmaxl(most, trace_of(m->directions, &at[j], &at[k]));
-    }
-  }
-  return (double)sqrtl(most);
-}
-
-/* Samples and, where it is asked for, growth; leaves the end in m->y. */
-static void follow(sweep_scene *s, motion *m, bool growth)
-{
-  gragg g = {m->rate, m->data, m->n, TOLERANCE, 0.0L};
-  s->growth = growth ? find_growth(s, m) : (double)NAN;
-  for (int k = 0; k < SWEEP_SAMPLES; k++) {
-    long double q[SWEEP_NQ];
-    must(gragg_advance(&g, (long double)s->span / SWEEP_SAMPLES, m->y), s->name);
-    s->times[k] = s->span * (k + 1) / SWEEP_SAMPLES;
-    m->q(m->data, m->y, q);
-    for (int i = 0; i < s->nq; i++) {
-      s->want[k][i] = (double)q[i];
-    }
-  }
 }
 
 /* ---- four-bar ----
@@ -350,19 +193,20 @@ static void build_linkage(sweep_scene *s, const linkage *k, const long double th
                    (baum_i_spot){body[2], {length[2] / 2.0, 0.0}});
   baum_i_parts_pin(&parts, "D", (baum_i_spot){BAUM_GROUND, {(double)k->d, 0.0}},
                    (baum_i_spot){body[2], {-length[2] / 2.0, 0.0}});
-  must(model_finish(&parts, NULL, &s->m) == BAUM_OK, s->name);
+  sweep_must(model_finish(&parts, NULL, &s->m) == BAUM_OK, s->name);
 }
 
 static void follow_linkage(sweep_scene *s, const linkage *k, const long double th[3])
 {
-  motion m = {linkage_rate, linkage_q, k, 4, {th[0], th[1], th[2]}, 2, {{0.0L}, {0.0L}}};
+  sweep_motion m = {linkage_rate, linkage_q, k, 4, {th[0], th[1], th[2]}, 2, {{0.0L}, {0.0L}}};
   null_vector(k, th, m.direction[0]);
   m.y[3] = (long double)s->rate / m.direction[0][0];
   m.direction[1][3] = 1.0L;
   long double energy = linkage_energy(k, m.y);
   s->energy = (double)(energy - potential(k, th));
-  follow(s, &m, true);
-  must(linkage_fault(k, m.y, energy, (long double)s->energy) < 1e-11L, "four-bar off its energy");
+  sweep_follow(s, &m, true);
+  sweep_must(linkage_fault(k, m.y, energy, (long double)s->energy) < 1e-11L,
+             "four-bar off its energy");
 }
 
 typedef struct four_bar {
@@ -450,10 +294,11 @@ static void build_taut(sweep_scene *s, const double v[2])
   slot.body_b = baum_i_parts_body(&parts, &rod, NULL, NULL);
   slot.point_a[0] = slot.point_a[1] = slot.point_b[1] = 0.0;
   slot.point_b[0] = -0.5;
-  must(baum_mechanism_add_planar_pin_in_slot(parts.mechanism, &slot, NULL) == BAUM_OK, s->name);
+  sweep_must(baum_mechanism_add_planar_pin_in_slot(parts.mechanism, &slot, NULL) == BAUM_OK,
+             s->name);
   baum_i_parts_pin(&parts, "pin", (baum_i_spot){slot.body_b, {0.5, 0.0}},
                    (baum_i_spot){baum_i_parts_particle(&parts, &bob), {0.0, 0.0}});
-  must(model_finish(&parts, NULL, &s->m) == BAUM_OK, s->name);
+  sweep_must(model_finish(&parts, NULL, &s->m) == BAUM_OK, s->name);
 }
 
 static void taut_q(const void *data, const long double *y, long double *q)
@@ -468,7 +313,7 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
 {
   const double v[2] = {0.9558384584553545, -1.8884285084166446};
   sweep_scene s = {.name = "taut rod", .parameter = mass_ratio, .nq = 5, .span = 1.5};
-  motion m = {.rate = taut_rate, .q = taut_q, .data = &mass_ratio, .n = 4, .directions = 4};
+  sweep_motion m = {.rate = taut_rate, .q = taut_q, .data = &mass_ratio, .n = 4, .directions = 4};
   set_units(&s, 1.0);
   build_taut(&s, v);
   m.y[1] = (long double)atan2(-0.6, 0.8);
@@ -479,7 +324,7 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
   }
   s.rate = fabs((double)m.y[3]);
   s.energy = 0.5 * (v[0] * v[0] + v[1] * v[1]);
-  follow(&s, &m, growth);
+  sweep_follow(&s, &m, growth);
   return s;
 }
 
@@ -599,7 +444,7 @@ sweep_scene sweep_singular(int k)
   const crossing *c = &CROSSINGS[k];
   sweep_scene s = {.name = c->name, .nq = 3 * c->bodies, .span = 10.0, .gravity = GRAVITY};
   swing at = {c->i0, c->i1, (long double)c->gravity * (long double)GRAVITY};
-  motion m = {.rate = swing_rate, .q = c->q, .data = &at, .n = 2, .directions = 2};
+  sweep_motion m = {.rate = swing_rate, .q = c->q, .data = &at, .n = 2, .directions = 2};
   for (int d = 0; d < 2; d++) {
     m.y[d] = (long double)c->start[d];
     m.direction[d][d] = 1.0L;
@@ -607,8 +452,8 @@ sweep_scene sweep_singular(int k)
   s.rate = fabs(c->start[1]);
   s.energy = 0.5 * (double)(c->i0 + c->i1) * s.rate * s.rate;
   set_units(&s, 1.0);
-  must(c->build(&s.m) == BAUM_OK, s.name);
-  follow(&s, &m, true);
+  sweep_must(c->build(&s.m) == BAUM_OK, s.name);
+  sweep_follow(&s, &m, true);
   return s;
 }
 
