@@ -26,10 +26,10 @@ static const double LARGE_JUMP = 0.3;
 /* Smaller ones are of steps with poor accelerations, if they are so many times their error: in 2688 right runs none was. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* Larger ones lead off the branch at the next crossing, if not at once. Errors of polynomials are known within a factor of
- * ten; they follow the steps, and with them the tolerance. */
-static const double LARGE_KICK = 1e-2;
-static const double LIKELY = 10.0;
+/* Larger ones are kicks from fewer times their error on: the next crossing is mostly lost. The error follows the steps, and
+ * with them the tolerance; of right runs it is too small by more than ten. */
+static const double LARGE_KICK = 2e-3;
+static const double LIKELY = 25.0;
 static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
 static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
 /* A violation opens a gap whose least pivot is some five times as large, by an example. */
