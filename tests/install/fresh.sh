@@ -30,7 +30,7 @@ cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates"
 for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt "${PIP_CERT:-}"; do
   [ ! -f "$file" ] || install -D -m 644 "$file" "$root$file"
 done
-cp -R "$clone" "$root/baum"
+cp -R "$clone" "$root/root/baum"
 made=$(date +%s)
 echo "a bare Debian $release after $((made - begun)) s"
 
@@ -41,7 +41,7 @@ inside() {
     eval "value=\${$name:-}"
     [ -z "$value" ] || set -- "$name=$value" "$@"
   done
-  $apart --mount-proc="$root/proc" chroot "$root" env -i --chdir=/baum "$@"
+  $apart --mount-proc="$root/proc" chroot "$root" env -i --chdir=/root/baum "$@"
 }
 
 inside sh examples/run.sh
