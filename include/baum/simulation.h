@@ -570,8 +570,7 @@ typedef enum baum_warning_code {
   BAUM_WARNING_BRANCH = 100,            /**< It may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,         /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102,     /**< Omitted rows no longer follow from the others. */
-  BAUM_WARNING_ACCURACY = 103,          /**< The estimated error of the motion is large. */
-  BAUM_WARNING_ENERGY = 104             /**< A conservative mechanism gains or loses energy. */
+  BAUM_WARNING_ACCURACY = 103           /**< The estimated error of the motion is large. */
 } baum_warning_code;
 
 /** Name of a kind of warnings such as "branch"; NULL for an unknown value. */

@@ -303,6 +303,16 @@ static double largest_error(const adaptive_run *run, const baum_i_problem *probl
   return fmax(1.0, baum_i_rk_pose_error(&run->pose, run->h, forced) / problem->rtol);
 }
 
+/* The error counts where evaluations have not failed. */
+static void refuse(adaptive_run *run, const baum_i_problem *problem, baum_status status,
+                   double error)
+{
+  double known = status == BAUM_OK ? error : (double)INFINITY;
+  baum_i_step_control_refuse(&run->control, fabs(run->h), known);
+  baum_i_rk_pose_refuse(&run->pose, &run->rk, problem, run->h);
+  run->rejected++;
+}
+
 /* Tries until one is accepted. */
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
@@ -328,13 +338,10 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
         return fail_with_evaluation(run, run->h);
       }
     }
-    bool known = status == BAUM_OK && error > most;
-    baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
     if (forced || status != BAUM_OK) {
       run->pose.least = 0.0; /* for another reason, perhaps */
     }
-    baum_i_rk_pose_refuse(&run->pose, &run->rk, problem, run->h);
-    run->rejected++;
+    refuse(run, problem, status, error > most ? error : (double)INFINITY);
   }
   return fail_short(run, problem, run->control.step);
 }

@@ -412,6 +412,7 @@ static baum_status finish(baum_simulation *run, baum_status status, const struct
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
   }
+  baum_i_companion_end_call(run);
   run->counters.wall += baum_i_seconds_since(begin);
   if (status != BAUM_OK) {
     (void)baum_i_fail(status, "%s", reason.text);

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A second integration beside a run.
+/* A second integration of the motion beside a run.
  *
- * Methods with a fixed step are given no tolerance. Beside one, rk8 integrates the same motion with projection at a
- * tolerance of its own; where they are apart by more than DOUBTFUL the run warns. The companion takes one long step for
- * many short ones, and only goes along once the local errors of the run, summed, could matter: a motion that amplifies
- * perturbations by less than 1e4 is right without it. It begins some steps before that, from a state that was still good.
+ * rk8 with projection takes one long step where methods with a fixed step, which are given no tolerance, take many short
+ * ones. So it costs little to let it go along as soon as the error of such a run may matter: when its local errors, summed,
+ * could become large in a motion that amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it goes
+ * along from the first singularity crossing on, which amplifies errors. It sets out some steps before, from a state that was
+ * still good. Where the two stay apart by more than DOUBTFUL the run warns; short peaks, as where a light rod flips a little
+ * too late, do not count.
  *
- * With the option error_check it goes along from the start, also beside a method that chooses its steps: then it is the
- * same method at ten times the tolerance, whose error is ten times as large.
+ * With the option error_check it goes along from the start. Beside a variable step it is then the same method at ten
+ * times the tolerance, whose error is about ten times as large.
  *
- * It has a workspace of its own: no evaluation of it reaches the run's solver or its counters. Where it fails, or costs
+ * It has a workspace of its own: none of its evaluations reaches the run's solver or counters. Where it fails, or costs
  * more than the run itself, as with stiff forces, it is given up, and the error is not known. */
 #include "simulate/companion.h"
 
@@ -20,32 +22,36 @@
 #include "base/text.h"
 #include "simulate/breaks.h"
 #include "simulate/local_error.h"
+#include "simulate/passage.h"
 #include "simulate/saved.h"
 
 static const double DOUBTFUL =
-  0.03; /* between a right result, within 0.01 of the scales, and a wrong one, 0.1 */
+  0.03; /* right results are within 0.01 of the scales, wrong ones off by 0.1 */
+static const double LASTING = 0.1; /* of 1/rate, for which the two must stay apart */
 static const double FINE =
-  0.002; /* aimed at by the step that is advised, for the error goes on growing */
+  0.002; /* aimed at by the step that is advised: the error goes on growing */
 static const double NEGLIGIBLE = 1e-5; /* summed local errors, of the scales */
+static const double COARSE = 1e-3; /* (angle of a step)^order, where errors may matter at once */
 static const double TOLERANCE = 1e-5;
 static const double LOOSER = 10.0;
 /* Evaluations, of those of the run since the companion goes along, and a few for a start. */
 static const double MOST_COST = 2.0;
 static const int64_t FREE = 1000;
 
-static const double COARSE = 1e-3;
-
 enum { STRIDE = 8 }; /* steps between states that are kept */
+
+typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
   const baum_integrator *method;
   baum_workspace *workspace;
-  baum_i_problem problem; /* the run's, with that workspace */
+  baum_i_problem problem; /* of the companion */
+  double share;           /* error of the run, of the difference */
   void *self;
-  bool active;              /* goes along */
-  bool lost;                /* has been given up */
+  int32_t doing;            /* a state_of_companion */
   baum_i_local_error local; /* of the run */
   double sum;               /* of local errors */
+  double apart;             /* [s] since when the two are; NaN: they are not */
   int64_t begun;            /* evaluations of the run before it went along */
   baum_i_state state;       /* where its next step begins */
   baum_i_state at;          /* where the run is */
@@ -71,22 +77,38 @@ static baum_status make_memory(baum_i_companion *c)
   return BAUM_OK;
 }
 
+static bool has_fixed_step(const baum_simulation *run)
+{
+  return baum_i_problem_has_fixed_step(&run->problem);
+}
+
+bool baum_i_companion_is_wanted(const baum_simulation *run)
+{
+  bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
+  return run->options.error_check || has_fixed_step(run) ||
+         (loose && !run->integrator->without_freedom);
+}
+
 static void choose_problem(const baum_simulation *run, baum_i_companion *c)
 {
   c->problem = run->problem;
   c->problem.workspace = c->workspace;
-  c->method = run->integrator;
-  if (baum_i_problem_has_fixed_step(&run->problem)) {
-    c->method = baum_rk8();
-    c->problem.formulation = BAUM_FORMULATION_PROJECTION;
-    c->problem.step = (double)NAN;
-    c->problem.rtol = TOLERANCE;
-    c->problem.atol = 0.0;
-    c->problem.max_step = (double)INFINITY;
-  } else {
+  if (run->options.error_check && !has_fixed_step(run)) {
+    c->method = run->integrator;
     c->problem.rtol = fmin(LOOSER * run->problem.rtol, 0.1);
     c->problem.atol = LOOSER * run->problem.atol;
+    c->share = 1.0 / (LOOSER - 1.0);
+    return;
   }
+  c->method = baum_rk8();
+  c->problem.formulation = BAUM_FORMULATION_PROJECTION;
+  c->problem.step = (double)NAN;
+  c->problem.rtol = TOLERANCE;
+  c->problem.atol = 0.0;
+  c->problem.max_step = (double)INFINITY;
+  c->problem.tolerance_q = 1.0;
+  c->problem.tolerance_v = 1.0;
+  c->share = 1.0;
 }
 
 baum_status baum_i_companion_create(baum_simulation *run)
@@ -122,10 +144,11 @@ void baum_i_companion_destroy(baum_i_companion *c)
 
 /* ---- compare ---- */
 
-static void warn(baum_simulation *run, double t, double error)
+static void warn(baum_simulation *run, double t)
 {
+  double error = run->counters.error_estimate;
   char advice[64] = "take a smaller rtol";
-  if (baum_i_problem_has_fixed_step(&run->problem)) {
+  if (has_fixed_step(run)) {
     double advised = run->options.step * pow(FINE / error, 1.0 / run->integrator->order);
     baum_i_print(advice, sizeof advice, "take a step below %.1g s", advised);
   }
@@ -133,21 +156,33 @@ static void warn(baum_simulation *run, double t, double error)
                   "t = %.9g s: the estimated error of the positions by %s is %.2g, relative to the "
                   "characteristic length and to radians; %s",
                   t, run->integrator->name, error, advice);
+  run->companion->doing = run->options.error_check ? GOES_ALONG : ENDED;
 }
 
-static void compare(baum_simulation *run, const baum_i_state *state, const baum_i_state *at)
+static void compare(baum_simulation *run, const baum_i_state *state)
 {
+  baum_i_companion *c = run->companion;
   const baum_mechanism *m = run->workspace->mechanism;
   double error = 0.0;
   for (int i = 0; i < m->nv; i++) {
-    error = fmax(error, fabs(state->q[i] - at->q[i]) / m->scale[i]);
+    error = fmax(error, fabs(state->q[i] - c->at.q[i]) / m->scale[i]);
   }
-  if (!baum_i_problem_has_fixed_step(&run->problem)) {
-    error /= LOOSER - 1.0;
-  }
+  error *= c->share;
   run->counters.error_estimate = fmax(run->counters.error_estimate, error);
-  if (error > DOUBTFUL && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
-    warn(run, state->t, error);
+  if (!(error > DOUBTFUL)) {
+    c->apart = (double)NAN;
+  } else if (isnan(c->apart)) {
+    c->apart = state->t;
+  }
+}
+
+/* At the end of a call what is reported counts, however short it may last. */
+static void judge(baum_simulation *run, double t, bool ends)
+{
+  const baum_i_companion *c = run->companion;
+  bool lasts = fabs(t - c->apart) * run->problem.rate > LASTING;
+  if ((lasts || (ends && !isnan(c->apart))) && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
+    warn(run, t);
   }
 }
 
@@ -199,11 +234,11 @@ static baum_status pass(baum_simulation *run, double t)
 
 static void give_up(baum_simulation *run)
 {
-  run->companion->lost = true;
+  run->companion->doing = ENDED;
   run->counters.error_estimate = (double)NAN;
 }
 
-/* What fails here says nothing of the run. */
+/* Compare at a state of the run. What fails here says nothing of the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
@@ -214,7 +249,9 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
   if (status == BAUM_OK) {
     status = come_to(c, state->t);
   }
-  if (status != BAUM_OK) {
+  if (status == BAUM_OK) {
+    compare(run, state);
+  } else {
     give_up(run);
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);
@@ -223,8 +260,7 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
 
 static bool goes_along(const baum_simulation *run)
 {
-  const baum_i_companion *c = run->companion;
-  return c && c->active && !c->lost;
+  return run->companion && run->companion->doing == GOES_ALONG;
 }
 
 static void start_from(baum_simulation *run, const baum_i_state *state)
@@ -251,20 +287,20 @@ static void keep_twice(baum_simulation *run)
 static void set_out(baum_simulation *run, const baum_i_state *from)
 {
   baum_i_companion *c = run->companion;
-  c->active = true;
+  c->doing = GOES_ALONG;
+  c->apart = (double)NAN;
   c->begun = run->workspace->evaluations;
   c->workspace->evaluations = 0;
   c->problem.direction = run->problem.direction;
+  run->counters.error_estimate = 0.0;
   start_from(run, from);
 }
 
-/* Steps so long that errors may matter before the first of them can be estimated. */
 static bool is_coarse(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double rate = fmax(run->problem.rate, baum_i_scaled_size(m, run->state.v));
-  return baum_i_problem_has_fixed_step(&run->problem) &&
-         pow(run->options.step * rate, run->integrator->order) > COARSE;
+  return has_fixed_step(run) && pow(run->options.step * rate, run->integrator->order) > COARSE;
 }
 
 void baum_i_companion_begin(baum_simulation *run)
@@ -273,40 +309,51 @@ void baum_i_companion_begin(baum_simulation *run)
   if (c) {
     keep_twice(run);
     c->sum = 0.0;
-    c->lost = false;
-    c->active = false;
-    run->counters.error_estimate = 0.0;
+    c->doing = WAITS;
+    run->counters.error_estimate = has_fixed_step(run) ? 0.0 : (double)NAN;
     if (run->options.error_check || is_coarse(run)) {
       set_out(run, &run->state);
     }
   }
 }
 
-/* The sum of local errors decides whether it goes along. */
-static void add_local_error(baum_simulation *run)
+/* Is it time to set out? */
+static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
+  if (!has_fixed_step(run)) {
+    return run->counters.near_singular_intervals > 0;
+  }
   c->sum += baum_i_local_error_of_step(&c->local, run);
-  if (!(c->sum <= NEGLIGIBLE)) {
-    set_out(run, &c->kept[0]);
-  } else if (run->counters.steps % STRIDE == 0) {
-    keep(run, &run->state);
+  return !(c->sum <= NEGLIGIBLE);
+}
+
+static void wait(baum_simulation *run, const baum_i_state *state)
+{
+  bool is_clear = !run->passages || !run->passages->open;
+  if (may_matter(run)) {
+    set_out(run, &run->companion->kept[0]);
+  } else if (is_clear && run->counters.steps % STRIDE == 0) {
+    keep(run, state);
   }
 }
 
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
-  bool done = !run->options.error_check && baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY);
-  if (!c || c->lost || done) {
-    return;
+  if (c && c->doing == WAITS) {
+    wait(run, state);
   }
-  if (!c->active) {
-    add_local_error(run);
+  if (goes_along(run) && c->problem.direction * (state->t - c->state.t) >= 0.0 &&
+      reach(run, state)) {
+    judge(run, state->t, false);
   }
-  bool passed = c->problem.direction * (state->t - c->state.t) >= 0.0;
-  if (c->active && passed && reach(run, state)) {
-    compare(run, state, &c->at);
+}
+
+void baum_i_companion_end_call(baum_simulation *run)
+{
+  if (goes_along(run) && (!has_fixed_step(run) || reach(run, &run->state))) {
+    judge(run, run->state.t, true);
   }
 }
 
@@ -316,7 +363,6 @@ void baum_i_companion_settle(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
   if (goes_along(run) && reach(run, &run->state)) {
-    compare(run, &run->state, &c->at);
     baum_i_run_copy(run, &c->at, &c->state);
   }
 }
@@ -351,9 +397,9 @@ static void add_state(baum_i_saved *list, const baum_workspace *w, baum_i_state 
 
 void baum_i_companion_saved(baum_i_companion *c, baum_i_saved *list)
 {
-  BAUM_I_SAVED_ADD_FLAG(list, "companion active", c->active);
-  BAUM_I_SAVED_ADD_FLAG(list, "companion lost", c->lost);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "companion", c->doing, WAITS, ENDED);
   BAUM_I_SAVED_ADD(list, "companion sum", c->sum);
+  BAUM_I_SAVED_ADD(list, "companion apart", c->apart);
   BAUM_I_SAVED_ADD_COUNT(list, "companion begun", c->begun);
   BAUM_I_SAVED_ADD_COUNT(list, "companion evaluations", c->workspace->evaluations);
   add_state(list, c->workspace, &c->state);

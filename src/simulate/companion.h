@@ -5,7 +5,10 @@
 
 #include "simulate/run.h"
 
-/* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+/* Of a run whose problem is chosen. */
+bool baum_i_companion_is_wanted(const baum_simulation *run);
+
+/* For such a run, at its trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_companion_create(baum_simulation *run);
 void baum_i_companion_destroy(baum_i_companion *companion);
 
@@ -16,6 +19,9 @@ void baum_i_companion_begin(baum_simulation *run);
 
 /* A step has been kept that ends at `state`, from which the next goes on. Warns where the two differ. */
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
+
+/* A call that advances the run ends at the present state. */
+void baum_i_companion_end_call(baum_simulation *run);
 
 /* What acts on the mechanism changes at the present state: come there before it does, and go on from there after. */
 void baum_i_companion_settle(baum_simulation *run);

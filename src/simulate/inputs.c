@@ -149,8 +149,10 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
   baum_status status = baum_i_run_begin_anew(run);
   if (status != BAUM_OK) {
     memcpy(numbers, before, size);
+    return status;
   }
-  return status;
+  baum_i_run_excuse_violation(run);
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_id driver, double s,

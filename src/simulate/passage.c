@@ -181,11 +181,17 @@ static void begin(baum_i_passages *p, double from)
     (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
 }
 
+/* Small, or opened by the violation of the run. */
+static bool is_singular(baum_simulation *run, double pivot)
+{
+  return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
+}
+
 /* Whether the rows of J keep their rank where the pivot is small: redundant rows may hold where those that are kept do not,
  * and where a light body alone moves in the direction of a row the pivot falls to the ratio of masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
-  return pivot < SINGULAR && baum_i_rows_are_apart(run->workspace, t, q);
+  return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
 /* Between the last three states. */
@@ -255,17 +261,10 @@ static void record(baum_simulation *run, double to)
   }
 }
 
-/* Small, or opened by the violation of the run. */
-static bool is_singular(baum_simulation *run)
-{
-  double pivot = run->passages->present.smallest;
-  return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
-}
-
 static void close_passage(baum_simulation *run)
 {
   baum_i_passages *p = run->passages;
-  if (is_singular(run)) {
+  if (is_singular(run, p->present.smallest)) {
     record(run, p->recent[p->recent_count - 1].t);
   }
   p->open = false;
@@ -294,7 +293,7 @@ static bool has_jumped(baum_simulation *run)
   }
   begin(p, p->recent[0].t);
   search(run);
-  p->open = is_singular(run);
+  p->open = is_singular(run, p->present.smallest);
   return p->open;
 }
 

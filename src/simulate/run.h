@@ -163,6 +163,9 @@ baum_status baum_i_run_finish(baum_simulation *run);
  * which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
+/* The violation of the present state is the user's own, and no reason to doubt the motion. */
+void baum_i_run_excuse_violation(baum_simulation *run);
+
 /* Remember the sentence of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 

@@ -101,11 +101,8 @@ static void go_on_with_events(baum_simulation *run)
 /* The state that is reported becomes the one from which the next step goes. */
 static void begin_anew(baum_simulation *run)
 {
-  baum_i_companion_settle(run);
+  baum_i_run_end_before_change(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    if (run->account) {
-      baum_i_account_read(run, &run->state);
-    }
     baum_i_run_copy(run, &run->state, &run->ahead);
     run->origin = run->state.t;
     if (run->account) {

@@ -184,8 +184,7 @@ static baum_status make_account(baum_simulation *run)
 static baum_status make_companion(baum_simulation *run)
 {
   run->counters.error_estimate = (double)NAN;
-  bool wanted = baum_i_problem_has_fixed_step(&run->problem) || run->options.error_check;
-  return wanted ? baum_i_companion_create(run) : BAUM_OK;
+  return baum_i_companion_is_wanted(run) ? baum_i_companion_create(run) : BAUM_OK;
 }
 
 static baum_status make_passages(baum_simulation *run)

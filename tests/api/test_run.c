@@ -445,20 +445,6 @@ static void cancelling_before_a_call_stops_that_call_only(void **state)
 
 /* ---- warnings, words, counters ---- */
 
-static void kinds_of_warnings_have_names(void **state)
-{
-  (void)state;
-  assert_string_equal(baum_warning_name(BAUM_WARNING_REDUNDANT_ROWS), "redundant_rows");
-  for (int k = BAUM_WARNING_REDUNDANT_ROWS; k <= BAUM_WARNING_SINGULARITY_CROSSED; k++) {
-    assert_non_null(baum_warning_name((baum_warning_code)k));
-  }
-  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_ENERGY; k++) {
-    assert_non_null(baum_warning_name((baum_warning_code)k));
-  }
-  assert_null(baum_warning_name((baum_warning_code)0));
-  assert_null(baum_warning_name((baum_warning_code)99));
-}
-
 static void warnings_are_announced_once_and_stay_listed(void **state)
 {
   (void)state;
@@ -593,7 +579,6 @@ int main(void)
     cmocka_unit_test(progress_is_called_by_wall_time),
     cmocka_unit_test(progress_can_cancel_and_the_next_call_goes_on),
     cmocka_unit_test(cancelling_before_a_call_stops_that_call_only),
-    cmocka_unit_test(kinds_of_warnings_have_names),
     cmocka_unit_test(warnings_are_announced_once_and_stay_listed),
     cmocka_unit_test(a_run_explains_itself),
     cmocka_unit_test(counters_fit_what_was_done),

@@ -162,7 +162,7 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
   assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
   *angle = baum_simulation_q(run)[2];
   baum_simulation_destroy(run);
-  return status >= BAUM_OK && c.branch_warnings == 0;
+  return status >= BAUM_OK && c.doubts == 0;
 }
 
 /* A small kick at a singular configuration leaves a violation that takes the next ones out of reach: the motion turns before

@@ -395,7 +395,6 @@ class baum_warning_code(enum.IntEnum):
     BAUM_WARNING_VIOLATION = 101
     BAUM_WARNING_CONTRADICTION = 102
     BAUM_WARNING_ACCURACY = 103
-    BAUM_WARNING_ENERGY = 104
 
 
 class baum_warning(Structure):

@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The companion of a run: the error it estimates, when it warns, when it costs nothing, and when it is given up. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdio.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "models.h"
+
+static const double SPAN = 2.0; /* [s], a swing of A01 */
+
+/* Warnings that say "is too long"; the step that the last of them advises. */
+static int64_t count_warnings(const baum_integrator *integrator, double step, double *advised)
+{
+  model m;
+  baum_simulation *run = NULL;
+  baum_simulation_options o = baum_simulation_options_default();
+  baum_counters c;
+  int64_t found = 0;
+  o.integrator = integrator;
+  o.step = step;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+  assert_true(baum_simulation_advance_to(run, SPAN) >= BAUM_OK);
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  for (int64_t k = 0; k < c.warnings; k++) {
+    baum_warning warning;
+    assert_int_equal(baum_simulation_warning(run, k, &warning, sizeof warning), BAUM_OK);
+    const char *advice = strstr(warning.text, "take a step below ");
+    if (warning.code == BAUM_WARNING_ACCURACY && advice) {
+      assert_int_equal(sscanf(advice, "take a step below %lf s", advised), 1);
+      found++;
+    }
+  }
+  baum_simulation_destroy(run);
+  model_destroy(&m);
+  return found;
+}
+
+/* Half a radian a step is too long for low orders and good for order 4 and more. */
+static void steps_are_judged_by_the_order(void **state)
+{
+  (void)state;
+  double advised = 0.0;
+  assert_int_equal(count_warnings(baum_euler(), 0.1, &advised), 1);
+  assert_int_equal(count_warnings(baum_semi_implicit_euler(), 0.1, &advised), 1);
+  assert_int_equal(count_warnings(baum_rk4(), 0.1, &advised), 0);
+  assert_int_equal(count_warnings(baum_rk8(), 0.1, &advised), 0);
+  assert_int_equal(count_warnings(baum_rk4(), 0.4, &advised), 1);
+}
+
+static void the_advised_step_is_not_too_long(void **state)
+{
+  (void)state;
+  const baum_integrator *const methods[] = {baum_euler(), baum_semi_implicit_euler(), baum_rk2()};
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    double advised = 0.0;
+    double again = 0.0;
+    assert_int_equal(count_warnings(methods[k], 0.2, &advised), 1);
+    assert_true(advised > 0.0 && advised < 0.2);
+    /* The advice came early in the run and is for the way until there. */
+    assert_int_equal(count_warnings(methods[k], advised / 10.0, &again), 0);
+  }
+}
+
+/* ---- how far the estimate is right ---- */
+
+/* A run of the pendulum, a particle on a rod, to SPAN; *error: the largest of its positions at 40 times. */
+static baum_counters run_pendulum(baum_simulation_options o, double *error)
+{
+  enum { TIMES = 40 };
+  model m;
+  baum_simulation *run = NULL;
+  baum_simulation *exact = NULL;
+  baum_counters c;
+  baum_simulation_options fine = baum_simulation_options_default();
+  fine.integrator = baum_rk8();
+  fine.rtol = 1e-12;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+  assert_int_equal(baum_simulation_create(m.mechanism, &fine, &exact), BAUM_OK);
+  *error = 0.0;
+  for (int k = 1; k <= TIMES; k++) {
+    assert_true(baum_simulation_advance_to(run, k * SPAN / TIMES) >= BAUM_OK);
+    assert_int_equal(baum_simulation_advance_to(exact, k * SPAN / TIMES), BAUM_OK);
+    for (int i = 0; i < 2; i++) {
+      *error = fmax(*error, fabs(baum_simulation_q(run)[i] - baum_simulation_q(exact)[i]));
+    }
+  }
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(exact);
+  model_destroy(&m);
+  return c;
+}
+
+static void estimates_are_the_error(void **state)
+{
+  (void)state;
+  static const double steps[] = {2e-4, 1e-3, 2e-3, 1e-2, 1e-2, 0.05, 2e-3};
+  const baum_integrator *const methods[] = {
+    baum_euler(),  baum_semi_implicit_euler(), baum_rk2(), baum_rk3(), baum_ab2(), baum_rk4(),
+    baum_rattle(),
+  };
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    double error = 0.0;
+    o.integrator = methods[k];
+    o.step = steps[k];
+    o.error_check = true;
+    baum_counters c = run_pendulum(o, &error);
+    ASSERT_NEAR(c.error_estimate, error, 0.2, 2e-4); /* the companion is off by its own tolerance */
+    assert_int_equal(c.doubts, c.error_estimate > 0.03);
+  }
+}
+
+static void accurate_runs_have_no_companion(void **state)
+{
+  (void)state;
+  baum_simulation_options o = baum_simulation_options_default();
+  double error = 0.0;
+  o.integrator = baum_rk4();
+  o.step = 1e-3;
+  assert_true(run_pendulum(o, &error).error_estimate == 0.0);
+}
+
+static void variable_steps_are_checked_where_it_is_asked_for(void **state)
+{
+  (void)state;
+  for (int k = 0; baum_integrator_at(k); k++) {
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = baum_integrator_at(k);
+    if (!baum_integrator_has_variable_step(o.integrator)) {
+      continue;
+    }
+    double error = 0.0;
+    o.rtol = 1e-4;
+    assert_true(isnan(run_pendulum(o, &error).error_estimate));
+    o.error_check = true;
+    baum_counters c = run_pendulum(o, &error);
+    assert_true(c.error_estimate > 0.1 * error && c.error_estimate < 10.0 * error);
+    assert_int_equal(c.doubts, 0);
+  }
+}
+
+/* ---- events that steps miss ---- */
+
+/* A light rod that comes taut: at 1 ms rk4 ended 0.64 m off, and gained 2.9 of 2.2 J. */
+static baum_mechanism *make_taut_rod(void)
+{
+  const double mass = 0.0014776077955897843;
+  baum_mechanism *m = NULL;
+  baum_body_id rod;
+  baum_body_id bob;
+  baum_planar_body_def body = baum_planar_body_def_default();
+  body.mass = mass;
+  body.inertia = mass / 12.0;
+  body.position[0] = 0.4;
+  body.position[1] = -0.3;
+  body.angle = -0.6435011087932844;
+  baum_planar_particle_def particle = baum_planar_particle_def_default();
+  particle.position[0] = 0.8;
+  particle.position[1] = -0.6;
+  particle.velocity[0] = 0.9558384584553545;
+  particle.velocity[1] = -1.8884285084166446;
+  baum_planar_pin_in_slot_def slot = baum_planar_pin_in_slot_def_default();
+  slot.point_a[0] = slot.point_a[1] = 0.0;
+  slot.point_b[0] = -0.5;
+  slot.point_b[1] = 0.0;
+  slot.axis[0] = 1.0;
+  slot.axis[1] = 0.0;
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  pin.point_a[0] = 0.5;
+  pin.point_a[1] = pin.point_b[0] = pin.point_b[1] = 0.0;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_gravity(m, 0.0, 0.0, 0.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &body, &rod), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &particle, &bob), BAUM_OK);
+  slot.body_a = BAUM_GROUND;
+  slot.body_b = pin.body_a = rod;
+  pin.body_b = bob;
+  assert_int_equal(baum_mechanism_add_planar_pin_in_slot(m, &slot, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  return m;
+}
+
+static void runs_that_miss_a_short_event_doubt_the_motion(void **state)
+{
+  (void)state;
+  static const double steps[] = {2e-3, 1.5e-3, 1e-3, 9e-4, 8e-4, 7e-4};
+  baum_mechanism *m = make_taut_rod();
+  for (size_t k = 0; k < sizeof steps / sizeof steps[0]; k++) {
+    for (int f = BAUM_FORMULATION_BAUMGARTE; f <= BAUM_FORMULATION_PROJECTION; f++) {
+      baum_simulation *run = NULL;
+      baum_counters c;
+      baum_simulation_options o = baum_simulation_options_default();
+      o.integrator = baum_rk4();
+      o.formulation = (baum_formulation)f;
+      o.step = steps[k];
+      assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+      baum_status status = baum_simulation_advance_to(run, 1.5);
+      assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+      assert_true(status < BAUM_OK || c.doubts > 0);
+      baum_simulation_destroy(run);
+    }
+  }
+  baum_mechanism_destroy(m);
+}
+
+/* ---- given up ---- */
+
+/* A damper of rate 1e6 1/s, which rk8 could only follow by steps of a microsecond. */
+static void stiff_runs_give_their_companion_up(void **state)
+{
+  (void)state;
+  baum_mechanism *m = NULL;
+  baum_simulation *run = NULL;
+  baum_counters c;
+  baum_body_id body;
+  baum_planar_particle_def bob = baum_planar_particle_def_default();
+  baum_planar_spring_def spring = baum_planar_spring_def_default();
+  bob.velocity[0] = 1.0;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_particle(m, &bob, &body), BAUM_OK);
+  spring.body_a = BAUM_GROUND;
+  spring.body_b = body;
+  spring.point_a[0] = -1.0;
+  spring.point_a[1] = spring.point_b[0] = spring.point_b[1] = 0.0;
+  spring.damping = 1e6;
+  spring.stiffness = 1e6;
+  assert_int_equal(baum_mechanism_add_planar_spring(m, &spring, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_generalized_alpha();
+  o.step = 1e-3;
+  o.error_check = true;
+  assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+  assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
+  assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+  assert_true(isnan(c.error_estimate));
+  assert_int_equal(c.doubts, 0);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(m);
+}
+
+/* ---- warnings ---- */
+
+static void kinds_of_warnings_have_names(void **state)
+{
+  (void)state;
+  assert_string_equal(baum_warning_name(BAUM_WARNING_REDUNDANT_ROWS), "redundant_rows");
+  for (int k = BAUM_WARNING_REDUNDANT_ROWS; k <= BAUM_WARNING_SINGULARITY_CROSSED; k++) {
+    assert_non_null(baum_warning_name((baum_warning_code)k));
+  }
+  for (int k = BAUM_WARNING_BRANCH; k <= BAUM_WARNING_ACCURACY; k++) {
+    assert_non_null(baum_warning_name((baum_warning_code)k));
+  }
+  assert_null(baum_warning_name((baum_warning_code)0));
+  assert_null(baum_warning_name((baum_warning_code)99));
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(steps_are_judged_by_the_order),
+    cmocka_unit_test(the_advised_step_is_not_too_long),
+    cmocka_unit_test(estimates_are_the_error),
+    cmocka_unit_test(accurate_runs_have_no_companion),
+    cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
+    cmocka_unit_test(runs_that_miss_a_short_event_doubt_the_motion),
+    cmocka_unit_test(stiff_runs_give_their_companion_up),
+    cmocka_unit_test(kinds_of_warnings_have_names),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
