@@ -559,18 +559,18 @@ BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simula
  *  its tolerance. The others tell what deserves to be known about a right one. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1,      /**< Some multipliers are not unique. */
-  BAUM_WARNING_SINGULAR_START = 2,      /**< The initial configuration is singular. */
-  BAUM_WARNING_GAINS = 3,               /**< The stability of the gains is not known. */
-  BAUM_WARNING_NOISY_DERIVATIVES = 4,   /**< rtol is below the error of differences. */
-  BAUM_WARNING_INDEX3 = 5,              /**< IDA at index 3: for comparison only. */
-  BAUM_WARNING_LOOSE_VELOCITIES = 6,    /**< Ill-conditioned rows leave velocities loose. */
-  BAUM_WARNING_ENERGY_ACCOUNT = 7,      /**< The energy account has ended. */
-  BAUM_WARNING_ILL_CONDITIONED = 8,     /**< The equations of motion are close to singular. */
-  BAUM_WARNING_SINGULARITY_CROSSED = 9, /**< The motion continues smoothly through a singularity. */
+  BAUM_WARNING_GAINS = 2,               /**< The stability of the gains is not known. */
+  BAUM_WARNING_NOISY_DERIVATIVES = 3,   /**< rtol is below the error of differences. */
+  BAUM_WARNING_INDEX3 = 4,              /**< IDA at index 3: for comparison only. */
+  BAUM_WARNING_LOOSE_VELOCITIES = 5,    /**< Ill-conditioned rows leave velocities loose. */
+  BAUM_WARNING_ENERGY_ACCOUNT = 6,      /**< The energy account has ended. */
+  BAUM_WARNING_ILL_CONDITIONED = 7,     /**< The equations of motion are close to singular. */
+  BAUM_WARNING_SINGULARITY_CROSSED = 8, /**< The motion continues smoothly through a singularity. */
   BAUM_WARNING_BRANCH = 100,            /**< It may have left its branch at a singularity. */
   BAUM_WARNING_VIOLATION = 101,         /**< The constraint violation is too large. */
   BAUM_WARNING_CONTRADICTION = 102,     /**< Omitted rows no longer follow from the others. */
-  BAUM_WARNING_ACCURACY = 103           /**< The estimated error of the motion is large. */
+  BAUM_WARNING_ACCURACY = 103,          /**< The estimated error of the motion is large. */
+  BAUM_WARNING_SINGULAR_START = 104     /**< Several motions may leave the initial configuration. */
 } baum_warning_code;
 
 /** Name of a kind of warnings such as "branch"; NULL for an unknown value. */

@@ -22,7 +22,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "ab2",
   .order = 2,
-  .error_constant = 3.0,
   .formulations = baum_i_adams_formulations,
   .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,

@@ -27,7 +27,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "ab4",
   .order = 4,
-  .error_constant = 5.0,
   .formulations = baum_i_adams_formulations,
   .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,

@@ -55,7 +55,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "dp5",
   .order = 5,
-  .error_constant = 0.001,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,

@@ -30,7 +30,6 @@ static const baum_formulation FORMULATIONS[] = {
 static const baum_integrator EULER = {
   .name = "euler",
   .order = 1,
-  .error_constant = 1.0,
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEADBEAT,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, 1.0}},

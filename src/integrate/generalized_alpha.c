@@ -456,7 +456,6 @@ static const baum_formulation FORMULATIONS[] = {
 static const baum_integrator GENERALIZED_ALPHA = {
   .name = "generalized_alpha",
   .order = 2,
-  .error_constant = 1.0 / 6.0,
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},

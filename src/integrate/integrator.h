@@ -50,8 +50,7 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  int order;             /* 0: variable */
-  double error_constant; /* C: a fixed step of h leaves about C (w h)^order of a motion of rate w */
+  int order;                            /* 0: variable */
   const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
   baum_i_method method;                 /* amplification */

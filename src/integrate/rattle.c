@@ -199,7 +199,6 @@ static const baum_formulation FORMULATIONS[] = {
 static const baum_integrator RATTLE = {
   .name = "rattle",
   .order = 2,
-  .error_constant = 1.0 / 24.0,
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},

@@ -24,7 +24,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "rk2",
   .order = 2,
-  .error_constant = 1.0 / 6.0,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 2, .coefficients = {1.0, 1.0, 1.0 / 2.0}},

@@ -25,7 +25,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "rk3",
   .order = 3,
-  .error_constant = 1.0 / 24.0,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,

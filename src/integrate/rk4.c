@@ -26,7 +26,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "rk4",
   .order = 4,
-  .error_constant = 1.0 / 30.0,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,

@@ -291,7 +291,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 static const baum_integrator INTEGRATOR = {
   .name = "rk8",
   .order = 8,
-  .error_constant = 0.0001,
   .formulations = baum_i_rk_formulations,
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,

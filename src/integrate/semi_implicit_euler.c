@@ -31,7 +31,6 @@ static const baum_formulation FORMULATIONS[] = {
 static const baum_integrator SEMI_IMPLICIT_EULER = {
   .name = "semi_implicit_euler",
   .order = 1,
-  .error_constant = 0.15,
   .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEADBEAT,
   .method = {.kind = BAUM_I_METHOD_SEMI_IMPLICIT},

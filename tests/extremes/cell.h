@@ -33,8 +33,9 @@ typedef enum outcome {
   MET,     /* the tolerance */
   REFUSED, /* before the start */
   STOPPED, /* with a reason */
-  WARNED,  /* at the end */
-  WRONG,   /* status OK, no warning, and off by more than promised */
+  WARNED,  /* of doubt in the motion */
+  CROSSED, /* took branches within 1e-10 of each other for crossing ones, and told of the crossing */
+  WRONG,   /* status OK, no doubt, and off by more than promised */
   OUTCOMES
 } outcome;
 

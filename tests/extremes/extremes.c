@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The map of extremes: every run meets its tolerance, or says why not.
+/* Stress grid: every run meets its tolerance, or says why not.
  *
  *   extremes [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
  *
- * --thin takes every K-th cell. Ends with failure when an answer was wrong without a word, or more than
+ * --thin takes every K-th cell. Fails where a run is silently wrong, or more than
  * one alarm in twenty cells was false.
  */
 #include <stdio.h>
@@ -87,8 +87,8 @@ static counts *row_of(table *t, const char *axis)
 
 static void print_table(const table *t, const counts *all)
 {
-  printf("%-18s %6s %8s %8s %8s %8s %8s %8s %9s\n", "axis", "cells", "met", "refused", "stopped",
-         "warned", "wrong", "false", "cpu s");
+  printf("%-18s %6s %8s %8s %8s %8s %8s %8s %8s %9s\n", "axis", "cells", "met", "refused",
+         "stopped", "warned", "crossed", "wrong", "false", "cpu s");
   for (int k = 0; k < t->rows; k++) {
     print_counts(t->axis[k], &t->row[k]);
   }

@@ -34,8 +34,8 @@ static const double PI = 3.141592653589793;
 
 const char *outcome_name(outcome o)
 {
-  static const char *const NAMES[OUTCOMES] = {"met", "refused", "stopped", "warned",
-                                              "silent_wrong"};
+  static const char *const NAMES[OUTCOMES] = {"met",    "refused", "stopped",
+                                              "warned", "crossed", "silent_wrong"};
   return NAMES[o];
 }
 
@@ -124,6 +124,7 @@ typedef struct trial {
   baum_status status;
   bool began;
   int64_t doubts;
+  int64_t crossings;
   int64_t steps;
 } trial;
 
@@ -155,6 +156,7 @@ static void count(trial *t)
   baum_counters c;
   if (baum_simulation_counters(t->run, &c, sizeof c) == BAUM_OK) {
     t->doubts = c.doubts;
+    t->crossings = c.near_singular_intervals;
     t->steps = c.steps;
   }
 }
@@ -257,6 +259,9 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
+/* Below this distance a pose is singular for doubles. */
+static const double SINGULAR = 1e-10;
+
 static outcome judge(const trial *t, const grade *g)
 {
   if (!t->began) {
@@ -268,11 +273,11 @@ static outcome judge(const trial *t, const grade *g)
   if (t->doubts > 0) {
     return WARNED;
   }
-  return g->error <= g->promise ? MET : WRONG;
+  if (g->error <= g->promise) {
+    return MET;
+  }
+  return t->crossings > 0 && t->scene.gap <= SINGULAR ? CROSSED : WRONG;
 }
-
-/* Below this distance a pose is singular for doubles. */
-static const double SINGULAR = 1e-10;
 
 /* A start that is neither singular nor inconsistent should not be refused; gains that are called
  * unstable should not do well. */

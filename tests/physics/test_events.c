@@ -188,7 +188,7 @@ static void directions_are_those_of_time(void **state)
         (void)add_angle(run, &s, 0.0, direction == 2 ? -1 : direction, false);
       }
       (void)add_rest(run, 1);
-      assert_int_equal(baum_simulation_advance_to(run, sign * 7.5 * s.quarter), BAUM_OK);
+      assert_int_equal(step_mode_advance(mode, run, sign * 7.5 * s.quarter), BAUM_OK);
       check_records(run, &s, mode, sign > 0 ? forward : backward, 10);
       close_all(run, &s);
     }
