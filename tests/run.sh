@@ -178,6 +178,9 @@ stage_random() {
   build release random -DBAUM_TESTS=ON
   build/random/tests/bench_random 10000
   build/random/tests/bench_reactions 1000
+  build/random/tests/bench_doubts -n 2000 -f 10000 -j 2
+  build/random/tests/bench_doubts -n 2000 -f 10000 -j 2 -e
+  build/random/tests/bench_sweeps all
 }
 
 # The README's two commands on a bare Debian 12; before any release or large change.

@@ -182,8 +182,10 @@ typedef struct baum_simulation_options {
                                 beta f_i. Copied. Default: NULL, all 1. */
   int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
   bool error_check; /**< Estimate the error of the motion by a second integration from the start on,
-                         see counters.error_estimate, and warn where it is large. Of fixed steps
-                         that is done in any case as soon as it may matter. Default: false. */
+                         see counters.error_estimate, and warn where it is large. Beside a fixed
+                         step that is rk8 at 1e-8, beside a variable one the same method at rtol/10,
+                         which doubles the cost or more. Without this option fixed steps are
+                         checked as soon as their error may matter. Default: false. */
 } baum_simulation_options;
 
 /** Set the default options; writes at most caller_size bytes.

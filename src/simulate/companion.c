@@ -8,8 +8,8 @@
  * still good. Where the two stay apart by more than DOUBTFUL the run warns; short peaks, as where a light rod flips a little
  * too late, do not count.
  *
- * With the option error_check it goes along from the start. Beside a variable step it is then the same method at ten
- * times the tolerance, whose error is about ten times as large.
+ * With the option error_check it goes along from the start. Beside a variable step it is then the same method at a tenth
+ * of the tolerance.
  *
  * It has a workspace of its own: none of its evaluations reaches the run's solver or counters. Where it fails, or costs
  * more than the run itself, as with stiff forces, it is given up, and the error is not known. */
@@ -33,9 +33,12 @@ static const double FINE =
 static const double NEGLIGIBLE = 1e-5; /* summed local errors, of the scales */
 static const double COARSE = 1e-3; /* (angle of a step)^order, where errors may matter at once */
 static const double TOLERANCE = 1e-5;
-static const double LOOSER = 10.0;
+static const double TOLERANCE_OF_CHECK = 1e-8;
+static const double TIGHTER = 0.1;
+static const double LEAST_RTOL = 1e-13;
 /* Evaluations, of those of the run since the companion goes along, and a few for a start. */
 static const double MOST_COST = 2.0;
+static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
 
 enum { STRIDE = 8 }; /* steps between states that are kept */
@@ -46,7 +49,6 @@ struct baum_i_companion {
   const baum_integrator *method;
   baum_workspace *workspace;
   baum_i_problem problem; /* of the companion */
-  double share;           /* error of the run, of the difference */
   void *self;
   int32_t doing;            /* a state_of_companion */
   baum_i_local_error local; /* of the run */
@@ -95,20 +97,18 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
   c->problem.workspace = c->workspace;
   if (run->options.error_check && !has_fixed_step(run)) {
     c->method = run->integrator;
-    c->problem.rtol = fmin(LOOSER * run->problem.rtol, 0.1);
-    c->problem.atol = LOOSER * run->problem.atol;
-    c->share = 1.0 / (LOOSER - 1.0);
+    c->problem.rtol = fmax(TIGHTER * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
+    c->problem.atol = TIGHTER * run->problem.atol;
     return;
   }
   c->method = baum_rk8();
   c->problem.formulation = BAUM_FORMULATION_PROJECTION;
   c->problem.step = (double)NAN;
-  c->problem.rtol = TOLERANCE;
+  c->problem.rtol = run->options.error_check ? TOLERANCE_OF_CHECK : TOLERANCE;
   c->problem.atol = 0.0;
   c->problem.max_step = (double)INFINITY;
   c->problem.tolerance_q = 1.0;
   c->problem.tolerance_v = 1.0;
-  c->share = 1.0;
 }
 
 baum_status baum_i_companion_create(baum_simulation *run)
@@ -167,7 +167,6 @@ static void compare(baum_simulation *run, const baum_i_state *state)
   for (int i = 0; i < m->nv; i++) {
     error = fmax(error, fabs(state->q[i] - c->at.q[i]) / m->scale[i]);
   }
-  error *= c->share;
   run->counters.error_estimate = fmax(run->counters.error_estimate, error);
   if (!(error > DOUBTFUL)) {
     c->apart = (double)NAN;
@@ -205,7 +204,8 @@ static bool is_too_costly(const baum_simulation *run)
 {
   const baum_i_companion *c = run->companion;
   double cost = (double)(run->workspace->evaluations - c->begun);
-  return (double)(c->workspace->evaluations - FREE) > MOST_COST * cost;
+  double most = run->options.error_check ? MOST_COST_OF_CHECK : MOST_COST;
+  return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
 /* Equations as the run has them now. */
