@@ -38,11 +38,11 @@ static inline long count_allocations(scenario *run, void *context)
   return allocations;
 }
 
-/* Each of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no block is lost. */
-static inline void fail_each_allocation(scenario *run, void *context)
+/* Every stride-th of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no block is lost. */
+static inline void fail_allocations(scenario *run, void *context, long stride)
 {
   long allocations = count_allocations(run, context);
-  for (long n = 0; n < allocations; n++) {
+  for (long n = 0; n < allocations; n += stride) {
     fail_once(run, context, n, false);
   }
 }
