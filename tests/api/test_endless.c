@@ -18,7 +18,7 @@
 #include "sentence.h"
 #include "step_mode.h"
 
-enum { MOST_STEPS = 200, PATIENCE = 30 /* [s] for a case of some ms */ };
+enum { MOST_STEPS = 200, PATIENCE = 30 /* [s] for a case of some ms */, MOST_NV = 9 };
 
 /* A pinned body; NaN: the default. */
 typedef struct hostile {
@@ -127,9 +127,8 @@ static bool is_sound(const baum_simulation *run, baum_status status)
 /* From the velocities of another case. */
 static bool goes_on_from(baum_simulation *run, double angular_velocity)
 {
-  const double q[3] = {baum_simulation_q(run)[0], baum_simulation_q(run)[1],
-                       baum_simulation_q(run)[2]};
-  const double v[3] = {NAN, NAN, angular_velocity};
+  const double *q = baum_simulation_q(run);
+  const double v[MOST_NV] = {NAN, NAN, angular_velocity, NAN, NAN, NAN, NAN, NAN, NAN};
   bool sound = is_sound(run, baum_simulation_set_state(run, baum_simulation_time(run), q, v));
   return sound && is_sound(run, baum_simulation_step(run, MOST_STEPS));
 }
