@@ -17,19 +17,20 @@
 typedef struct baum_i_problem {
   baum_workspace *workspace;
   baum_formulation formulation;
-  double alpha;            /* [1/s] >= 0 */
-  double beta;             /* [1/s] >= 0 */
-  double direction;        /* +1 forward, -1 backward in time: alpha carries it */
-  double step;             /* [s] > 0, or NaN: variable */
-  double rtol;             /* NaN for fixed step */
-  double atol;             /* >= 0 */
-  double rate;             /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
-  double max_step;         /* [s] > 0, INFINITY for none; variable step */
-  double tolerance_q;      /* [-] > 0, factors on rtol and atol */
-  double tolerance_v;      /* [-] > 0 */
-  double tolerance_lambda; /* [-] > 0, INFINITY: multipliers are outside of the error test */
-  bool stops;              /* variable step: no step passes `stop`, and one ends there */
-  double stop;             /* [s] ahead in direction, by more than the rounding of times */
+  double alpha;              /* [1/s] >= 0 */
+  double beta;               /* [1/s] >= 0 */
+  double direction;          /* +1 forward, -1 backward in time: alpha carries it */
+  double step;               /* [s] > 0, or NaN: variable */
+  double rtol;               /* NaN for fixed step */
+  double atol;               /* >= 0 */
+  double rate;               /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
+  double max_step;           /* [s] > 0, INFINITY for none; variable step */
+  double tolerance_q;        /* [-] > 0, factors on rtol and atol */
+  double tolerance_v;        /* [-] > 0 */
+  double tolerance_lambda;   /* [-] > 0, INFINITY: multipliers are outside of the error test */
+  bool distrusts_projection; /* explicit variable step: refuse steps whose end it moves far */
+  bool stops;                /* variable step: no step passes `stop`, and one ends there */
+  double stop;               /* [s] ahead in direction, by more than the rounding of times */
 } baum_i_problem;
 
 /* Time, positions, velocities. */

@@ -61,6 +61,9 @@ typedef struct adaptive_run {
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
 
+/* By which the projection may move positions where it is distrusted, in units of the tolerance. */
+static const double MOST_MOVED = 10.0;
+
 /* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
@@ -225,13 +228,35 @@ static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
 
 /* ---- one step ---- */
 
-/* Projection and rate of the end. */
-static baum_status finish_end(const adaptive_run *run, const baum_i_problem *problem)
+/* Project the end. *moved: by how much, in units of the tolerance of positions. */
+static baum_status project_end(const adaptive_run *run, const baum_i_problem *problem,
+                               double *moved)
+{
+  int nv = run->rk.nv;
+  double *before = run->dense; /* has none of this step yet */
+  double squares = 0.0;
+  memcpy(before, run->end, (size_t)nv * sizeof *before);
+  baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nv);
+  for (int i = 0; i < nv; i++) {
+    double move = (run->end[i] - before[i]) * run->weights[i];
+    squares += move * move;
+  }
+  *moved = sqrt(squares / nv);
+  return status;
+}
+
+/* Projection and rate of the end. A driver whose velocity jumps has accelerations that say nothing of it: only the
+ * projection does. */
+static baum_status finish_end(const adaptive_run *run, const baum_i_problem *problem, double *error)
 {
   const baum_i_rk *rk = &run->rk;
   baum_status status = BAUM_OK;
+  double moved = 0.0;
   if (problem->formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + rk->nv);
+    status = project_end(run, problem, &moved);
+  }
+  if (problem->distrusts_projection) {
+    *error = fmax(*error, moved / MOST_MOVED);
   }
   if (status == BAUM_OK) {
     status = baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
@@ -256,10 +281,10 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
   }
   if (*error <= most) {
     baum_i_rk_combine(rk, table->stages, table->b, run->h, run->end);
-    status = finish_end(run, problem);
+    status = finish_end(run, problem, error);
   }
   if (status == BAUM_OK && needs_end) {
-    *error = estimate(run, run->h);
+    *error = fmax(*error, estimate(run, run->h));
   }
   return status;
 }

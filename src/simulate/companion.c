@@ -95,6 +95,7 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
 {
   c->problem = run->problem;
   c->problem.workspace = c->workspace;
+  c->problem.distrusts_projection = true;
   if (run->options.error_check && !has_fixed_step(run)) {
     c->method = run->integrator;
     c->problem.rtol = fmax(TIGHTER * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));

@@ -213,6 +213,52 @@ static void runs_that_miss_a_short_event_doubt_the_motion(void **state)
   baum_mechanism_destroy(m);
 }
 
+/* ---- drivers with corners ---- */
+
+/* Rotates by 3 rad, then rests. */
+static int ramp(double t, double s[3], void *user)
+{
+  (void)user;
+  s[0] = fmin(t, 0.3) * 10.0;
+  s[1] = t < 0.3 ? 10.0 : 0.0;
+  s[2] = 0.0;
+  return 0;
+}
+
+/* Accelerations say nothing of where the velocity of a driver jumps. */
+static void corners_of_drivers_are_no_error(void **state)
+{
+  (void)state;
+  const baum_integrator *const methods[] = {baum_rk4(), baum_semi_implicit_euler(), baum_rattle(),
+                                            baum_rk8()};
+  baum_mechanism *m = NULL;
+  baum_planar_body_def crank = baum_planar_body_def_default();
+  baum_planar_revolute_def pin = baum_planar_revolute_def_default();
+  baum_driver_def driver = baum_driver_def_default();
+  pin.body_a = BAUM_GROUND;
+  pin.point[0] = pin.point[1] = 0.0;
+  driver.law = ramp;
+  assert_int_equal(baum_mechanism_create(&m), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_body(m, &crank, &pin.body_b), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, &driver.joint), BAUM_OK);
+  assert_int_equal(baum_mechanism_add_driver(m, &driver, NULL), BAUM_OK);
+  assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
+  for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++) {
+    baum_simulation *run = NULL;
+    baum_counters c;
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = methods[k];
+    o.step = 1e-3;
+    o.error_check = true;
+    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    assert_true(baum_simulation_advance_to(run, 1.0) >= BAUM_OK);
+    assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+    assert_true(c.error_estimate < 0.01);
+    baum_simulation_destroy(run);
+  }
+  baum_mechanism_destroy(m);
+}
+
 /* ---- given up ---- */
 
 /* A damper of rate 1e6 1/s, which rk8 could only follow by steps of a microsecond. */
@@ -274,6 +320,7 @@ int main(void)
     cmocka_unit_test(accurate_runs_have_no_companion),
     cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
     cmocka_unit_test(runs_that_miss_a_short_event_doubt_the_motion),
+    cmocka_unit_test(corners_of_drivers_are_no_error),
     cmocka_unit_test(stiff_runs_give_their_companion_up),
     cmocka_unit_test(kinds_of_warnings_have_names),
   };
