@@ -256,7 +256,6 @@ static baum_status internal_step(baum_simulation *run)
   if (status == BAUM_OK) {
     baum_i_run_observe(run, run->ahead.t, false);
     baum_i_passages_look(run);
-    baum_i_companion_follow(run, &run->ahead);
   }
   return status;
 }
@@ -314,7 +313,11 @@ static baum_status next_step(baum_simulation *run, int64_t taken)
   if (status == BAUM_OK) {
     status = baum_i_run_choose_rows(run);
   }
-  return status == BAUM_OK ? internal_step(run) : status;
+  if (status == BAUM_OK) {
+    baum_i_companion_follow(run, &run->state);
+    status = internal_step(run);
+  }
+  return status;
 }
 
 static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)
@@ -353,6 +356,7 @@ static baum_status turn_to(baum_simulation *run, double direction)
 {
   double before = run->problem.direction;
   baum_i_run_end_before_change(run);
+  baum_i_companion_restart(run);
   run->problem.direction = direction;
   if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;

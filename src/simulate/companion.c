@@ -353,7 +353,7 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
 
 void baum_i_companion_end_call(baum_simulation *run)
 {
-  if (goes_along(run) && (!has_fixed_step(run) || reach(run, &run->state))) {
+  if (goes_along(run) && reach(run, &run->state)) {
     judge(run, run->state.t, true);
   }
 }

@@ -17,7 +17,7 @@ void baum_i_companion_destroy(baum_i_companion *companion);
 /* The present state is a start: it has no error. */
 void baum_i_companion_begin(baum_simulation *run);
 
-/* A step has been kept that ends at `state`, from which the next goes on. Warns where the two differ. */
+/* A step goes on from `state`, where the last one has ended. Warns where the two differ. */
 void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 
 /* A call that advances the run ends at the present state. */

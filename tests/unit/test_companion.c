@@ -148,6 +148,35 @@ static void variable_steps_are_checked_where_it_is_asked_for(void **state)
   }
 }
 
+/* Inside of a step a run turns backward, which restarts it there. */
+static void estimates_go_on_from_inside_a_step(void **state)
+{
+  (void)state;
+  enum { TURNS = 50 };
+  for (int k = 0; baum_integrator_at(k); k++) {
+    model m;
+    baum_simulation *run = NULL;
+    baum_counters c;
+    baum_simulation_options o = baum_simulation_options_default();
+    o.integrator = baum_integrator_at(k);
+    if (!baum_integrator_has_variable_step(o.integrator)) {
+      continue;
+    }
+    o.rtol = 1e-4;
+    o.error_check = true;
+    assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+    assert_int_equal(baum_simulation_create(m.mechanism, &o, &run), BAUM_OK);
+    for (int i = 1; i <= TURNS; i++) {
+      assert_int_equal(baum_simulation_advance_to(run, SPAN * i / TURNS), BAUM_OK);
+      assert_int_equal(baum_simulation_advance_to(run, SPAN * (i - 0.3) / TURNS), BAUM_OK);
+    }
+    assert_int_equal(baum_simulation_counters(run, &c, sizeof c), BAUM_OK);
+    assert_true(c.error_estimate > 0.0);
+    baum_simulation_destroy(run);
+    model_destroy(&m);
+  }
+}
+
 /* ---- events that steps miss ---- */
 
 /* A light rod that comes taut: at 1 ms rk4 ended 0.64 m off, and gained 2.9 of 2.2 J. */
@@ -319,6 +348,7 @@ int main(void)
     cmocka_unit_test(estimates_are_the_error),
     cmocka_unit_test(accurate_runs_have_no_companion),
     cmocka_unit_test(variable_steps_are_checked_where_it_is_asked_for),
+    cmocka_unit_test(estimates_go_on_from_inside_a_step),
     cmocka_unit_test(runs_that_miss_a_short_event_doubt_the_motion),
     cmocka_unit_test(corners_of_drivers_are_no_error),
     cmocka_unit_test(stiff_runs_give_their_companion_up),
