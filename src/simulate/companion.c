@@ -41,7 +41,10 @@ static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
 
-enum { STRIDE = 8 }; /* steps between states that are kept */
+enum {
+  STRIDE = 8, /* steps between states that are kept */
+  UNSEEN = 16 /* steps whose errors may stay unknown, and a quarter of all */
+};
 
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
@@ -53,6 +56,7 @@ struct baum_i_companion {
   int32_t doing;            /* a state_of_companion */
   baum_i_local_error local; /* of the run */
   double sum;               /* of local errors */
+  int64_t unseen;           /* steps whose local errors are not known */
   double apart;             /* [s] since when the two are; NaN: they are not */
   int64_t begun;            /* evaluations of the run before it went along */
   baum_i_state state;       /* where its next step begins */
@@ -102,10 +106,11 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
     c->problem.atol = TIGHTER * run->problem.atol;
     return;
   }
+  double tolerance = has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
   c->method = baum_rk8();
   c->problem.formulation = BAUM_FORMULATION_PROJECTION;
   c->problem.step = (double)NAN;
-  c->problem.rtol = run->options.error_check ? TOLERANCE_OF_CHECK : TOLERANCE;
+  c->problem.rtol = run->options.error_check ? TOLERANCE_OF_CHECK : tolerance;
   c->problem.atol = 0.0;
   c->problem.max_step = (double)INFINITY;
   c->problem.tolerance_q = 1.0;
@@ -310,6 +315,7 @@ void baum_i_companion_begin(baum_simulation *run)
   if (c) {
     keep_twice(run);
     c->sum = 0.0;
+    c->unseen = 0;
     c->doing = WAITS;
     run->counters.error_estimate = has_fixed_step(run) ? 0.0 : (double)NAN;
     if (run->options.error_check || is_coarse(run)) {
@@ -324,6 +330,10 @@ static bool may_matter(baum_simulation *run)
   baum_i_companion *c = run->companion;
   if (!has_fixed_step(run)) {
     return run->counters.near_singular_intervals > 0;
+  }
+  c->unseen += c->local.known < BAUM_I_ACCELERATIONS;
+  if (c->unseen > UNSEEN && 4 * c->unseen > run->counters.steps) {
+    run->counters.error_estimate = (double)NAN; /* inputs change every few steps */
   }
   c->sum += baum_i_local_error_of_step(&c->local, run);
   return !(c->sum <= NEGLIGIBLE);
@@ -400,6 +410,7 @@ void baum_i_companion_saved(baum_i_companion *c, baum_i_saved *list)
 {
   BAUM_I_SAVED_ADD_BOUNDED(list, "companion", c->doing, WAITS, ENDED);
   BAUM_I_SAVED_ADD(list, "companion sum", c->sum);
+  BAUM_I_SAVED_ADD_COUNT(list, "companion unseen", c->unseen);
   BAUM_I_SAVED_ADD(list, "companion apart", c->apart);
   BAUM_I_SAVED_ADD_COUNT(list, "companion begun", c->begun);
   BAUM_I_SAVED_ADD_COUNT(list, "companion evaluations", c->workspace->evaluations);

@@ -60,7 +60,7 @@ static void count(counts *c, const singular_result *r)
   } else {
     c->wrong++;
     c->no_branch_warning += r->branch_warnings == 0;
-    c->silent += r->warnings == 0;
+    c->silent += r->doubts == 0;
   }
 }
 

@@ -55,6 +55,7 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
       alarmed += is_right && r.branch_warnings > 0;
       wrong += is_wrong;
       assert_true(r.warnings > 0 || r.status < BAUM_OK);
+      assert_true(!is_wrong || r.doubts > 0);
       if (setting->formulation == BAUM_FORMULATION_PROJECTION && !is_of_cvode(setting)) {
         assert_true(is_right);
       }

@@ -266,6 +266,7 @@ singular_result singular_run(const singular_scene *scene, const singular_setting
   out.intervals = c.near_singular_intervals;
   out.branch_warnings = c.branch_warnings;
   out.warnings = c.warnings;
+  out.doubts = c.doubts;
   out.forced = c.forced_steps;
   baum_simulation_destroy(run);
   return out;

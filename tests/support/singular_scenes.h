@@ -55,6 +55,7 @@ typedef struct singular_result {
   int64_t intervals;
   int64_t branch_warnings;
   int64_t warnings;
+  int64_t doubts;
   int64_t forced;
 } singular_result;
 
