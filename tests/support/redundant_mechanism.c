@@ -431,7 +431,7 @@ void redundant_judge(uint64_t seed, redundant_tally *tally)
   static const double off[REDUNDANT_STATES] = {0.0, 1e-6, 1e-3};
   double ratio = 0.0;
   char label[64];
-  redundant_state s = {NULL};
+  redundant_state s = {0};
   baum_mechanism *m = redundant_mechanism(seed, &ratio);
   chance c = chance_of(~seed);
   (void)snprintf(label, sizeof label, "seed %llu, ratio %.0e", (unsigned long long)seed, ratio);
