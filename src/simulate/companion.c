@@ -91,8 +91,8 @@ static bool has_fixed_step(const baum_simulation *run)
 bool baum_i_companion_is_wanted(const baum_simulation *run)
 {
   bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
-  return run->options.error_check || has_fixed_step(run) ||
-         (loose && !run->integrator->without_freedom);
+  bool wanted = run->options.error_check || has_fixed_step(run) || loose;
+  return wanted && !run->integrator->without_freedom;
 }
 
 static void choose_problem(const baum_simulation *run, baum_i_companion *c)
@@ -219,6 +219,9 @@ static void use_present_equations(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
   c->problem.direction = run->problem.direction;
+  c->problem.alpha = run->problem.alpha; /* which restoring may change */
+  c->problem.beta = run->problem.beta;
+  c->problem.rate = run->problem.rate;
   c->problem.stop = baum_i_run_next_break(run).near;
   c->problem.stops = isfinite(c->problem.stop);
   c->workspace->point.parameters = run->workspace->point.parameters;
