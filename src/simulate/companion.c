@@ -25,18 +25,23 @@
 #include "simulate/passage.h"
 #include "simulate/saved.h"
 
-static const double DOUBTFUL =
-  0.03; /* right results are within 0.01 of the scales, wrong ones off by 0.1 */
-static const double LASTING = 0.1; /* of 1/rate, for which the two must stay apart */
-static const double FINE =
-  0.002; /* aimed at by the step that is advised: the error goes on growing */
-static const double NEGLIGIBLE = 1e-5; /* summed local errors, of the scales */
-static const double COARSE = 1e-3; /* (angle of a step)^order, where errors may matter at once */
+/* Errors relative to the scales: a right result is within 0.01, a wrong one off by 0.1, and this lies between. */
+static const double DOUBTFUL = 0.03;
+/* The two must stay apart for this share of 1/rate. */
+static const double LASTING = 0.1;
+/* Aimed at by the step that is advised, for the error goes on growing after the warning. */
+static const double FINE = 0.002;
+/* A sum of local errors that stays right when it grows by less than 1e3, and not wrong by less than 1e4. */
+static const double NEGLIGIBLE = 1e-5;
+/* (angle of a step)^order from which on errors may matter before the first of them can be estimated. */
+static const double COARSE = 1e-3;
+/* Of rk8; at growth up to 1e3 its own error stays within that of a right result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
-static const double LEAST_RTOL = 1e-13;
-/* Evaluations, of those of the run since the companion goes along, and a few for a start. */
+static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
+/* Evaluations of the companion per one of the run: an unasked check may not slow a run down by much. Some are free,
+ * since short runs with long steps take few themselves. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;
