@@ -13,7 +13,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "mechanism/planar.h"
+#include "mechanism/planar/planar.h"
 
 /* ---- sets of bodies, as a forest ---- */
 

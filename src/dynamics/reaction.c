@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "dynamics/dynamics.h"
-#include "mechanism/planar.h"
+#include "mechanism/planar/planar.h"
 
 /* -J^T lambda over the joint's local columns. */
 static void generalized(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,

@@ -6,7 +6,7 @@
 #include "base/alloc.h"
 #include "base/hot.h"
 #include "base/message.h"
-#include "mechanism/frames.h"
+#include "mechanism/planar/frames.h"
 
 /* ---- frames ---- */
 

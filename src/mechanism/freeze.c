@@ -11,9 +11,9 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
+#include "mechanism/general/user_function.h"
 #include "mechanism/mechanism.h"
-#include "mechanism/planar.h"
-#include "mechanism/user_function.h"
+#include "mechanism/planar/planar.h"
 
 /* ---- undo ---- */
 

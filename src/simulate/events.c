@@ -13,7 +13,7 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "mechanism/definition.h"
-#include "mechanism/joints/coordinate.h"
+#include "mechanism/general/coordinate.h"
 
 /* ---- definition ---- */
 

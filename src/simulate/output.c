@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/text.h"
-#include "mechanism/planar.h"
+#include "mechanism/planar/planar.h"
 #include "simulate/account.h"
 
 /* ---- quantities ---- */
@@ -224,7 +224,7 @@ static const double *part_of(const baum_workspace *w, const baum_i_state *state,
   }
 }
 
-/* r'' = a + alpha p' - w^2 p (mechanism/planar.h) */
+/* r'' = a + alpha p' - w^2 p (mechanism/planar/planar.h) */
 static void put_acceleration(const baum_i_marker *marker, const double a[3], double out[3])
 {
   const double *p = marker->arm;

@@ -16,7 +16,7 @@
 
 #include "base/digest.h"
 #include "mechanism/fingerprint.h"
-#include "mechanism/joints/driven.h"
+#include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"

@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
-#include "mechanism/planar.h"
+#include "mechanism/planar/planar.h"
 
 static const double STEP = 1e-3;
 static const double TOLERANCE = 1e-8;

@@ -15,7 +15,7 @@
 
 #include "assert_near.h"
 #include "dynamics/block_path.h"
-#include "mechanism/frames.h"
+#include "mechanism/planar/frames.h"
 #include "models.h"
 #include "saddle.h"
 

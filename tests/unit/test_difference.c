@@ -12,7 +12,7 @@
 
 #include "assert_near.h"
 #include "base/message.h"
-#include "mechanism/difference.h"
+#include "mechanism/general/difference.h"
 #include "point.h"
 #include "user_models.h"
 

@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "mechanism/planar.h"
+#include "mechanism/planar/planar.h"
 
 #include "assert_near.h"
 #include "definitions.h"

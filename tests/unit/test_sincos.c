@@ -18,7 +18,7 @@
 #include "base/hot.h"
 #include "base/sincos.h"
 #include "dynamics/dynamics.h"
-#include "mechanism/frames.h"
+#include "mechanism/planar/frames.h"
 #include "saddle.h" /* random numbers */
 
 #define PI 3.14159265358979323846

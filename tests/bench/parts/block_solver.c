@@ -7,7 +7,7 @@
 
 #include "base/hot.h"
 #include "dynamics/block_path.h"
-#include "mechanism/frames.h"
+#include "mechanism/planar/frames.h"
 #include "solvers.h"
 
 typedef struct block_solver {

@@ -1,0 +1,357 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Are the derivatives that a user gives those of his functions?
+ *
+ * A given value g is compared with differences d at a row of shrinking steps.
+ * It is right as soon as
+ *
+ *   |g - d| <= 1e-6 max(|g|, |d|) + 1e-9 (size of its row)
+ *
+ * at one of them; the second part is what rounding may do to an entry that is small beside the
+ * others of its row. It is wrong when it never is, and the best d, and one more, differ from it by
+ * more than d's own error as well: 20 times the disagreement of the two orders (difference.c), plus
+ * that of neighbouring steps, plus rounding. And only where the function has a derivative at all:
+ * at a kink, such as dry friction at rest, the two sides differ by as much at any step.
+ *
+ * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is
+ * not zero there: derivatives must be those of the function, not only where the constraint is met.
+ * A pose that a function of an element refuses says nothing; only when it refuses them all is that
+ * the result. (The drawn one alone may be refused without fault: velocities that will follow from
+ * the constraints are taken as zero there.)
+ */
+#include "mechanism/general/check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/golden.h"
+#include "base/message.h"
+
+static const double tolerance = 1e-6;
+static const double row_tolerance = 1e-9;
+
+/* ---- one derivative ---- */
+
+/* What is known of the entries of one ray so far. */
+typedef struct trial {
+  baum_i_estimate now;
+  double *previous; /* value one step before */
+  double *value;    /* best */
+  double *error;    /* of the best; < 0 once the given value is found right */
+  double *quality;  /* of the best: error in units of how much the function varied */
+  double *step;     /* of the best */
+  double *wrong;    /* number of steps at which the given value looks wrong */
+} trial;
+
+/* Where the given values of a ray are, and what rounding may do to them. */
+typedef struct column {
+  const baum_i_claim *claim;
+  const baum_i_stencil *stencil;
+  const baum_i_field *field;
+  const baum_i_ray *ray;
+  const double *row_size; /* (size) of the field, or NULL */
+  int first;              /* entry i of the ray is first + i stride of the claim */
+  int stride;
+} column;
+
+static double given(const column *c, int i)
+{
+  return c->claim->given[c->first + i * c->stride];
+}
+
+static double allowed(const column *c, int i, double value)
+{
+  double floor = c->row_size ? row_tolerance * c->row_size[i] * c->ray->rate : 0.0;
+  return tolerance * fmax(fabs(given(c, i)), fabs(value)) + floor;
+}
+
+static trial take_trial(baum_i_local *here, int size)
+{
+  trial t = {.now = baum_i_estimate_take(here, size)};
+  t.previous = baum_i_take(here, size);
+  t.value = baum_i_take(here, size);
+  t.error = baum_i_take(here, size);
+  t.quality = baum_i_take(here, size);
+  t.step = baum_i_take(here, size);
+  t.wrong = baum_i_take(here, size);
+  for (int i = 0; i < size; i++) {
+    t.previous[i] = (double)NAN;
+    t.error[i] = (double)INFINITY;
+    t.quality[i] = (double)INFINITY;
+    t.wrong[i] = 0.0;
+  }
+  return t;
+}
+
+/* Keep the best step; the first, whose error is NaN, never is. */
+static void keep_best(const trial *t, int i, double value, double error, double step)
+{
+  double varied = t->now.variation[i] + t->now.noise[i];
+  double quality = varied > 0.0 ? error / varied : error;
+  if (quality < t->quality[i]) {
+    t->value[i] = value;
+    t->error[i] = error;
+    t->quality[i] = quality;
+    t->step[i] = step;
+  }
+}
+
+/* Take in the present step; true when all given values are found right. */
+static bool weigh(const column *c, const trial *t, double step)
+{
+  bool right = true;
+  for (int i = 0; i < c->field->size; i++) {
+    double value = t->now.value[i];
+    double error = 20.0 * t->now.error[i] + t->now.noise[i] + 2.0 * fabs(value - t->previous[i]);
+    double deviation = fabs(given(c, i) - value);
+    t->previous[i] = value;
+    if (t->error[i] < 0.0) {
+      continue;
+    }
+    if (deviation <= allowed(c, i, value)) {
+      t->error[i] = -1.0;
+      continue;
+    }
+    right = false;
+    t->wrong[i] += deviation > allowed(c, i, value) + error ? 1.0 : 0.0;
+    keep_best(t, i, value, error, step);
+  }
+  return right;
+}
+
+/* How far the derivatives of the two sides are apart, seen at a distance. */
+static double kink(const column *c, const baum_i_local *at, const baum_i_estimate *work,
+                   double step, int i)
+{
+  baum_status status =
+    baum_i_difference_once(&baum_i_stencil_second, c->field, c->ray, at, step, work);
+  return status == BAUM_OK ? step * fabs(work->value[i]) : (double)INFINITY;
+}
+
+/* At a smooth place the sides approach each other with the distance; at a kink they do not. */
+static bool is_smooth(const column *c, const baum_i_local *at, const trial *t, int i)
+{
+  double far = kink(c, at, &t->now, t->step[i], i);
+  double near = kink(c, at, &t->now, 0.125 * t->step[i], i);
+  return near <= 0.5 * far || near <= 0.25 * fabs(given(c, i) - t->value[i]);
+}
+
+/* Wrong at the best step, and not at that one alone, which may be by luck of rounding. */
+static bool is_wrong(const column *c, const trial *t, int i)
+{
+  double deviation = fabs(given(c, i) - t->value[i]);
+  return t->wrong[i] >= 2.0 && t->error[i] >= 0.0 &&
+         deviation > allowed(c, i, t->value[i]) + t->error[i];
+}
+
+static baum_status verdict(const column *c, const baum_i_local *at, const trial *t)
+{
+  for (int i = 0; i < c->field->size; i++) {
+    if (is_wrong(c, t, i) && (c->stencil->order == 2 || is_smooth(c, at, t, i))) {
+      char text[BAUM_I_ENTRY_SIZE];
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g but differences of %s give %.9g",
+                         baum_i_user_entry(c->claim->function, c->first + i * c->stride, text),
+                         given(c, i), c->claim->source, t->value[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status compare(const column *c, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  trial t = take_trial(&here, c->field->size);
+  double step = baum_i_first_step(c->stencil, c->ray);
+  for (int k = 0; k < c->stencil->steps; k++) {
+    here.point->retry = false;
+    baum_status status = baum_i_difference_once(c->stencil, c->field, c->ray, &here, step, &t.now);
+    if (status != BAUM_OK && !here.point->retry) {
+      return BAUM_OK; /* so near the edge of where it can be evaluated, nothing can be told */
+    }
+    if (status == BAUM_OK && weigh(c, &t, step)) {
+      return BAUM_OK;
+    }
+    step *= c->stencil->shrink;
+  }
+  return verdict(c, &here, &t);
+}
+
+baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
+                               const baum_i_field *field, const baum_i_ray *ray,
+                               const baum_i_local *at)
+{
+  column c = {
+    .claim = claim, .stencil = stencil, .field = field, .ray = ray, .first = 0, .stride = 1};
+  return compare(&c, at);
+}
+
+/* Largest given entry of each row, each times what its coordinate relevantly changes. */
+static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
+                          baum_i_variable variable, int size, double *direction, double *row_size)
+{
+  memset(row_size, 0, (size_t)size * sizeof *row_size);
+  for (int j = 0; j < at->nl; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
+    for (int i = 0; i < size; i++) {
+      row_size[i] = fmax(row_size[i], fabs(claim->given[i * at->nl + j]) / ray.rate);
+    }
+  }
+}
+
+baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
+                                   baum_i_variable variable, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  double *row_size = baum_i_take(&here, field->size);
+  find_row_size(claim, at, variable, field->size, direction, row_size);
+  baum_status status = BAUM_OK;
+  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
+    column c = {.claim = claim,
+                .stencil = &baum_i_stencil_first,
+                .field = field,
+                .ray = &ray,
+                .row_size = row_size,
+                .first = j,
+                .stride = at->nl};
+    status = compare(&c, &here);
+  }
+  return status;
+}
+
+/* ---- the whole mechanism ---- */
+
+/* A place to evaluate at, with its own memory. */
+typedef struct place {
+  baum_i_point point;
+  double *q;
+  double *v;
+} place;
+
+static void release_place(place *p)
+{
+  baum_i_point_release(&p->point);
+  baum_i_free(p->q);
+  baum_i_free(p->v);
+}
+
+static baum_status make_place(const baum_mechanism *mechanism, place *p)
+{
+  *p = (place){.q = NULL};
+  baum_status status = baum_i_point_create(mechanism, &p->point);
+  p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));
+  p->v = baum_i_alloc((size_t)mechanism->nv, sizeof(double));
+  return status == BAUM_OK && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
+}
+
+/* A number in (-1, 1) away from 0. */
+static double spread(int k)
+{
+  double size = 0.6 + 0.4 * baum_i_golden(k);
+  return k % 2 == 0 ? size : -size;
+}
+
+enum { POSE_COUNT = 4 };
+/* [1/s] Velocities, of the scales, that are rounding: what they move is lost in that of q. */
+static const double REST = 1e-12;
+
+/* Pose 0 is the drawn one, with the velocities given; others are beside it and move. */
+static void set_pose(place *p, int pose)
+{
+  static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};
+  const baum_mechanism *mechanism = p->point.mechanism;
+  for (int i = 0; i < mechanism->nv; i++) {
+    double drawn_v = mechanism->drawn_v[i];
+    int k = 3 * i + pose;
+    p->q[i] = mechanism->drawn_q[i];
+    p->v[i] = fabs(drawn_v) > REST * mechanism->scale[i] ? drawn_v : 0.0; /* NaN: free */
+    if (pose > 0) {
+      p->q[i] += 0.3 * mechanism->scale[i] * spread(k);
+      p->v[i] = mechanism->scale[i] * spread(k + 7 * pose + 1);
+    }
+  }
+  baum_i_point_set(&p->point, times[pose], p->q, p->v);
+}
+
+/* One element at one pose. */
+typedef baum_status check_fn(const void *element, baum_i_point *point);
+
+static baum_status check_body(const void *element, baum_i_point *point)
+{
+  const baum_i_body *body = element;
+  return body->type->check(body, point);
+}
+
+static baum_status check_joint(const void *element, baum_i_point *point)
+{
+  const baum_i_joint *joint = element;
+  return joint->type->check(joint, point);
+}
+
+static baum_status check_force(const void *element, baum_i_point *point)
+{
+  const baum_i_force *force = element;
+  return force->type->check(force, point);
+}
+
+static bool is_refusal(baum_status status)
+{
+  return status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
+}
+
+static baum_status check_poses(check_fn *check, const void *element, place *p)
+{
+  bool any = false;
+  for (int pose = 0; pose < POSE_COUNT; pose++) {
+    set_pose(p, pose);
+    baum_status status = check(element, &p->point);
+    if (status != BAUM_OK && !is_refusal(status)) {
+      return status;
+    }
+    any = any || status == BAUM_OK;
+  }
+  if (any) {
+    return BAUM_OK;
+  }
+  set_pose(p, 0); /* for the sentence of the drawn pose */
+  return check(element, &p->point);
+}
+
+static baum_status check_elements(const baum_mechanism *mechanism, place *p)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 1; i <= mechanism->body_count && status == BAUM_OK; i++) {
+    if (mechanism->bodies[i]->type->check) {
+      status = check_poses(check_body, mechanism->bodies[i], p);
+    }
+  }
+  for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
+    if (mechanism->joints[i]->type->check) {
+      status = check_poses(check_joint, mechanism->joints[i], p);
+    }
+  }
+  for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
+    if (mechanism->forces[i]->type->check) {
+      status = check_poses(check_force, mechanism->forces[i], p);
+    }
+  }
+  return status;
+}
+
+baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
+{
+  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_check_derivatives");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  place p;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  status = make_place(mechanism, &p);
+  if (status == BAUM_OK) {
+    status = check_elements(mechanism, &p);
+  }
+  release_place(&p);
+  return baum_i_message_settle(status, &kept);
+}

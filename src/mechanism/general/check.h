@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Comparing derivatives that a user gives with differences.
+ * How the verdict is found is told in check.c. */
+#ifndef BAUM_I_MECHANISM_GENERAL_CHECK_H
+#define BAUM_I_MECHANISM_GENERAL_CHECK_H
+
+#include "mechanism/general/difference.h"
+
+/* A derivative to be doubted. */
+typedef struct baum_i_claim {
+  const baum_i_user_function *function; /* "jacobian", with its shape */
+  const char *source;                   /* what was differenced, for the sentence: "phi" */
+  const double *given;                  /* its values at the place */
+} baum_i_claim;
+
+/* Compare with the derivative of order 1 or 2 of a field along a ray. BAUM_OK also where
+ * differences cannot tell; else BAUM_ERR_ARGUMENT: `joint 2 "circle": gamma()[0] is 3 but
+ * differences of phi give 2`. */
+baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *stencil,
+                               const baum_i_field *field, const baum_i_ray *ray,
+                               const baum_i_local *at);
+
+/* Compare (size x nl) with the derivatives of a field by q or v. */
+baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
+                                   baum_i_variable variable, const baum_i_local *at);
+
+#endif

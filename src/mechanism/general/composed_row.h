@@ -1,0 +1,59 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A row G(c_0, c_1) of two coordinates: both those of a point on a curve, or those of two joints
+ * that are coupled.
+ *
+ * Its columns are three for each of up to four bodies, in the order of the row's span; those of a
+ * coordinate are six of them.
+ */
+#ifndef BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
+#define BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
+
+#include "mechanism/mechanism.h"
+
+enum { BAUM_I_COMPOSED_BODIES = 4, BAUM_I_COMPOSED_COLUMNS = 3 * BAUM_I_COMPOSED_BODIES };
+
+/* One of the two coordinates. */
+typedef struct baum_i_inner {
+  baum_i_coordinate c;
+  baum_i_coordinate_blocks blocks; /* for lambda = 1; only for linearize */
+  int at[2];                       /* where the three columns of each of its bodies begin */
+} baum_i_inner;
+
+/* G and its derivatives at both. */
+typedef struct baum_i_outer {
+  double value;
+  double first[2];  /* G_0, G_1 */
+  double second[3]; /* G_00, G_01, G_11 */
+  double third[4];  /* G_000, G_001, G_011, G_111; only for gamma_q */
+} baum_i_outer;
+
+/* Over the first `columns`; jtl_q is columns x columns. */
+typedef struct baum_i_composed_blocks {
+  double jw_q[BAUM_I_COMPOSED_COLUMNS];
+  double jtl_q[BAUM_I_COMPOSED_COLUMNS * BAUM_I_COMPOSED_COLUMNS];
+  double gamma_q[BAUM_I_COMPOSED_COLUMNS];
+  double gamma_v[BAUM_I_COMPOSED_COLUMNS];
+} baum_i_composed_blocks;
+
+/* The six columns of a coordinate from those of the row. */
+void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
+
+/* Sets all columns of the struct's size. */
+void baum_i_composed_gradient(const baum_i_inner x[2], const baum_i_outer *g,
+                              double wide[BAUM_I_COMPOSED_COLUMNS]);
+
+double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g);
+
+/* w (columns); out is set. */
+void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, int columns,
+                               const double *w, double lambda, baum_i_composed_blocks *out);
+
+/* What is wanted of a row at its joint's place. */
+void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point,
+                             const baum_i_inner x[2], const baum_i_outer *g,
+                             const baum_i_rows *out);
+void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *point,
+                                const baum_i_composed_blocks *wide,
+                                const baum_i_joint_blocks *blocks);
+
+#endif

@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks and drawn values of joints' coordinates. */
+#include "mechanism/general/coordinate.h"
+
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/planar/planar.h"
+
+baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
+                                    const char *label, const char *field, const char *purpose)
+{
+  baum_status status = baum_i_check_joint(mechanism, id, label, field);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_i_joint *joint = mechanism->joints[baum_i_joint_index(mechanism, id)];
+  if (!joint->type->coordinate) {
+    char text[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, a %s, which has no coordinate %s", label,
+                       field, baum_i_label(&joint->element, "joint", text),
+                       joint->type->definition.kind, purpose);
+  }
+  /* A pin may hold a particle, but then it has no angle. */
+  bool is_angle = strcmp(joint->type->coordinate_unit, "rad") == 0;
+  return is_angle ? baum_i_planar_check_angles(mechanism, joint->element.def, label) : BAUM_OK;
+}
+
+double baum_i_drawn_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)
+{
+  /* The two bodies alone, renumbered: a coordinate sees no other. */
+  int pair[2] = {0, 1};
+  baum_i_frame frames[2] = {baum_i_drawn_frame(mechanism, joint->span.bodies[0]),
+                            baum_i_drawn_frame(mechanism, joint->span.bodies[1])};
+  baum_i_joint alone = *joint;
+  alone.span.bodies = pair;
+  baum_i_point point = {
+    .mechanism = mechanism, .parameters = mechanism->parameters, .frames = frames};
+  baum_i_coordinate c;
+  joint->type->coordinate(&alone, &point, &c);
+  return c.value;
+}

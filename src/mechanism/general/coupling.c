@@ -1,0 +1,315 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Coupling: one row that ties the coordinates of two joints.
+ *
+ *   Phi  = c_b - f(c_a)                  (1)
+ *   f(x) = ratio x + offset, or the user's law: a cam whose follower is a joint
+ *
+ * J, gamma and second derivatives by the chain rule of composed_row.c; c and its derivatives are
+ * those of the joints' types. The third derivative of a law, which only gamma_q needs, is a
+ * difference of the second one.
+ *
+ * The joints may share bodies, and then their columns add up: the row's bodies are those of joint_a
+ * and those of joint_b, each once.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/general/check.h"
+#include "mechanism/general/composed_row.h"
+#include "mechanism/general/coordinate.h"
+#include "mechanism/planar/planar.h"
+
+/* Parameters. */
+enum { RATIO, OFFSET, PARAMETER_COUNT };
+
+/* Of the law. */
+enum { VALUE, SLOPE, CURVATURE, LAW_SIZE };
+
+static const baum_coupling_def defaults = {
+  .struct_size = sizeof(baum_coupling_def), .ratio = 1.0, .offset = BAUM_I_NOT_GIVEN};
+
+/* ---- definition ---- */
+
+/* Number 0: joint_a, 1: joint_b. */
+static const baum_i_joint *coupled(const baum_mechanism *mechanism, const void *given, int number)
+{
+  const baum_coupling_def *def = given;
+  baum_joint_id id = number == 0 ? def->joint_a : def->joint_b;
+  return mechanism->joints[baum_i_joint_index(mechanism, id)];
+}
+
+static baum_status check_joints(const baum_mechanism *mechanism, const baum_coupling_def *def,
+                                const char *label)
+{
+  baum_status status =
+    baum_i_check_coordinate(mechanism, def->joint_a, label, "joint_a", "to couple");
+  if (status == BAUM_OK) {
+    status = baum_i_check_coordinate(mechanism, def->joint_b, label, "joint_b", "to couple");
+  }
+  if (status == BAUM_OK && def->joint_a.index1 == def->joint_b.index1) {
+    char text[BAUM_I_LABEL_SIZE];
+    status =
+      baum_i_fail(BAUM_ERR_ARGUMENT, "%s: joint_a and joint_b are both %s", label,
+                  baum_i_joint_label(mechanism, baum_i_joint_index(mechanism, def->joint_a), text));
+  }
+  return status;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_coupling_def *def = given;
+  baum_status status = check_joints(mechanism, def, label);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "ratio", "[unit b / unit a]", def->ratio);
+  }
+  return status == BAUM_OK ? baum_i_check_optional(label, "offset", "rad or m", def->offset)
+                           : status;
+}
+
+/* As of a driver: in a copy, too, the joints are those that come before. */
+static const char *tied(const void *present, const void *next)
+{
+  const baum_coupling_def *a = present;
+  const baum_coupling_def *b = next;
+  if (a->joint_a.index1 != b->joint_a.index1) {
+    return "joint_a";
+  }
+  return a->joint_b.index1 == b->joint_b.index1 ? NULL : "joint_b";
+}
+
+/* Place of a body among the first `count`; count when it is not there. */
+static int find(const int *bodies, int count, int body)
+{
+  int k = 0;
+  while (k < count && bodies[k] != body) {
+    k++;
+  }
+  return k;
+}
+
+static void bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
+{
+  int all[BAUM_I_COMPOSED_BODIES];
+  int count = 0;
+  for (int k = 0; k < BAUM_I_COMPOSED_BODIES; k++) {
+    int body = coupled(mechanism, def, k / 2)->span.bodies[k % 2];
+    if (find(all, count, body) == count) {
+      all[count++] = body;
+    }
+  }
+  span->body_count = count;
+  if (span->bodies) {
+    memcpy(span->bodies, all, (size_t)count * sizeof *all);
+  }
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  const baum_coupling_def *def = joint->element.def;
+  parameters[RATIO] = def->ratio;
+  parameters[OFFSET] = def->offset;
+  if (isnan(def->offset)) {
+    double a = baum_i_drawn_coordinate(mechanism, coupled(mechanism, def, 0));
+    double b = baum_i_drawn_coordinate(mechanism, coupled(mechanism, def, 1));
+    parameters[OFFSET] = b - def->ratio * a;
+  }
+  return BAUM_OK;
+}
+
+/* ---- the law ---- */
+
+static baum_i_user_function function(const baum_i_joint *joint)
+{
+  const baum_coupling_def *def = joint->element.def;
+  return (baum_i_user_function){.element = &joint->element,
+                                .family = "joint",
+                                .name = "law",
+                                .rows = LAW_SIZE,
+                                .user = def->user};
+}
+
+/* The law's own place, to call and to difference at; values (q, v, scale) stay the caller's. */
+static baum_i_local place_at(baum_i_point *point, const double values[3])
+{
+  return (baum_i_local){.point = point,
+                        .nl = 1,
+                        .t = point->t,
+                        .q = values,
+                        .v = values + 1,
+                        .scale = values + 2,
+                        .free = point->scratch};
+}
+
+static baum_status law_at(const baum_i_joint *joint, const baum_i_local *at, double f[LAW_SIZE])
+{
+  const baum_coupling_def *def = joint->element.def;
+  if (!def->law) {
+    const double *numbers = at->point->parameters + joint->element.parameter;
+    f[VALUE] = numbers[RATIO] * at->q[0] + numbers[OFFSET];
+    f[SLOPE] = numbers[RATIO];
+    f[CURVATURE] = 0.0;
+    return BAUM_OK;
+  }
+  baum_i_user_function user = function(joint);
+  baum_i_begin_call(&user, at, f);
+  return baum_i_judge(&user, at, def->law(at->q[0], f, def->user), f);
+}
+
+/* ---- the row ---- */
+
+/* One coupling at a point. */
+typedef struct state {
+  const baum_i_joint *joints[2];
+  baum_i_inner x[2];
+  double values[3]; /* coordinate of joint_a, zero, scale: a place */
+  double f[LAW_SIZE];
+  baum_i_outer g;
+} state;
+
+static void set_inner(const baum_i_joint *joint, const baum_i_point *point, int number, state *s)
+{
+  const baum_i_joint *of = coupled(point->mechanism, joint->element.def, number);
+  s->joints[number] = of;
+  of->type->coordinate(of, point, &s->x[number].c);
+  for (int k = 0; k < 2; k++) {
+    s->x[number].at[k] = 3 * find(joint->span.bodies, joint->span.body_count, of->span.bodies[k]);
+  }
+}
+
+static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  set_inner(joint, point, 0, s);
+  set_inner(joint, point, 1, s);
+  bool is_angle = strcmp(s->joints[0]->type->coordinate_unit, "rad") == 0;
+  s->values[0] = s->x[0].c.value;
+  s->values[1] = 0.0;
+  s->values[2] = is_angle ? 1.0 : point->mechanism->length;
+  baum_i_local at = place_at(point, s->values);
+  baum_status status = law_at(joint, &at, s->f);
+  s->g = (baum_i_outer){.value = s->x[1].c.value - s->f[VALUE],
+                        .first = {-s->f[SLOPE], 1.0},
+                        .second = {-s->f[CURVATURE]}};
+  return status;
+}
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    state s;
+    status = state_at(group->joints[i], point, &s);
+    if (status == BAUM_OK) {
+      baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
+    }
+  }
+  return status;
+}
+
+/* ---- second derivatives ---- */
+
+static baum_status curvature_field(const void *joint, const baum_i_local *at, double *out)
+{
+  double f[LAW_SIZE];
+  baum_status status = law_at(joint, at, f);
+  out[0] = f[CURVATURE];
+  return status;
+}
+
+static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  baum_i_local at = place_at(point, s->values);
+  baum_i_field field = {.evaluate = curvature_field, .context = joint, .size = 1};
+  double third;
+  baum_status status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, &third);
+  s->g.third[0] = -third;
+  return status;
+}
+
+static bool needs_third(const baum_i_joint *joint, const state *s,
+                        const baum_i_joint_blocks *blocks)
+{
+  const baum_coupling_def *def = joint->element.def;
+  return def->law && blocks->gamma_q && s->x[0].c.rate != 0.0;
+}
+
+/* w (nv) or NULL. */
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  state s;
+  baum_status status = state_at(joint, point, &s);
+  if (status == BAUM_OK && needs_third(joint, &s, blocks)) {
+    status = set_third(joint, point, &s);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double w_wide[BAUM_I_COMPOSED_COLUMNS] = {0.0};
+  baum_i_planar_gather(point, &joint->span, w, w_wide);
+  for (int i = 0; i < 2; i++) {
+    double six[6];
+    baum_i_composed_narrow(&s.x[i], w_wide, six);
+    s.joints[i]->type->coordinate_linearize(s.joints[i], point, six, 1.0, &s.x[i].blocks);
+  }
+  baum_i_composed_blocks wide;
+  baum_i_composed_linearize(s.x, &s.g, 3 * joint->span.body_count, w_wide,
+                            lambda ? lambda[joint->row] : 0.0, &wide);
+  baum_i_composed_put_blocks(joint, point, &wide, blocks);
+  return BAUM_OK;
+}
+
+/* ---- checking what is given ---- */
+
+/* Value and slope in the places of their derivatives, so that the sentence names their entry. */
+static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
+{
+  double f[LAW_SIZE];
+  baum_status status = law_at(joint, at, f);
+  out[VALUE] = 0.0;
+  out[SLOPE] = f[VALUE];
+  out[CURVATURE] = f[SLOPE];
+  return status;
+}
+
+static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+{
+  const baum_coupling_def *def = joint->element.def;
+  if (!def->law) {
+    return BAUM_OK;
+  }
+  state s;
+  baum_status status = state_at(joint, point, &s);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double direction[1];
+  const double given[LAW_SIZE] = {0.0, s.f[SLOPE], s.f[CURVATURE]};
+  baum_i_local at = place_at(point, s.values);
+  baum_i_user_function law = function(joint);
+  baum_i_field field = {.evaluate = derived_field, .context = joint, .size = LAW_SIZE};
+  baum_i_claim claim = {&law, "law", given};
+  baum_i_ray ray = baum_i_column_ray(&at, BAUM_I_VARIABLE_Q, 0, direction);
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &at);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "coupling",
+                 .size = sizeof(baum_coupling_def),
+                 .defaults = &defaults,
+                 .check = check,
+                 .tied = tied},
+  .parameter_count = PARAMETER_COUNT,
+  .scleronomic = true,
+  .row_count = 1,
+  .bodies = bodies,
+  .lower = lower,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .check = check_derivatives,
+};
+
+BAUM_I_DEFINE(joint, coupling, type)

@@ -1,0 +1,317 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Derivatives by central differences of sixth order.
+ *
+ *   f'(0)  = sum_k c_k (f(kh) - f(-kh)) / h              c = 3/4, -3/20, 1/60,   error h^6 f(7)/140
+ *   f''(0) = sum_k c_k (f(kh) - 2 f(0) + f(-kh)) / h^2   c = 3/2, -3/20, 1/90,   error h^6 f(8)/560
+ *
+ * Rounding of F, a few eps |F|, adds eps |F| / h and 6 eps |F| / h^2. With s measured in relevant
+ * changes the best steps are near 2^-8 and 2^-6; they are taken somewhat small, so that functions
+ * that move three times as fast as announced lose nothing: about 1e-13 and 1e-11 remain.
+ *
+ * The same values give differences of fourth order (2/3, -1/12 and 4/3, -1/12). Where the two
+ * orders agree to 1e-7, the sixth is good to about 1e-11; first derivatives can afford to ask for
+ * 1e-9. Where they do not agree, the announced scale was too large for F, and the step is shrunk
+ * until they do: a scale that is wrong by 1e6 costs time, not truth. The search ends when
+ * disagreement is rounding.
+ *
+ * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
+ * q, so that q + k h is exact also after ten thousand turns of a crank.
+ *
+ * Central differences look to both sides: in t, F is evaluated up to 3 h before and after the
+ * present.
+ */
+#include "mechanism/general/difference.h"
+
+#include <float.h>
+#include <math.h>
+
+const baum_i_stencil baum_i_stencil_first = {
+  .order = 1,
+  .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
+  .fourth = {2.0 / 3.0, -1.0 / 12.0, 0.0},
+  .step = 0x1p-9,
+  .shrink = 0.125,
+  .steps = 8,
+  .agreement = 1e-9,
+};
+
+/* For a field that carries an error of 1e-11 already, which must not be divided by a small step. */
+static const baum_i_stencil stencil_rough = {
+  .order = 1,
+  .sixth = {3.0 / 4.0, -3.0 / 20.0, 1.0 / 60.0},
+  .fourth = {2.0 / 3.0, -1.0 / 12.0, 0.0},
+  .step = 0x1p-5,
+  .shrink = 0.125,
+  .steps = 9,
+  .agreement = 1e-7,
+};
+
+const baum_i_stencil baum_i_stencil_second = {
+  .order = 2,
+  .sixth = {3.0 / 2.0, -3.0 / 20.0, 1.0 / 90.0},
+  .fourth = {4.0 / 3.0, -1.0 / 12.0, 0.0},
+  .step = 0x1p-6,
+  .shrink = 0.25,
+  .steps = 12,
+  .agreement = 1e-7,
+};
+
+/* Rounding of F in units of its own last place, allowing for larger terms inside F that cancel. */
+static const double rounding = 64.0 * DBL_EPSILON;
+
+/* ---- rays ---- */
+
+double baum_i_rate(const baum_i_local *at)
+{
+  double rate = 0.0;
+  for (int i = 0; i < at->nl; i++) {
+    rate = fmax(rate, fabs(at->v[i]) / at->scale[i]);
+  }
+  return rate;
+}
+
+baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, int column,
+                             double *direction)
+{
+  for (int i = 0; i < at->nl; i++) {
+    direction[i] = i == column ? 1.0 : 0.0;
+  }
+  baum_i_ray ray = {.rate = 1.0 / at->scale[column]};
+  if (variable == BAUM_I_VARIABLE_Q) {
+    ray.dq = direction;
+  } else {
+    ray.dv = direction;
+    ray.rate /= fmax(baum_i_rate(at), 1.0);
+  }
+  return ray;
+}
+
+double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
+{
+  int exponent;
+  (void)frexp(stencil->step / ray->rate, &exponent);
+  return ldexp(1.0, exponent - 1);
+}
+
+/* ---- one step size ---- */
+
+/* The steps of all coordinates, and where the field is evaluated. */
+typedef struct probe {
+  const baum_i_field *field;
+  const baum_i_local *at;
+  double step_t;
+  double *step_q;
+  double *step_v;
+  double *q;
+  double *v;
+  double *free;
+} probe;
+
+/* The step d from x, rounded so that x + d, x + 2 d, x + 3 d need no rounding. */
+static double exact_step(double x, double d)
+{
+  double farthest = fabs(x) + 3.0 * fabs(d);
+  if (farthest == 0.0 || !isfinite(farthest)) {
+    return d;
+  }
+  double spacing = ldexp(1.5, ilogb(farthest) + 1);
+  return (d + spacing) - spacing;
+}
+
+static void set_steps(double *steps, const double *x, const double *direction, double step, int n)
+{
+  for (int i = 0; i < n; i++) {
+    steps[i] = direction ? exact_step(x[i], step * direction[i]) : 0.0;
+  }
+}
+
+static probe make_probe(baum_i_local *here, const baum_i_field *field, const baum_i_ray *ray,
+                        const baum_i_local *at, double step)
+{
+  probe p = {.field = field, .at = at};
+  p.step_t = exact_step(at->t, step * ray->dt);
+  p.step_q = baum_i_take(here, at->nl);
+  p.step_v = baum_i_take(here, at->nl);
+  p.q = baum_i_take(here, at->nl);
+  p.v = baum_i_take(here, at->nl);
+  set_steps(p.step_q, at->q, ray->dq, step, at->nl);
+  set_steps(p.step_v, at->v, ray->dv, step, at->nl);
+  return p;
+}
+
+/* F at k steps. */
+static baum_status sample(const probe *p, int k, double *out)
+{
+  for (int i = 0; i < p->at->nl; i++) {
+    p->q[i] = p->at->q[i] + k * p->step_q[i];
+    p->v[i] = p->at->v[i] + k * p->step_v[i];
+  }
+  baum_i_local there = *p->at;
+  there.t = p->at->t + k * p->step_t;
+  there.q = p->q;
+  there.v = p->v;
+  there.free = p->free;
+  return p->field->evaluate(p->field->context, &there, out);
+}
+
+static void begin(const baum_i_estimate *out, int size)
+{
+  for (int i = 0; i < size; i++) {
+    out->value[i] = 0.0;
+    out->error[i] = 0.0;
+    out->noise[i] = 0.0;
+    out->variation[i] = 0.0;
+  }
+}
+
+/* Add the pair at distance k + 1; centre is NULL for first derivatives. */
+static void add_pair(const baum_i_stencil *stencil, int k, const double *plus, const double *minus,
+                     const double *centre, const baum_i_estimate *out, int size)
+{
+  for (int i = 0; i < size; i++) {
+    double pair = centre ? (plus[i] - centre[i]) + (minus[i] - centre[i]) : plus[i] - minus[i];
+    out->value[i] += stencil->sixth[k] * pair;
+    out->error[i] += (stencil->sixth[k] - stencil->fourth[k]) * pair;
+    out->noise[i] = fmax(out->noise[i], fmax(fabs(plus[i]), fabs(minus[i])));
+    out->variation[i] = fmax(out->variation[i], fabs(pair));
+  }
+}
+
+static void finish(const baum_i_stencil *stencil, double step, const baum_i_estimate *out, int size)
+{
+  double unit = stencil->order == 1 ? step : step * step;
+  for (int i = 0; i < size; i++) {
+    out->value[i] /= unit;
+    out->error[i] = fabs(out->error[i]) / unit;
+    out->noise[i] *= rounding / unit;
+    out->variation[i] /= unit;
+  }
+}
+
+baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
+{
+  baum_i_estimate estimate;
+  estimate.value = baum_i_take(here, size);
+  estimate.error = baum_i_take(here, size);
+  estimate.noise = baum_i_take(here, size);
+  estimate.variation = baum_i_take(here, size);
+  return estimate;
+}
+
+baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_field *field,
+                                   const baum_i_ray *ray, const baum_i_local *at, double step,
+                                   const baum_i_estimate *out)
+{
+  baum_i_local here = *at;
+  probe p = make_probe(&here, field, ray, at, step);
+  double *plus = baum_i_take(&here, field->size);
+  double *minus = baum_i_take(&here, field->size);
+  double *centre = stencil->order == 2 ? baum_i_take(&here, field->size) : NULL;
+  p.free = here.free;
+  begin(out, field->size);
+  baum_status status = centre ? sample(&p, 0, centre) : BAUM_OK;
+  for (int k = 0; k < 3 && status == BAUM_OK; k++) {
+    status = sample(&p, k + 1, plus);
+    if (status == BAUM_OK) {
+      status = sample(&p, -k - 1, minus);
+    }
+    if (status == BAUM_OK) {
+      add_pair(stencil, k, plus, minus, centre, out, field->size);
+    }
+  }
+  finish(stencil, step, out, field->size);
+  return status;
+}
+
+/* ---- the search for a step ---- */
+
+/* Take over the entries that got better. best (size) is how far the orders were apart at best, in
+ * units of how much F varied; < 0 when good enough. True when a smaller step is not worth
+ * trying. */
+static bool settle(const baum_i_estimate *now, double agreement, double *out, double *best,
+                   int size)
+{
+  bool settled = true;
+  for (int i = 0; i < size; i++) {
+    if (best[i] < 0.0) {
+      continue;
+    }
+    if (now->error[i] <= agreement * fabs(now->value[i]) + now->noise[i]) {
+      out[i] = now->value[i];
+      best[i] = -1.0;
+      continue;
+    }
+    /* Worth it while it helps, and while the orders disagree by far more than rounding can
+     * explain. */
+    double apart = now->error[i] / now->variation[i];
+    bool helps = apart < 0.5 * best[i];
+    bool coarse = apart > 1e-3 && now->error[i] > 1e4 * now->noise[i];
+    settled = settled && !helps && !coarse;
+    if (apart < best[i]) {
+      out[i] = now->value[i];
+      best[i] = apart;
+    }
+  }
+  return settled;
+}
+
+static baum_status differentiate(const baum_i_stencil *stencil, const baum_i_field *field,
+                                 const baum_i_ray *ray, const baum_i_local *at, double *out)
+{
+  baum_i_local here = *at;
+  baum_i_estimate now = baum_i_estimate_take(&here, field->size);
+  double *best = baum_i_take(&here, field->size);
+  for (int i = 0; i < field->size; i++) {
+    best[i] = (double)INFINITY;
+  }
+  double step = baum_i_first_step(stencil, ray);
+  baum_status status = BAUM_OK;
+  bool any = false;
+  for (int k = 0; k < stencil->steps; k++) {
+    here.point->retry = false;
+    status = baum_i_difference_once(stencil, field, ray, &here, step, &now);
+    /* A function that cannot be evaluated that far away may be near the edge of where it can. */
+    if (status != BAUM_OK && !here.point->retry) {
+      return status;
+    }
+    if (status == BAUM_OK) {
+      any = true;
+      if (settle(&now, stencil->agreement, out, best, field->size)) {
+        break;
+      }
+    }
+    step *= stencil->shrink;
+  }
+  here.point->retry = !any;
+  return any ? BAUM_OK : status;
+}
+
+baum_status baum_i_difference_first(const baum_i_field *field, const baum_i_ray *ray,
+                                    const baum_i_local *at, double *out)
+{
+  const baum_i_stencil *stencil = field->rough ? &stencil_rough : &baum_i_stencil_first;
+  return differentiate(stencil, field, ray, at, out);
+}
+
+baum_status baum_i_difference_second(const baum_i_field *field, const baum_i_ray *ray,
+                                     const baum_i_local *at, double *out)
+{
+  return differentiate(&baum_i_stencil_second, field, ray, at, out);
+}
+
+baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable variable,
+                                      const baum_i_local *at, double *out)
+{
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  double *column = baum_i_take(&here, field->size);
+  baum_status status = BAUM_OK;
+  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
+    status = baum_i_difference_first(field, &ray, &here, column);
+    for (int i = 0; i < field->size && status == BAUM_OK; i++) {
+      out[i * at->nl + j] = column[i];
+    }
+  }
+  return status;
+}

@@ -1,0 +1,86 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Derivatives by central differences, for what a user does not give and for checking what he gives.
+ *
+ * Everything is a derivative at s = 0 along a ray in (t, q, v):
+ *
+ *   f(s) = F(t + s dt, q + s dq, v + s dv)
+ *
+ * How differences are taken, and how far they can be trusted, is told in difference.c.
+ */
+#ifndef BAUM_I_MECHANISM_GENERAL_DIFFERENCE_H
+#define BAUM_I_MECHANISM_GENERAL_DIFFERENCE_H
+
+#include "mechanism/general/user_function.h"
+
+/* F: size values at a place. It may move along the ray to where a user function fails. */
+typedef baum_status baum_i_field_fn(const void *context, const baum_i_local *at, double *out);
+
+typedef struct baum_i_field {
+  baum_i_field_fn *evaluate;
+  const void *context;
+  int size;
+  bool rough; /* values come from differences themselves and carry their error */
+} baum_i_field;
+
+typedef struct baum_i_ray {
+  double dt;
+  const double *dq; /* (nl), or NULL for zeros */
+  const double *dv; /* (nl), or NULL for zeros */
+  double rate;      /* > 0; a relevant change takes s = 1 / rate */
+} baum_i_ray;
+
+/* Derivatives of all columns are taken with respect to one of these. */
+typedef enum baum_i_variable { BAUM_I_VARIABLE_Q, BAUM_I_VARIABLE_V } baum_i_variable;
+
+/* Largest |v_i| / scale_i: how many relevant changes per unit of time. */
+double baum_i_rate(const baum_i_local *at);
+
+/* Ray along one coordinate; direction (nl) is set and kept by the ray. */
+baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, int column,
+                             double *direction);
+
+/* f'(0) and f''(0); out (size). */
+baum_status baum_i_difference_first(const baum_i_field *field, const baum_i_ray *ray,
+                                    const baum_i_local *at, double *out);
+baum_status baum_i_difference_second(const baum_i_field *field, const baum_i_ray *ray,
+                                     const baum_i_local *at, double *out);
+
+/* dF/dq or dF/dv; out (size x nl). */
+baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable variable,
+                                      const baum_i_local *at, double *out);
+
+/* ---- one step size at a time, for those who judge ---- */
+
+/* Weights of a derivative of order 1 or 2. */
+typedef struct baum_i_stencil {
+  int order;
+  double sixth[3]; /* weights of the pairs at distance 1, 2, 3 */
+  double fourth[3];
+  double step;      /* first step, in relevant changes */
+  double shrink;    /* factor to the next step */
+  int steps;        /* at most so many */
+  double agreement; /* of the two orders, relative, that ends the search */
+} baum_i_stencil;
+
+extern const baum_i_stencil baum_i_stencil_first;
+extern const baum_i_stencil baum_i_stencil_second;
+
+/* What one step size tells; arrays (size). */
+typedef struct baum_i_estimate {
+  double *value;     /* of sixth order */
+  double *error;     /* distance of the orders: far above value's when the step is good */
+  double *noise;     /* what rounding of F alone may do to value */
+  double *variation; /* largest pair of the stencil, in units of value */
+} baum_i_estimate;
+
+/* Arrays of an estimate. */
+baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size);
+
+/* The first step of a stencil, a power of two. */
+double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray);
+
+baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_field *field,
+                                   const baum_i_ray *ray, const baum_i_local *at, double step,
+                                   const baum_i_estimate *out);
+
+#endif

@@ -1,0 +1,160 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The row of a driver, whatever gives its motion s(t). */
+#include "mechanism/general/driven.h"
+
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/general/coordinate.h"
+#include "mechanism/planar/planar.h"
+
+static const baum_i_joint *driven_by(const baum_mechanism *mechanism, const void *def)
+{
+  const baum_i_driver_head *head = def; /* which has been checked */
+  return mechanism->joints[head->joint.index1 - 1];
+}
+
+/* ---- definition ---- */
+
+baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_i_driver_head *head = def;
+  return baum_i_check_coordinate(mechanism, head->joint, label, "joint", "to drive");
+}
+
+/* A driver always comes after its joint; in a copy, too, that is what it finds. */
+const char *baum_i_driver_tied(const void *present, const void *next)
+{
+  const baum_i_driver_head *a = present;
+  const baum_i_driver_head *b = next;
+  return a->joint.index1 == b->joint.index1 ? NULL : "joint";
+}
+
+void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
+{
+  const baum_i_joint *driven = driven_by(mechanism, def);
+  driven->type->bodies(mechanism, driven->element.def, span);
+}
+
+/* ---- motion ---- */
+
+void baum_i_driver_replace_law(double *parameters, double t0, const double s[3])
+{
+  parameters[BAUM_I_DRIVER_S] = s[0];
+  parameters[BAUM_I_DRIVER_DS] = s[1];
+  parameters[BAUM_I_DRIVER_DDS] = s[2];
+  parameters[BAUM_I_DRIVER_T0] = t0;
+  parameters[BAUM_I_DRIVER_POLYNOMIAL] = 1.0;
+}
+
+static void polynomial(const double *numbers, double t, double s[3])
+{
+  double tau = t - numbers[BAUM_I_DRIVER_T0];
+  double ds = numbers[BAUM_I_DRIVER_DS];
+  double dds = numbers[BAUM_I_DRIVER_DDS];
+  s[0] = numbers[BAUM_I_DRIVER_S] + tau * (ds + 0.5 * tau * dds);
+  s[1] = ds + tau * dds;
+  s[2] = dds;
+}
+
+static baum_status motion_of(const baum_i_joint *joint, baum_i_point *point,
+                             baum_i_motion_fn *motion, double s[3])
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  if (numbers[BAUM_I_DRIVER_POLYNOMIAL] == 0.0) {
+    return motion(joint, point, s);
+  }
+  polynomial(numbers, point->t, s);
+  return BAUM_OK;
+}
+
+baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
+                                const double s[3])
+{
+  static const char *const names[3] = {"value", "rate", "acceleration"};
+  static const char *const per[3] = {"", "/s", "/s^2"};
+  for (int i = 0; i < 3; i++) {
+    if (!isfinite(s[i])) {
+      char label[BAUM_I_LABEL_SIZE];
+      point->retry = true;
+      return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
+                         baum_i_label(&driver->element, "joint", label), source, s[i], names[i],
+                         driven_by(point->mechanism, driver->element.def)->type->coordinate_unit,
+                         per[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* ---- evaluation ---- */
+
+static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
+                                baum_i_motion_fn *motion, const baum_i_rows *out)
+{
+  double s[3] = {0.0};
+  if (out->phi || out->nu || out->gamma) {
+    baum_status status = motion_of(joint, point, motion, s);
+    if (status != BAUM_OK) {
+      return status;
+    }
+  }
+  const baum_i_joint *driven = driven_by(point->mechanism, joint->element.def);
+  baum_i_coordinate c;
+  driven->type->coordinate(driven, point, &c);
+  if (out->phi) {
+    out->phi[joint->row] = c.value - s[0];
+  }
+  if (out->jacobian) {
+    baum_i_planar_pack(point->mechanism, &joint->span, 1, c.gradient,
+                       out->jacobian + joint->jacobian);
+  }
+  if (out->nu) {
+    out->nu[joint->row] = s[1];
+  }
+  if (out->gamma) {
+    out->gamma[joint->row] = c.gamma + s[2];
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                                   baum_i_motion_fn *motion, const baum_i_rows *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    status = evaluate_one(group->joints[i], point, motion, out);
+  }
+  return status;
+}
+
+static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, const double *six,
+                    double *rows_of_all)
+{
+  if (rows_of_all) {
+    baum_i_planar_pack(mechanism, &joint->span, 1, six, rows_of_all + joint->jacobian);
+  }
+}
+
+baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                                    const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  const baum_mechanism *mechanism = point->mechanism;
+  const baum_i_joint *driven = driven_by(mechanism, joint->element.def);
+  double w_six[6];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_coordinate_blocks six;
+  driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0, &six);
+  put_row(joint, mechanism, six.jw_q, blocks->jw_q);
+  put_row(joint, mechanism, six.gamma_q, blocks->gamma_q);
+  put_row(joint, mechanism, six.gamma_v, blocks->gamma_v);
+  if (blocks->jtl_q) {
+    baum_i_planar_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
+  }
+  return BAUM_OK;
+}
+
+void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[2])
+{
+  const baum_i_joint *driven = driven_by(point->mechanism, joint->element.def);
+  driven->type->place(driven, point, at);
+}

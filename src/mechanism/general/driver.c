@@ -1,0 +1,127 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Driver: one row that prescribes the coordinate of another joint (driven.h) by
+ *
+ *   s(t) = value + rate t + acceleration t^2 / 2, or the user's law
+ */
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/general/check.h"
+#include "mechanism/general/driven.h"
+
+static const baum_driver_def defaults = {.struct_size = sizeof(baum_driver_def)};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_driver_def *def = given;
+  baum_status status = baum_i_driver_check(mechanism, def, label);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "value", "rad or m", def->value);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "rate", "rad/s or m/s", def->rate);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "acceleration", "rad/s^2 or m/s^2", def->acceleration);
+  }
+  return status;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  (void)mechanism;
+  const baum_driver_def *def = joint->element.def;
+  if (!def->law) {
+    const double s[3] = {def->value, def->rate, def->acceleration};
+    baum_i_driver_replace_law(parameters, 0.0, s);
+  }
+  return BAUM_OK;
+}
+
+/* ---- the law ---- */
+
+enum { LAW_SIZE = 3 };
+
+/* The user's, at any time. */
+static baum_status law_at(const baum_i_joint *joint, baum_i_point *point, double t,
+                          double s[LAW_SIZE])
+{
+  const baum_driver_def *def = joint->element.def;
+  s[0] = 0.0;
+  s[1] = 0.0;
+  s[2] = 0.0;
+  baum_i_listen();
+  point->asking = true;
+  int code = def->law(t, s, def->user);
+  point->asking = false;
+  return code == 0 ? baum_i_check_motion(joint, point, "law()", s)
+                   : baum_i_fail_returned(&joint->element, "joint", "law", code, point);
+}
+
+static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[3])
+{
+  return law_at(joint, point, point->t, s);
+}
+
+/* ---- checking what is given ---- */
+
+/* Value and rate in the places of their derivatives, so that the sentence names their entry. */
+static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
+{
+  double s[LAW_SIZE];
+  baum_status status = law_at(joint, at->point, at->t, s);
+  out[0] = 0.0;
+  out[1] = s[0];
+  out[2] = s[1];
+  return status;
+}
+
+/* A law may begin and end where it likes: where it refuses, nothing is to be told. */
+static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+{
+  double given[LAW_SIZE];
+  const baum_driver_def *def = joint->element.def;
+  if (!def->law || law(joint, point, given) != BAUM_OK) {
+    return BAUM_OK;
+  }
+  given[0] = 0.0;
+  const baum_i_local at = {.point = point, .t = point->t, .free = point->scratch};
+  const baum_i_user_function function = {
+    .element = &joint->element, .family = "joint", .name = "law", .rows = LAW_SIZE};
+  const baum_i_field field = {.evaluate = derived_field, .context = joint, .size = LAW_SIZE};
+  const baum_i_ray ray = {.dt = 1.0, .rate = 1.0};
+  const baum_i_claim claim = {&function, "law in t", given};
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &at);
+}
+
+/* ---- type ---- */
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  return baum_i_driver_evaluate(group, point, law, out);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "driver",
+                 .size = sizeof(baum_driver_def),
+                 .defaults = &defaults,
+                 .check = check,
+                 .tied = baum_i_driver_tied},
+  .parameter_count = BAUM_I_DRIVER_NUMBERS,
+  .planar = true,
+  .scleronomic = false,
+  .drives = true,
+  .replace_law = baum_i_driver_replace_law,
+  .row_count = 1,
+  .bodies = baum_i_driver_bodies,
+  .lower = lower,
+  .evaluate = evaluate,
+  .linearize = baum_i_driver_linearize,
+  .check = check_derivatives,
+  .place = baum_i_driver_place,
+};
+
+BAUM_I_DEFINE(joint, driver, type)

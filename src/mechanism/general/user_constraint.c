@@ -1,0 +1,546 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Constraints given by functions of the user: Phi(q, t), and what else he has of
+ *
+ *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
+ *
+ * What is missing comes from differences (difference.c). A straight line q + s v, t + s has no
+ * acceleration, and Phi'' = J a - gamma, so along it
+ *
+ *   gamma = -d^2/ds^2 Phi(q + s v, t + s) = d/ds (nu - J v)(q + s v, t + s)       at s = 0,
+ *
+ * the second of which is the more accurate, and is used when J and nu are known.
+ * Second derivatives of Phi without J:
+ *
+ *   4 Phi_ij = D^2 Phi along (e_i + e_j) - D^2 Phi along (e_i - e_j)
+ *
+ * The unit of time is unknown where nothing moves; differences in t then start from one relevant
+ * change per unit of time. A constraint whose own time is very much longer does well to give nu and
+ * gamma.
+ */
+#include <math.h>
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/general/check.h"
+#include "mechanism/general/difference.h"
+#include "mechanism/general/user_function.h"
+
+static const baum_user_constraint_def defaults = {.struct_size = sizeof(baum_user_constraint_def)};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_user_constraint_def *def = given;
+  baum_status status = baum_i_check_user_bodies(mechanism, def->bodies, def->body_count, label);
+  if (status == BAUM_OK) {
+    status = baum_i_check_count(label, "row_count", def->row_count);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_given(label, "phi()", def->phi != NULL);
+  }
+  return status;
+}
+
+static baum_status own(void *copy)
+{
+  baum_user_constraint_def *def = copy;
+  def->bodies = baum_i_copy(def->bodies, (size_t)def->body_count, sizeof *def->bodies);
+  return def->bodies ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+static void release(void *copy)
+{
+  baum_user_constraint_def *def = copy;
+  baum_i_free(def->bodies);
+  def->bodies = NULL;
+}
+
+static int rows(const void *given)
+{
+  const baum_user_constraint_def *def = given;
+  return def->row_count;
+}
+
+/* What difference.c leaves in second and in first derivatives. */
+static double noise(const void *given)
+{
+  const baum_user_constraint_def *def = given;
+  if (!def->gamma && !def->jacobian) {
+    return 1e-11;
+  }
+  return def->gamma && def->jacobian ? 0.0 : 1e-13;
+}
+
+static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
+{
+  const baum_user_constraint_def *def = given;
+  baum_i_user_bodies(mechanism, def->bodies, def->body_count, span);
+}
+
+/* ---- calls ---- */
+
+static const baum_user_constraint_def *def_of(const baum_i_joint *joint)
+{
+  return joint->element.def;
+}
+
+static baum_i_user_function function(const baum_i_joint *joint, const char *name, int cols)
+{
+  return (baum_i_user_function){.element = &joint->element,
+                                .family = "joint",
+                                .name = name,
+                                .rows = joint->rows,
+                                .cols = cols,
+                                .user = def_of(joint)->user};
+}
+
+static baum_status phi_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  baum_i_user_function f = function(joint, "phi", 0);
+  return baum_i_call_q(&f, def_of(joint)->phi, at, out);
+}
+
+static baum_status given_jacobian_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  baum_i_user_function f = function(joint, "jacobian", at->nl);
+  return baum_i_call_q(&f, def_of(joint)->jacobian, at, out);
+}
+
+static baum_status given_nu_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  baum_i_user_function f = function(joint, "nu", 0);
+  return baum_i_call_q(&f, def_of(joint)->nu, at, out);
+}
+
+static baum_status given_gamma_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  baum_i_user_function f = function(joint, "gamma", 0);
+  return baum_i_call_qv(&f, def_of(joint)->gamma, at, out);
+}
+
+/* ---- fields to difference ---- */
+
+static baum_status phi_field(const void *context, const baum_i_local *at, double *out)
+{
+  return phi_at(context, at, out);
+}
+
+static baum_status minus_phi_field(const void *context, const baum_i_local *at, double *out)
+{
+  const baum_i_joint *joint = context;
+  baum_status status = phi_at(joint, at, out);
+  for (int i = 0; i < joint->rows && status == BAUM_OK; i++) {
+    out[i] = -out[i];
+  }
+  return status;
+}
+
+/* nu - J v, nu zero when not given. */
+static baum_status minus_rate_field(const void *context, const baum_i_local *at, double *out)
+{
+  const baum_i_joint *joint = context;
+  baum_i_local here = *at;
+  double *jacobian = baum_i_take(&here, joint->rows * at->nl);
+  memset(out, 0, (size_t)joint->rows * sizeof *out);
+  baum_status status = def_of(joint)->nu ? given_nu_at(joint, &here, out) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = given_jacobian_at(joint, &here, jacobian);
+  }
+  for (int i = 0; i < joint->rows && status == BAUM_OK; i++) {
+    for (int j = 0; j < at->nl; j++) {
+      out[i] -= jacobian[i * at->nl + j] * at->v[j];
+    }
+  }
+  return status;
+}
+
+static baum_i_field field_of(baum_i_field_fn *evaluate, const baum_i_joint *joint)
+{
+  return (baum_i_field){.evaluate = evaluate, .context = joint, .size = joint->rows};
+}
+
+/* ---- what is given, or differences ---- */
+
+static baum_status jacobian_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  if (def_of(joint)->jacobian) {
+    return given_jacobian_at(joint, at, out);
+  }
+  baum_i_field field = field_of(phi_field, joint);
+  return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, out);
+}
+
+static const baum_i_ray time_ray = {.dt = 1.0, .rate = 1.0};
+
+static baum_status nu_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  if (def_of(joint)->nu) {
+    return given_nu_at(joint, at, out);
+  }
+  baum_i_field field = field_of(minus_phi_field, joint);
+  return baum_i_difference_first(&field, &time_ray, at, out);
+}
+
+/* Whether Phi changes with t alone, seen from a small step to both sides. */
+static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *at, bool *moves)
+{
+  baum_i_local here = *at;
+  double *now = baum_i_take(&here, joint->rows);
+  double *then = baum_i_take(&here, joint->rows);
+  size_t bytes = (size_t)joint->rows * sizeof *now;
+  *moves = false;
+  baum_status status = phi_at(joint, &here, now);
+  for (int side = -1; side <= 1 && status == BAUM_OK && !*moves; side += 2) {
+    here.t = at->t + side * 0x1p-9;
+    status = phi_at(joint, &here, then);
+    *moves = status == BAUM_OK && memcmp(now, then, bytes) != 0;
+  }
+  return status;
+}
+
+/* The line of motion: where it goes, how fast, and whether Phi may change with t. */
+static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, baum_i_ray *ray,
+                             bool *moves)
+{
+  const baum_user_constraint_def *def = def_of(joint);
+  *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_rate(at)};
+  /* When fast the step is the same in any case; then only a missing nu has to be told from zero. */
+  bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
+  *moves = true;
+  baum_status status = matters ? find_movement(joint, at, moves) : BAUM_OK;
+  if (*moves) {
+    ray->rate = fmax(ray->rate, 1.0);
+  } else {
+    ray->dt = 0.0;
+  }
+  return status;
+}
+
+static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+{
+  const baum_user_constraint_def *def = def_of(joint);
+  if (def->gamma) {
+    return given_gamma_at(joint, at, out);
+  }
+  baum_i_ray ray;
+  bool moves;
+  baum_status status = find_line(joint, at, &ray, &moves);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (ray.rate == 0.0) {
+    memset(out, 0, (size_t)joint->rows * sizeof *out);
+    return BAUM_OK;
+  }
+  if (def->jacobian && (def->nu || !moves)) {
+    baum_i_field field = field_of(minus_rate_field, joint);
+    return baum_i_difference_first(&field, &ray, at, out);
+  }
+  baum_i_field field = field_of(minus_phi_field, joint);
+  return baum_i_difference_second(&field, &ray, at, out);
+}
+
+/* ---- evaluation ---- */
+
+static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
+                                const baum_i_rows *out)
+{
+  baum_i_local at = baum_i_gather(point, &joint->span);
+  baum_status status = out->phi ? phi_at(joint, &at, out->phi + joint->row) : BAUM_OK;
+  if (status == BAUM_OK && out->jacobian) {
+    status = jacobian_at(joint, &at, out->jacobian + joint->jacobian);
+  }
+  if (status == BAUM_OK && out->nu) {
+    status = nu_at(joint, &at, out->nu + joint->row);
+  }
+  if (status == BAUM_OK && out->gamma) {
+    status = gamma_at(joint, &at, out->gamma + joint->row);
+  }
+  return status;
+}
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    status = evaluate_one(group->joints[i], point, out);
+  }
+  return status;
+}
+
+/* ---- second derivatives ---- */
+
+/* One joint's blocks while they are made. */
+typedef struct second {
+  const baum_i_joint *joint;
+  const double *w;      /* (nl) */
+  const double *lambda; /* (rows), zeros when not given */
+  double *jw_q;         /* NULL where not wanted */
+  double *jtl_q;
+} second;
+
+/* J w, then J^T lambda: rows + nl values. */
+static baum_status products_field(const void *context, const baum_i_local *at, double *out)
+{
+  const second *s = context;
+  int nl = at->nl;
+  baum_i_local here = *at;
+  double *jacobian_now = baum_i_take(&here, s->joint->rows * nl);
+  baum_status status = given_jacobian_at(s->joint, &here, jacobian_now);
+  memset(out, 0, (size_t)(s->joint->rows + nl) * sizeof *out);
+  for (int i = 0; i < s->joint->rows && status == BAUM_OK; i++) {
+    for (int j = 0; j < nl; j++) {
+      out[i] += jacobian_now[i * nl + j] * s->w[j];
+      out[s->joint->rows + j] += jacobian_now[i * nl + j] * s->lambda[i];
+    }
+  }
+  return status;
+}
+
+static void put_column(double *block, const double *column, int count, int nl, int j)
+{
+  for (int i = 0; block && i < count; i++) {
+    block[i * nl + j] = column[i];
+  }
+}
+
+static baum_status products_by_columns(const second *s, const baum_i_local *at)
+{
+  int row_count = s->joint->rows;
+  baum_i_local here = *at;
+  double *direction = baum_i_take(&here, at->nl);
+  double *column = baum_i_take(&here, row_count + at->nl);
+  baum_i_field field = {.evaluate = products_field, .context = s, .size = row_count + at->nl};
+  baum_status status = BAUM_OK;
+  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+    baum_i_ray ray = baum_i_column_ray(at, BAUM_I_VARIABLE_Q, j, direction);
+    status = baum_i_difference_first(&field, &ray, &here, column);
+    if (status == BAUM_OK) {
+      put_column(s->jw_q, column, row_count, at->nl, j);
+      put_column(s->jtl_q, column + row_count, at->nl, at->nl, j);
+    }
+  }
+  return status;
+}
+
+/* Phi_ij of all rows; work (nl + rows). */
+static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, int i, int j,
+                             double *work, double *out)
+{
+  double *direction = work;
+  double *other = work + at->nl;
+  baum_i_field field = field_of(phi_field, joint);
+  baum_i_ray ray = {.dq = direction, .rate = 1.0};
+  memset(direction, 0, (size_t)at->nl * sizeof *direction);
+  direction[i] = at->scale[i];
+  direction[j] += i == j ? 0.0 : at->scale[j];
+  baum_status status = baum_i_difference_second(&field, &ray, at, out);
+  double unit = at->scale[i] * at->scale[j];
+  if (i != j && status == BAUM_OK) {
+    direction[j] = -at->scale[j];
+    status = baum_i_difference_second(&field, &ray, at, other);
+    unit *= 4.0;
+  }
+  for (int k = 0; k < joint->rows && status == BAUM_OK; k++) {
+    out[k] = (out[k] - (i != j ? other[k] : 0.0)) / unit;
+  }
+  return status;
+}
+
+static void add_curvature(const second *s, const double *value, int i, int j, int nl)
+{
+  for (int k = 0; k < s->joint->rows; k++) {
+    if (s->jw_q) {
+      s->jw_q[k * nl + j] += value[k] * s->w[i];
+      s->jw_q[k * nl + i] += i != j ? value[k] * s->w[j] : 0.0;
+    }
+    if (s->jtl_q) {
+      s->jtl_q[i * nl + j] += value[k] * s->lambda[k];
+      s->jtl_q[j * nl + i] += i != j ? value[k] * s->lambda[k] : 0.0;
+    }
+  }
+}
+
+static baum_status products_by_pairs(const second *s, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *work = baum_i_take(&here, at->nl + s->joint->rows);
+  double *value = baum_i_take(&here, s->joint->rows);
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < at->nl && status == BAUM_OK; i++) {
+    for (int j = i; j < at->nl && status == BAUM_OK; j++) {
+      status = curvature(s->joint, &here, i, j, work, value);
+      if (status == BAUM_OK) {
+        add_curvature(s, value, i, j, at->nl);
+      }
+    }
+  }
+  return status;
+}
+
+static baum_status linearize_products(const second *s, const baum_i_local *at)
+{
+  if (!s->jw_q && !s->jtl_q) {
+    return BAUM_OK;
+  }
+  return def_of(s->joint)->jacobian ? products_by_columns(s, at) : products_by_pairs(s, at);
+}
+
+static baum_status gamma_field(const void *context, const baum_i_local *at, double *out)
+{
+  return gamma_at(context, at, out);
+}
+
+static baum_status linearize_gamma(const baum_i_joint *joint, const baum_i_local *at,
+                                   double *gamma_q, double *gamma_v)
+{
+  baum_i_field field = field_of(gamma_field, joint);
+  field.rough = !def_of(joint)->gamma;
+  baum_status status = BAUM_OK;
+  if (gamma_q) {
+    status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, gamma_q);
+  }
+  if (gamma_v && status == BAUM_OK) {
+    status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_V, at, gamma_v);
+  }
+  return status;
+}
+
+static baum_status nu_field(const void *context, const baum_i_local *at, double *out)
+{
+  return nu_at(context, at, out);
+}
+
+static baum_status linearize_nu(const baum_i_joint *joint, const baum_i_local *at, double *nu_q)
+{
+  if (!nu_q) {
+    return BAUM_OK;
+  }
+  baum_i_field field = field_of(nu_field, joint);
+  field.rough = !def_of(joint)->nu;
+  return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, nu_q);
+}
+
+static double *at_offset(double *blocks, int offset)
+{
+  return blocks ? blocks + offset : NULL;
+}
+
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  baum_i_local at = baum_i_gather(point, &joint->span);
+  double *none = baum_i_take(&at, joint->rows);
+  memset(none, 0, (size_t)joint->rows * sizeof *none);
+  second s = {.joint = joint,
+              .w = baum_i_gather_vector(&at, &joint->span, w),
+              .lambda = lambda ? lambda + joint->row : none,
+              .jw_q = at_offset(blocks->jw_q, joint->jacobian),
+              .jtl_q = at_offset(blocks->jtl_q, joint->square)};
+  baum_status status = linearize_products(&s, &at);
+  if (status == BAUM_OK) {
+    status = linearize_gamma(joint, &at, at_offset(blocks->gamma_q, joint->jacobian),
+                             at_offset(blocks->gamma_v, joint->jacobian));
+  }
+  if (status == BAUM_OK) {
+    status = linearize_nu(joint, &at, at_offset(blocks->nu_q, joint->jacobian));
+  }
+  return status;
+}
+
+/* ---- checking what is given ---- */
+
+static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local *at)
+{
+  if (!def_of(joint)->jacobian) {
+    return BAUM_OK;
+  }
+  baum_i_local here = *at;
+  double *given = baum_i_take(&here, joint->rows * at->nl);
+  baum_status status = given_jacobian_at(joint, &here, given);
+  baum_i_user_function f = function(joint, "jacobian", at->nl);
+  baum_i_field field = field_of(phi_field, joint);
+  baum_i_claim claim = {&f, "phi", given};
+  return status == BAUM_OK ? baum_i_compare_columns(&claim, &field, BAUM_I_VARIABLE_Q, &here)
+                           : status;
+}
+
+static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
+{
+  if (!def_of(joint)->nu) {
+    return BAUM_OK;
+  }
+  baum_i_local here = *at;
+  double *given = baum_i_take(&here, joint->rows);
+  baum_status status = given_nu_at(joint, &here, given);
+  baum_i_user_function f = function(joint, "nu", 0);
+  baum_i_field field = field_of(minus_phi_field, joint);
+  baum_i_claim claim = {&f, "phi in t", given};
+  return status == BAUM_OK
+           ? baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here)
+           : status;
+}
+
+/* By the more accurate of the two ways; jacobian and nu are checked before. */
+static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at)
+{
+  const baum_user_constraint_def *def = def_of(joint);
+  if (!def->gamma) {
+    return BAUM_OK;
+  }
+  baum_i_local here = *at;
+  double *given = baum_i_take(&here, joint->rows);
+  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(baum_i_rate(at), 1.0)};
+  baum_i_user_function f = function(joint, "gamma", 0);
+  baum_status status = given_gamma_at(joint, &here, given);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (def->jacobian && def->nu) {
+    baum_i_field field = field_of(minus_rate_field, joint);
+    baum_i_claim claim = {&f, "jacobian and nu", given};
+    return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &here);
+  }
+  baum_i_field field = field_of(minus_phi_field, joint);
+  baum_i_claim claim = {&f, "phi", given};
+  return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, &ray, &here);
+}
+
+static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+{
+  baum_i_local at = baum_i_gather(point, &joint->span);
+  baum_i_local here = at;
+  double *value = baum_i_take(&here, joint->rows);
+  baum_status status = phi_at(joint, &here, value);
+  if (status == BAUM_OK) {
+    status = check_jacobian(joint, &at);
+  }
+  if (status == BAUM_OK) {
+    status = check_nu(joint, &at);
+  }
+  if (status == BAUM_OK) {
+    status = check_gamma(joint, &at);
+  }
+  return status;
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "user constraint",
+                 .size = sizeof(baum_user_constraint_def),
+                 .defaults = &defaults,
+                 .check = check,
+                 .own = own,
+                 .release = release},
+  .rows = rows,
+  .bodies = bodies,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .check = check_derivatives,
+  .noise = noise,
+};
+
+BAUM_I_DEFINE(joint, user_constraint, type)

@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* User functions: gathering, calling, judging. */
+#include "mechanism/general/user_function.h"
+
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/message.h"
+
+/* ---- memory and coordinates ---- */
+
+int64_t baum_i_scratch_size(int nl, int rows)
+{
+  /* Differences may be nested twice, each level with a dozen vectors; matrices are never
+   * differenced as a whole, but up to three of them (given, evaluated, one more) are kept. */
+  int64_t vectors = 48 * ((int64_t)nl + rows);
+  int64_t matrices = 3 * ((int64_t)nl * rows);
+  return vectors + matrices;
+}
+
+double *baum_i_take(baum_i_local *local, int count)
+{
+  double *taken = local->free;
+  local->free += count;
+  assert(local->free <= local->point->scratch + local->point->mechanism->scratch_size);
+  return taken;
+}
+
+const double *baum_i_gather_vector(baum_i_local *local, const baum_i_span *span, const double *x)
+{
+  double *gathered = baum_i_take(local, span->nl);
+  for (int i = 0; i < span->nl; i++) {
+    gathered[i] = x ? x[span->columns[i]] : 0.0;
+  }
+  return gathered;
+}
+
+baum_i_local baum_i_gather(baum_i_point *point, const baum_i_span *span)
+{
+  baum_i_local local = {.point = point, .nl = span->nl, .t = point->t, .free = point->scratch};
+  local.q = baum_i_gather_vector(&local, span, point->q);
+  local.v = baum_i_gather_vector(&local, span, point->v);
+  local.scale = baum_i_gather_vector(&local, span, point->mechanism->scale);
+  return local;
+}
+
+/* ---- calls ---- */
+
+static int values(const baum_i_user_function *function)
+{
+  return function->cols > 0 ? function->rows * function->cols : function->rows;
+}
+
+void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out)
+{
+  baum_i_listen();
+  at->point->asking = true;
+  memset(out, 0, (size_t)values(function) * sizeof *out);
+}
+
+const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
+                              char text[BAUM_I_ENTRY_SIZE])
+{
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_label(function->element, function->family, label);
+  if (function->cols > 0) {
+    (void)snprintf(text, BAUM_I_ENTRY_SIZE, "%s: %s()[%d][%d]", label, function->name,
+                   entry / function->cols, entry % function->cols);
+  } else {
+    (void)snprintf(text, BAUM_I_ENTRY_SIZE, "%s: %s()[%d]", label, function->name, entry);
+  }
+  return text;
+}
+
+baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
+                                 const char *name, int answer, baum_i_point *point)
+{
+  char label[BAUM_I_LABEL_SIZE];
+  const char *said = baum_i_heard();
+  point->retry = answer > 0;
+  return baum_i_fail(BAUM_ERR_CALLBACK, "%s: %s() returned %d (%s)%s%.300s",
+                     baum_i_label(element, family, label), name, answer,
+                     answer > 0 ? "retry" : "stop", said ? ": " : "", said ? said : "");
+}
+
+static baum_status fail_not_finite(const baum_i_user_function *function, const baum_i_local *at,
+                                   int entry, double value)
+{
+  char text[BAUM_I_ENTRY_SIZE];
+  const char *what = isnan(value) ? "nan" : value > 0.0 ? "inf" : "-inf";
+  at->point->retry = true;
+  return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s is %s at t = %g s",
+                     baum_i_user_entry(function, entry, text), what, at->t);
+}
+
+baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
+                         const double *out)
+{
+  at->point->asking = false;
+  if (answer != 0) {
+    return baum_i_fail_returned(function->element, function->family, function->name, answer,
+                                at->point);
+  }
+  int count = values(function);
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(out[i])) {
+      return fail_not_finite(function, at, i, out[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
+                          const baum_i_local *at, double *out)
+{
+  baum_i_begin_call(function, at, out);
+  return baum_i_judge(function, at, call(at->t, at->q, out, function->user), out);
+}
+
+baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *call,
+                           const baum_i_local *at, double *out)
+{
+  baum_i_begin_call(function, at, out);
+  return baum_i_judge(function, at, call(at->t, at->q, at->v, out, function->user), out);
+}
+
+baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
+                              const baum_i_local *at, double *out)
+{
+  baum_i_begin_call(function, at, out);
+  return baum_i_judge(function, at,
+                      call(at->t, at->q, at->v, at->point->inputs, out, function->user), out);
+}
+
+/* ---- definitions ---- */
+
+baum_status baum_i_check_count(const char *label, const char *field, int32_t value)
+{
+  if (value <= 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %d, must be > 0", label, field, (int)value);
+  }
+  if (value > BAUM_I_USER_SIZE_MAX) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %d, must be at most %d", label, field,
+                       (int)value, (int)BAUM_I_USER_SIZE_MAX);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_check_given(const char *label, const char *field, bool given)
+{
+  return given ? BAUM_OK
+               : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL, must be given", label, field);
+}
+
+static baum_status check_user_body(const baum_mechanism *mechanism, const baum_body_id *bodies,
+                                   int32_t k, const char *label)
+{
+  char field[32];
+  (void)snprintf(field, sizeof field, "bodies[%d]", (int)k);
+  baum_status status = baum_i_check_body(mechanism, bodies[k], label, field);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (baum_i_body_index(mechanism, bodies[k]) == 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is ground, which has no coordinates", label,
+                       field);
+  }
+  for (int32_t i = 0; i < k; i++) {
+    if (bodies[i].index1 == bodies[k].index1) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: bodies[%d] and %s are the same body", label,
+                         (int)i, field);
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_check_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
+                                     int32_t body_count, const char *label)
+{
+  baum_status status = baum_i_check_count(label, "body_count", body_count);
+  if (status != BAUM_OK || !bodies) {
+    return status != BAUM_OK ? status : baum_i_check_given(label, "bodies", false);
+  }
+  for (int32_t k = 0; k < body_count && status == BAUM_OK; k++) {
+    status = check_user_body(mechanism, bodies, k, label);
+  }
+  return status;
+}
+
+void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
+                        int32_t body_count, baum_i_span *span)
+{
+  span->body_count = body_count;
+  for (int32_t k = 0; span->bodies && k < body_count; k++) {
+    span->bodies[k] = baum_i_body_index(mechanism, bodies[k]);
+  }
+}

@@ -1,0 +1,92 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* User functions: the coordinates they receive, the call, and what becomes of the answer.
+ *
+ * A user function sees the coordinates of its bodies one after the other, in the order named, and
+ * fills a zeroed array. Returning > 0, or values that are not finite, fails with point->retry set:
+ * a smaller step may help. Returning < 0 fails for good.
+ */
+#ifndef BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
+#define BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
+
+#include "mechanism/mechanism.h"
+
+/* Doubles of point->scratch that an element with nl local columns and that many rows may use. */
+int64_t baum_i_scratch_size(int nl, int rows);
+
+/* Where user functions are evaluated. Copies of it are cheap: a function that needs memory copies
+ * the struct and takes from its own copy, so that everything it took is given back when it
+ * returns. */
+typedef struct baum_i_local {
+  baum_i_point *point;
+  int nl;
+  double t;
+  const double *q;     /* (nl) */
+  const double *v;     /* (nl), zeros at position level */
+  const double *scale; /* (nl) a relevant change of each coordinate */
+  double *free;        /* what is left of point->scratch */
+} baum_i_local;
+
+/* Gather the columns of a span at a point. */
+baum_i_local baum_i_gather(baum_i_point *point, const baum_i_span *span);
+
+/* Gather any vector over v, such as accelerations. */
+const double *baum_i_gather_vector(baum_i_local *local, const baum_i_span *span, const double *x);
+
+/* Take count doubles, not cleared. */
+double *baum_i_take(baum_i_local *local, int count);
+
+/* What is called, for messages: `joint 2 "circle": phi()`. */
+typedef struct baum_i_user_function {
+  const baum_i_element *element;
+  const char *family; /* "body", "joint", "force" */
+  const char *name;   /* "phi" */
+  int rows;           /* of the output */
+  int cols;           /* of the output; 0 when it is a vector */
+  void *user;
+} baum_i_user_function;
+
+/* Clear out (rows x cols), call, and judge the answer:
+ * BAUM_OK, BAUM_ERR_CALLBACK or BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_call_q(const baum_i_user_function *function, baum_q_fn *call,
+                          const baum_i_local *at, double *out);
+baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *call,
+                           const baum_i_local *at, double *out);
+baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
+                              const baum_i_local *at, double *out);
+
+/* The first and the last part of a call, for functions of another shape: of `at` point and t are used. */
+void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out);
+baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
+                         const double *out);
+
+/* After baum_i_listen(): the sentence for a function that has answered so, with what it says itself. */
+baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
+                                 const char *name, int answer, baum_i_point *point);
+
+/* `joint 2 "circle": jacobian()[0][1]` into text; returns text.
+ * The entry counts over the output as stored. */
+enum { BAUM_I_ENTRY_SIZE = BAUM_I_LABEL_SIZE + 80 };
+const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
+                              char text[BAUM_I_ENTRY_SIZE]);
+
+/* ---- for definitions ---- */
+
+/* More rows or coordinates than this in one element are taken for a mistake;
+ * products of two still fit an int. */
+enum { BAUM_I_USER_SIZE_MAX = 10000 };
+
+/* 1 to BAUM_I_USER_SIZE_MAX. */
+baum_status baum_i_check_count(const char *label, const char *field, int32_t value);
+
+/* A required function: given is `def->mass != NULL`, field "mass()". */
+baum_status baum_i_check_given(const char *label, const char *field, bool given);
+
+/* The bodies of a user constraint or force: at least one, none twice, none of them ground. */
+baum_status baum_i_check_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
+                                     int32_t body_count, const char *label);
+
+/* Their indices, for the `bodies` function of types. */
+void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
+                        int32_t body_count, baum_i_span *span);
+
+#endif

@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Distance of body_b's marker from body_a's along a direction fixed in body_a: with the normal of an
+ * axis the first row of the translational joint and the row of the pin in a slot, with the axis
+ * itself their coordinate; also part of the rack and pinion and of the point on a curve.
+ *
+ * Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u,
+ * p_b the arm of body_b's marker, r the origins, and D = r_b + p_b - r_a (u . p_a is constant, both
+ * being of body_a):
+ *
+ *   f     = u . (D - p_a)
+ *   f_q   = [ -u   n . D   u   u . (k x p_b) ]                                           (6)
+ *   H     = f_qq: symmetric, with only
+ *           angle_a, r_a: -n;  angle_a, r_b: n;  angle_a, angle_b: n . (k x p_b) = u . p_b;
+ *           angle_a, angle_a: -u . D;  angle_b, angle_b: -u . p_b
+ *   gamma = -v^T H v = w_a^2 u . D - 2 w_a n . (P_b' - r_a') + w_b^2 u . p_b,  P_b = r_b + p_b
+ *
+ * (J w)_q = H w, (J^T lambda)_q = lambda H, gamma_v = -2 H v, and gamma_q has
+ *
+ *   r_a: -w_a^2 u;  r_b: w_a^2 u;  angle_b: (w_a - w_b)^2 u . (k x p_b);
+ *   angle_a: w_a^2 n . D + 2 w_a u . (r_b' - r_a') - (2 w_a w_b - w_b^2) n . p_b
+ */
+#ifndef BAUM_I_MECHANISM_PLANAR_AXIS_ROW_H
+#define BAUM_I_MECHANISM_PLANAR_AXIS_ROW_H
+
+#include "mechanism/planar/planar_rows.h"
+
+/* ---- an axis in definitions ---- */
+
+/* Finite, with a direction. */
+baum_status baum_i_axis_check(const double axis[2], const char *label);
+
+/* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`. The axis has those
+ * axes that the points have: with `point` (given or NaN) it is drawn on the ground. */
+void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
+                       double along[2], double normal[2]);
+
+/* ---- the row; inline, so that a joint that wants all of it finds what is common once ---- */
+
+/* What all of the above is made of. */
+typedef struct baum_i_axis {
+  double u[2];
+  double n[2];
+  double span[2]; /* D */
+  double u_span;
+  double n_span;
+  double u_arm; /* u . p_b */
+  double n_arm;
+} baum_i_axis;
+
+static inline double baum_i_axis_dot(const double x[2], const double y[2])
+{
+  return x[0] * y[0] + x[1] * y[1];
+}
+
+static inline baum_i_axis baum_i_axis_at(const baum_i_planar_pair *pair, const double direction[2])
+{
+  const baum_i_frame *f = pair->frame_a;
+  baum_i_axis x;
+  x.u[0] = f->c * direction[0] - f->s * direction[1];
+  x.u[1] = f->s * direction[0] + f->c * direction[1];
+  x.n[0] = -x.u[1];
+  x.n[1] = x.u[0];
+  x.span[0] = pair->b.r[0] - f->x;
+  x.span[1] = pair->b.r[1] - f->y;
+  x.u_span = baum_i_axis_dot(x.u, x.span);
+  x.n_span = baum_i_axis_dot(x.n, x.span);
+  x.u_arm = baum_i_axis_dot(x.u, pair->b.arm);
+  x.n_arm = baum_i_axis_dot(x.n, pair->b.arm);
+  return x;
+}
+
+/* direction: unit vector in the axes of body_a. */
+static inline double baum_i_axis_value(const baum_i_planar_pair *pair, const double direction[2])
+{
+  baum_i_axis x = baum_i_axis_at(pair, direction);
+  const double between[2] = {pair->b.r[0] - pair->a.r[0], pair->b.r[1] - pair->a.r[1]};
+  return baum_i_axis_dot(x.u, between);
+}
+
+static inline void baum_i_axis_gradient(const baum_i_planar_pair *pair, const double direction[2],
+                                        double gradient[6])
+{
+  baum_i_axis x = baum_i_axis_at(pair, direction);
+  gradient[0] = -x.u[0];
+  gradient[1] = -x.u[1];
+  gradient[2] = x.n_span;
+  gradient[3] = x.u[0];
+  gradient[4] = x.u[1];
+  gradient[5] = -x.n_arm; /* u . (k x p) = -n . p */
+}
+
+/* So that gradient . a = value'' + gamma. */
+static inline double baum_i_axis_gamma(const baum_i_planar_pair *pair, const double direction[2])
+{
+  baum_i_axis x = baum_i_axis_at(pair, direction);
+  double w_a = pair->a.w;
+  double w_b = pair->b.w;
+  const double relative[2] = {pair->b.dr[0] - pair->frame_a->vx, pair->b.dr[1] - pair->frame_a->vy};
+  return w_a * w_a * x.u_span - 2.0 * w_a * baum_i_axis_dot(x.n, relative) + w_b * w_b * x.u_arm;
+}
+
+/* All of the above. */
+void baum_i_axis_coordinate(const baum_i_planar_pair *pair, const double direction[2],
+                            baum_i_coordinate *out);
+
+/* Sets every entry. */
+void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double direction[2],
+                           const double w[6], double lambda, baum_i_coordinate_blocks *out);
+
+/* The same as the first row of a joint. */
+void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
+                               const double w[6], double lambda, baum_i_planar_blocks *out);
+
+/* ---- members of types whose numbers, after both points, begin with an axis and its normal, and whose one
+ * row that is not linear is the projection on the normal ---- */
+
+enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
+
+baum_status baum_i_axis_joint_linearize(const baum_i_joint *joint, baum_i_point *point,
+                                        const double *w, const double *lambda,
+                                        const baum_i_joint_blocks *blocks);
+void baum_i_axis_joint_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+                                  baum_i_coordinate *out);
+void baum_i_axis_joint_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+                                            const double w[6], double lambda,
+                                            baum_i_coordinate_blocks *out);
+
+#endif

@@ -1,0 +1,241 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Point on a curve, planar: body_b's point is where a function of the user vanishes that is fixed in
+ * body_a (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an
+ * implicit curve instead of a parameter and its equation). With d from body_a's marker to body_b's:
+ *
+ *   (x, y) = A_a^T d, both projections of axis_row.c, on (1, 0) and (0, 1)
+ *   Phi    = F(x, y)                     (1)
+ *
+ * J, gamma and second derivatives by the chain rule of composed_row.c. The third derivatives of F,
+ * which only gamma_q needs, are differences of the second ones.
+ */
+#include <string.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/general/check.h"
+#include "mechanism/general/composed_row.h"
+#include "mechanism/planar/axis_row.h"
+
+/* Of the curve function. */
+enum { F, F_X, F_Y, F_XX, F_XY, F_YY, CURVE_SIZE };
+
+static const baum_planar_curve_def defaults = {
+  .struct_size = sizeof(baum_planar_curve_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+};
+
+static const double axes[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_planar_curve_def *given = def;
+  baum_status status = baum_i_planar_check(mechanism, def, label, true);
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angle(mechanism, given->body_a, label, "body_a");
+  }
+  return status == BAUM_OK ? baum_i_check_given(label, "curve()", given->curve != NULL) : status;
+}
+
+/* ---- the curve ---- */
+
+static baum_i_user_function function(const baum_i_joint *joint)
+{
+  const baum_planar_curve_def *def = joint->element.def;
+  return (baum_i_user_function){.element = &joint->element,
+                                .family = "joint",
+                                .name = "curve",
+                                .rows = CURVE_SIZE,
+                                .user = def->user};
+}
+
+/* A place in the curve's axes, to call and to difference at; values (q, v, scale) stay the
+ * caller's. */
+static baum_i_local place_at(baum_i_point *point, const double values[6])
+{
+  return (baum_i_local){.point = point,
+                        .nl = 2,
+                        .t = point->t,
+                        .q = values,
+                        .v = values + 2,
+                        .scale = values + 4,
+                        .free = point->scratch};
+}
+
+static baum_status curve_at(const baum_i_joint *joint, const baum_i_local *at, double out[6])
+{
+  const baum_planar_curve_def *def = joint->element.def;
+  baum_i_user_function f = function(joint);
+  baum_i_begin_call(&f, at, out);
+  return baum_i_judge(&f, at, def->curve(at->q, out, def->user), out);
+}
+
+/* ---- the row ---- */
+
+/* One joint at a point. */
+typedef struct state {
+  baum_i_planar_pair pair;
+  baum_i_inner x[2];
+  double values[6]; /* x, y; zeros; their scales: a place */
+  baum_i_outer g;
+} state;
+
+static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  s->pair = baum_i_planar_pair_at(joint, point);
+  for (int i = 0; i < 2; i++) {
+    baum_i_axis_coordinate(&s->pair, axes[i], &s->x[i].c);
+    s->x[i].at[0] = 0;
+    s->x[i].at[1] = 3;
+    s->values[i] = s->x[i].c.value;
+    s->values[2 + i] = 0.0;
+    s->values[4 + i] = point->mechanism->length;
+  }
+  baum_i_local at = place_at(point, s->values);
+  double f[CURVE_SIZE];
+  baum_status status = curve_at(joint, &at, f);
+  s->g =
+    (baum_i_outer){.value = f[F], .first = {f[F_X], f[F_Y]}, .second = {f[F_XX], f[F_XY], f[F_YY]}};
+  return status;
+}
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    state s;
+    status = state_at(group->joints[i], point, &s);
+    if (status == BAUM_OK) {
+      baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
+    }
+  }
+  return status;
+}
+
+/* ---- second derivatives ---- */
+
+static baum_status second_field(const void *joint, const baum_i_local *at, double *out)
+{
+  double f[CURVE_SIZE];
+  baum_status status = curve_at(joint, at, f);
+  memcpy(out, f + F_XX, 3 * sizeof *out);
+  return status;
+}
+
+static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  baum_i_local at = place_at(point, s->values);
+  baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
+  double by_column[6]; /* of F_xx, F_xy, F_yy by x and by y */
+  baum_status status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column);
+  s->g.third[0] = by_column[0];
+  s->g.third[1] = by_column[1];
+  s->g.third[2] = by_column[3];
+  s->g.third[3] = by_column[5];
+  return status;
+}
+
+/* w (nv) or NULL. */
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  state s;
+  baum_status status = state_at(joint, point, &s);
+  if (status == BAUM_OK && blocks->gamma_q && (s.x[0].c.rate != 0.0 || s.x[1].c.rate != 0.0)) {
+    status = set_third(joint, point, &s);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  double w_six[BAUM_I_PLANAR_COLUMNS];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
+  for (int i = 0; i < 2; i++) {
+    baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
+  }
+  baum_i_composed_blocks wide;
+  baum_i_composed_linearize(s.x, &s.g, BAUM_I_PLANAR_COLUMNS, w_six,
+                            lambda ? lambda[joint->row] : 0.0, &wide);
+  baum_i_composed_put_blocks(joint, point, &wide, blocks);
+  return BAUM_OK;
+}
+
+/* ---- checking what is given ---- */
+
+/* Entries, and whose derivative by x or by y they are. */
+static const int derived[2][3][2] = {
+  {{F_X, F}, {F_XX, F_X}, {F_XY, F_Y}},
+  {{F_Y, F}, {F_XY, F_X}, {F_YY, F_Y}},
+};
+
+typedef struct column_of {
+  const baum_i_joint *joint;
+  int by; /* 0: x, 1: y */
+} column_of;
+
+/* What is differenced, in the places of its derivatives, so that the sentence names their entry. */
+static baum_status derived_field(const void *context, const baum_i_local *at, double *out)
+{
+  const column_of *column = context;
+  double f[CURVE_SIZE];
+  baum_status status = curve_at(column->joint, at, f);
+  memset(out, 0, CURVE_SIZE * sizeof *out);
+  for (int i = 0; i < 3; i++) {
+    out[derived[column->by][i][0]] = f[derived[column->by][i][1]];
+  }
+  return status;
+}
+
+static baum_status check_column(const column_of *column, const baum_i_local *at,
+                                const double f[CURVE_SIZE])
+{
+  double given[CURVE_SIZE] = {0.0};
+  for (int i = 0; i < 3; i++) {
+    int entry = derived[column->by][i][0];
+    given[entry] = f[entry];
+  }
+  double direction[2];
+  baum_i_user_function curve = function(column->joint);
+  baum_i_field field = {.evaluate = derived_field, .context = column, .size = CURVE_SIZE};
+  baum_i_claim claim = {&curve, "curve", given};
+  baum_i_ray ray = baum_i_column_ray(at, BAUM_I_VARIABLE_Q, column->by, direction);
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, at);
+}
+
+static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+{
+  state s;
+  double f[CURVE_SIZE];
+  baum_status status = state_at(joint, point, &s);
+  baum_i_local at = place_at(point, s.values);
+  if (status == BAUM_OK) {
+    status = curve_at(joint, &at, f);
+  }
+  for (int by = 0; by < 2 && status == BAUM_OK; by++) {
+    const column_of column = {joint, by};
+    status = check_column(&column, &at, f);
+  }
+  return status;
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar point on a curve",
+                 .size = sizeof(baum_planar_curve_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_PLANAR_NUMBERS,
+  .planar = true,
+  .scleronomic = true,
+  .row_count = 1,
+  .bodies = baum_i_planar_bodies,
+  .lower = baum_i_planar_lower_points,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .place = baum_i_planar_place,
+  .check = check_derivatives,
+};
+
+BAUM_I_DEFINE(joint, planar_curve, type)

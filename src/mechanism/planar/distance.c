@@ -1,0 +1,162 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Distance joint, planar: a rod without mass keeps two points at length L. With d from body_a's
+ * point to body_b's and F, G of separation.h:
+ *
+ *   Phi   = (d . d - L^2) / (2 L)          (1), change of length to first order, smooth at d = 0
+ *   J     = G^T d / L                                (6)
+ *   gamma = -v^T F_qq v / L = -(d' . d' + w_a^2 d . p_a - w_b^2 d . p_b) / L
+ *
+ *   (J w)_q = F_qq w / L,   (J^T lambda)_q = lambda F_qq / L,   gamma_v = -2 F_qq v / L
+ *   gamma_q = -(G^T (w_a^2 p_a - w_b^2 p_b) + [ 0 0 c_a  0 0 -c_b ]) / L
+ *             with c = 2 w d' . p + w^2 d . (k x p) of each body
+ */
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/general/separation.h"
+#include "mechanism/planar/planar_rows.h"
+
+/* Own numbers, after both points. */
+enum { LENGTH = 0, OWN_COUNT = 1 };
+
+static const baum_planar_distance_def defaults = {
+  .struct_size = sizeof(baum_planar_distance_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .length = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_planar_distance_def *given = def;
+  baum_status status = baum_i_planar_check(mechanism, def, label, false);
+  if (status != BAUM_OK || isnan(given->length)) {
+    return status;
+  }
+  return baum_i_check_positive(label, "length", "m", given->length);
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  const baum_planar_distance_def *def = joint->element.def;
+  double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
+  numbers[LENGTH] = def->length;
+  if (isnan(def->length)) {
+    numbers[LENGTH] = baum_i_separation_drawn(mechanism, &joint->span, parameters);
+  }
+  if (!(numbers[LENGTH] > 0.0)) {
+    char label[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: length is not given and is 0 m in the drawn pose, must be > 0",
+                       baum_i_label(&joint->element, "joint", label));
+  }
+  return status;
+}
+
+/* ---- one joint ---- */
+
+static double dot(const double x[2], const double y[2])
+{
+  return x[0] * y[0] + x[1] * y[1];
+}
+
+static void one_phi(const baum_i_planar_pair *pair, double *out)
+{
+  double length = pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  out[0] = 0.5 * (dot(s.d, s.d) / length - length);
+}
+
+static void one_jacobian(const baum_i_planar_pair *pair, double *six)
+{
+  double length = pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  const double along[2] = {s.d[0] / length, s.d[1] / length};
+  baum_i_separation_spread(&s, along, six);
+}
+
+static void one_gamma(const baum_i_planar_pair *pair, double *out)
+{
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  double w_a = pair->a.w;
+  double w_b = pair->b.w;
+  double bend = w_a * w_a * dot(s.d, pair->a.arm) - w_b * w_b * dot(s.d, pair->b.arm);
+  out[0] = -(dot(s.rate, s.rate) + bend) / pair->numbers[LENGTH];
+}
+
+static void set_gamma_q(const baum_i_planar_pair *pair, const baum_i_separation *s, double scale,
+                        double *out)
+{
+  const double *p_a = pair->a.arm;
+  const double *p_b = pair->b.arm;
+  double w_a = pair->a.w;
+  double w_b = pair->b.w;
+  const double pull[2] = {w_a * w_a * p_a[0] - w_b * w_b * p_b[0],
+                          w_a * w_a * p_a[1] - w_b * w_b * p_b[1]};
+  baum_i_separation_spread(s, pull, out);
+  /* d . (k x p) = d_y p_x - d_x p_y */
+  out[2] += 2.0 * w_a * dot(s->rate, p_a) + w_a * w_a * (s->d[1] * p_a[0] - s->d[0] * p_a[1]);
+  out[5] -= 2.0 * w_b * dot(s->rate, p_b) + w_b * w_b * (s->d[1] * p_b[0] - s->d[0] * p_b[1]);
+  for (int i = 0; i < 6; i++) {
+    out[i] *= scale;
+  }
+}
+
+static void one_linearize(const baum_i_planar_pair *pair, const double *w, const double *lambda,
+                          baum_i_planar_blocks *out)
+{
+  double v[6];
+  baum_i_planar_velocities(pair->frame_a, pair->frame_b, v);
+  double scale = 1.0 / pair->numbers[LENGTH];
+  baum_i_separation s = baum_i_separation_of(&pair->a, &pair->b);
+  double hessian[36];
+  baum_i_separation_hessian(&s, hessian);
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      double h = scale * hessian[6 * i + j];
+      out->jw_q[i] += h * w[j];
+      out->jtl_q[6 * i + j] = h * lambda[0];
+      out->gamma_v[i] -= 2.0 * h * v[j];
+    }
+  }
+  set_gamma_q(pair, &s, -scale, out->gamma_q);
+}
+
+/* ---- type ---- */
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  static const baum_i_planar_kernels kernels = {1, one_phi, one_jacobian, one_gamma};
+  return baum_i_planar_evaluate(group, point, &kernels, out);
+}
+
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  return baum_i_planar_linearize(joint, point, w, lambda, one_linearize, blocks);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar distance joint",
+                 .size = sizeof(baum_planar_distance_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
+  .planar = true,
+  .scleronomic = true,
+  .row_count = 1,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .place = baum_i_planar_place,
+};
+
+BAUM_I_DEFINE(joint, planar_distance, type)

@@ -1,0 +1,101 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fixed joint (weld), planar: two points coincide (pin_rows.c) and the relative angle is kept.
+ *
+ *   Phi = [ r_a + p_a - r_b - p_b           (2)
+ *           angle_b - angle_a - angle ]     J = [ 0 0 -1 0 0 1 ], gamma = 0
+ */
+#include <math.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/planar/pin_rows.h"
+
+/* Own numbers, after both points. */
+enum { ANGLE = 0, OWN_COUNT = 1 };
+
+static const baum_planar_fixed_def defaults = {
+  .struct_size = sizeof(baum_planar_fixed_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .angle = BAUM_I_NOT_GIVEN,
+};
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  const baum_planar_fixed_def *given = def;
+  baum_status status = baum_i_planar_check(mechanism, def, label, true);
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angles(mechanism, def, label);
+  }
+  return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  const baum_planar_fixed_def *def = joint->element.def;
+  baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
+  baum_i_frame b = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
+  double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
+  numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;
+  return status;
+}
+
+/* ---- one joint; second derivatives are the pin's: the row of the angle is linear ---- */
+
+static void one_phi(const baum_i_planar_pair *pair, double *out)
+{
+  baum_i_pin_phi(pair, out);
+  out[2] = baum_i_planar_angle(pair) - pair->numbers[ANGLE];
+}
+
+static void one_jacobian(const baum_i_planar_pair *pair, double *six)
+{
+  baum_i_pin_jacobian(pair, six);
+  baum_i_planar_set_row(six + 12, 0.0, 0.0, -1.0, 0.0, 0.0, 1.0);
+}
+
+static void one_gamma(const baum_i_planar_pair *pair, double *out)
+{
+  baum_i_pin_gamma(pair, out);
+  out[2] = 0.0;
+}
+
+/* ---- type ---- */
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  static const baum_i_planar_kernels kernels = {3, one_phi, one_jacobian, one_gamma};
+  return baum_i_planar_evaluate(group, point, &kernels, out);
+}
+
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  return baum_i_planar_linearize(joint, point, w, lambda, baum_i_pin_linearize, blocks);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar fixed joint",
+                 .size = sizeof(baum_planar_fixed_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
+  .planar = true,
+  .scleronomic = true,
+  .row_count = 3,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .place = baum_i_planar_place,
+};
+
+BAUM_I_DEFINE(joint, planar_fixed, type)
+
+bool baum_i_is_weld(const baum_i_joint *joint)
+{
+  return joint->type == &type;
+}

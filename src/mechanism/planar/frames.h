@@ -1,0 +1,17 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The frames of all bodies at once. */
+#ifndef BAUM_I_MECHANISM_PLANAR_FRAMES_H
+#define BAUM_I_MECHANISM_PLANAR_FRAMES_H
+
+#include "mechanism/mechanism.h"
+
+struct baum_i_frames_kernel {
+  /* frames (body_count + 1) of a mechanism at q, and v or NULL for rest. */
+  void (*set)(const baum_mechanism *mechanism, const double *q, const double *v,
+              baum_i_frame *frames);
+};
+
+extern const baum_i_frames_kernel baum_i_frames_kernel_plain;
+extern const baum_i_frames_kernel baum_i_frames_kernel_wide;
+
+#endif

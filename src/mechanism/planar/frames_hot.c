@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The frames of all bodies, some at a time: angles side by side, their sines and cosines as vectors, then
+ * the frames. Where all bodies are planar bodies their coordinates need no looking up.
+ */
+#include <math.h>
+
+#include "base/hot.h"
+#include "base/pair.h"
+#include "base/sincos.h"
+#include "mechanism/planar/frames.h"
+
+/* Bodies at a time; whole vectors. */
+enum { SOME = 32, LANES = 4 };
+
+typedef double vector __attribute__((vector_size(LANES * sizeof(double))));
+typedef int64_t flags __attribute__((vector_size(LANES * sizeof(int64_t))));
+
+typedef struct bodies {
+  const baum_i_body_place *places; /* NULL: all are planar bodies, in the order of q */
+  int first;
+  int count;
+} bodies;
+
+BAUM_I_INLINE baum_i_body_place place_of(const bodies *some, int k)
+{
+  if (!some->places) {
+    return (baum_i_body_place){.q = 3 * (some->first + k - 1), .kind = BAUM_I_FRAME_BODY};
+  }
+  return some->places[some->first + k];
+}
+
+BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
+{
+  baum_i_body_place place = place_of(some, k);
+  return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
+}
+
+/* Zero where a body has no angle. Stored a vector at a time, as they are read again at once: of single numbers
+ * the reader would have to wait until they are in memory. */
+BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
+{
+  int i = 0;
+  for (; i + LANES <= some->count; i += LANES) {
+    const vector x = {angle_of(some, q, i), angle_of(some, q, i + 1), angle_of(some, q, i + 2),
+                      angle_of(some, q, i + 3)};
+    memcpy(angle + i, &x, sizeof x);
+  }
+  if (i < some->count) {
+    int last = some->count - 1;
+    const vector x = {angle_of(some, q, i), angle_of(some, q, i + 1 < last ? i + 1 : last),
+                      angle_of(some, q, i + 2 < last ? i + 2 : last), 0.0};
+    memcpy(angle + i, &x, sizeof x);
+  }
+}
+
+/* Whether no angle is beyond own sincos, of which sine and cosine mean nothing. */
+static bool set_sines(const double *restrict angle, int count, double *restrict sine,
+                      double *restrict cosine)
+{
+  flags far = {0};
+  for (int i = 0; i < count; i += LANES) {
+    for (int k = i; k < i + LANES; k++) {
+      baum_i_sincos(angle[k], &sine[k], &cosine[k]);
+    }
+    vector x;
+    memcpy(&x, angle + i, sizeof x);
+    far |= x * x > baum_i_sincos_limit * baum_i_sincos_limit;
+  }
+  return (far[0] | far[1] | far[2] | far[3]) == 0;
+}
+
+/* Far angles, and infinite ones. */
+static void mend_far(const double *angle, int count, double *sine, double *cosine)
+{
+  for (int i = 0; i < count; i++) {
+    if (!(fabs(angle[i]) <= baum_i_sincos_limit)) {
+      sine[i] = sin(angle[i]);
+      cosine[i] = cos(angle[i]);
+    }
+  }
+}
+
+BAUM_I_INLINE void set_frame(baum_i_body_place place, const double *q, const double *v,
+                             double angle, baum_i_frame *frame)
+{
+  double w = 0.0;
+  if (place.kind != BAUM_I_FRAME_NONE) {
+    baum_i_store(&frame->x, baum_i_load(q + place.q));
+    baum_i_store(&frame->vx, v ? baum_i_load(v + place.q) : baum_i_both(0.0));
+  }
+  if (place.kind == BAUM_I_FRAME_BODY && v) {
+    w = v[place.q + 2];
+  }
+  baum_i_store(&frame->w, (baum_i_pair){w, angle});
+}
+
+BAUM_I_INLINE void set_some(const bodies *some, const double *q, const double *v,
+                            baum_i_frame *frames)
+{
+  double angle[SOME];
+  double sine[SOME];
+  double cosine[SOME];
+  gather_angles(some, q, angle);
+  if (!set_sines(angle, some->count, sine, cosine)) {
+    mend_far(angle, some->count, sine, cosine);
+  }
+  for (int k = 0; k < some->count; k++) {
+    baum_i_frame *frame = &frames[some->first + k];
+    baum_i_store(&frame->c, (baum_i_pair){cosine[k], sine[k]});
+    set_frame(place_of(some, k), q, v, angle[k], frame);
+  }
+}
+
+static void set_frames(const baum_mechanism *mechanism, const double *q, const double *v,
+                       baum_i_frame *frames)
+{
+  int end = mechanism->body_count + 1;
+  for (int i = 1; i < end; i += SOME) {
+    int count = end - i < SOME ? end - i : SOME;
+    if (mechanism->all_planar) {
+      set_some(&(bodies){.first = i, .count = count}, q, v, frames);
+    } else {
+      set_some(&(bodies){.places = mechanism->places, .first = i, .count = count}, q, v, frames);
+    }
+  }
+}
+
+const baum_i_frames_kernel BAUM_I_HOT(baum_i_frames_kernel) = {.set = set_frames};

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Gear, planar: two wheels a, b on a carrier c roll on each other without slipping
+ * (Nikravesh 1988, chapter 4; Haug 1989, chapter 3). Seen from the carrier the pitch circles go by
+ * at the same speed, outwards R_a w_a = -R_b w_b:
+ *
+ *   Phi   = R_a (angle_a - angle_c) + R_b (angle_b - angle_c) - offset     (1)
+ *   J     = [ 0 0 R_a   0 0 R_b   0 0 -(R_a + R_b) ]                       (9), constant
+ *   gamma = 0, and so are all second derivatives
+ *
+ * Its reaction is moments alone, and they add up to nothing: what the teeth push and what the pins
+ * of the wheels hold against it are pairs.
+ */
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/planar/planar.h"
+
+/* Parameters. */
+enum { RADIUS_A, RADIUS_B, OFFSET, PARAMETER_COUNT };
+
+enum { A, B, CARRIER, BODY_COUNT };
+
+static const baum_planar_gear_def defaults = {
+  .struct_size = sizeof(baum_planar_gear_def),
+  .carrier = {-1, 0}, /* BAUM_GROUND */
+  .offset = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check_carrier(const baum_mechanism *mechanism, const baum_planar_gear_def *def,
+                                 const char *label)
+{
+  baum_status status = baum_i_planar_check_body(mechanism, def->carrier, label, "carrier");
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angle(mechanism, def->carrier, label, "carrier");
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int carrier = baum_i_body_index(mechanism, def->carrier);
+  bool is_a = carrier == baum_i_body_index(mechanism, def->body_a);
+  if (is_a || carrier == baum_i_body_index(mechanism, def->body_b)) {
+    char text[BAUM_I_LABEL_SIZE];
+    const char *which =
+      carrier == 0 ? "ground" : baum_i_label(&mechanism->bodies[carrier]->element, "body", text);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: carrier and %s are both %s", label,
+                       is_a ? "body_a" : "body_b", which);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_gear_def *def = given;
+  baum_status status = baum_i_planar_check_bodies(mechanism, def, label);
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angles(mechanism, def, label);
+  }
+  if (status == BAUM_OK) {
+    status = check_carrier(mechanism, def, label);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_zero(label, "radius_a", "m", def->radius_a);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_zero(label, "radius_b", "m", def->radius_b);
+  }
+  return status == BAUM_OK ? baum_i_check_optional(label, "offset", "m", def->offset) : status;
+}
+
+static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
+{
+  const baum_planar_gear_def *def = given;
+  span->body_count = BODY_COUNT;
+  if (span->bodies) {
+    span->bodies[A] = baum_i_body_index(mechanism, def->body_a);
+    span->bodies[B] = baum_i_body_index(mechanism, def->body_b);
+    span->bodies[CARRIER] = baum_i_body_index(mechanism, def->carrier);
+  }
+}
+
+/* Of the three angles. */
+static double rolled(const double *numbers, double a, double b, double carrier)
+{
+  return numbers[RADIUS_A] * (a - carrier) + numbers[RADIUS_B] * (b - carrier);
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  const baum_planar_gear_def *def = joint->element.def;
+  const int *body = joint->span.bodies;
+  parameters[RADIUS_A] = def->radius_a;
+  parameters[RADIUS_B] = def->radius_b;
+  parameters[OFFSET] = def->offset;
+  if (isnan(def->offset)) {
+    parameters[OFFSET] = rolled(parameters, baum_i_drawn_frame(mechanism, body[A]).angle,
+                                baum_i_drawn_frame(mechanism, body[B]).angle,
+                                baum_i_drawn_frame(mechanism, body[CARRIER]).angle);
+  }
+  return BAUM_OK;
+}
+
+/* ---- type ---- */
+
+static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
+                         const baum_i_rows *out)
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  const int *body = joint->span.bodies;
+  if (out->phi) {
+    const baum_i_frame *frames = point->frames;
+    out->phi[joint->row] =
+      rolled(numbers, frames[body[A]].angle, frames[body[B]].angle, frames[body[CARRIER]].angle) -
+      numbers[OFFSET];
+  }
+  if (out->jacobian) {
+    const double nine[3 * BODY_COUNT] = {
+      [3 * A + 2] = numbers[RADIUS_A],
+      [3 * B + 2] = numbers[RADIUS_B],
+      [3 * CARRIER + 2] = -(numbers[RADIUS_A] + numbers[RADIUS_B]),
+    };
+    baum_i_planar_pack(point->mechanism, &joint->span, 1, nine, out->jacobian + joint->jacobian);
+  }
+  if (out->gamma) {
+    out->gamma[joint->row] = 0.0;
+  }
+}
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    evaluate_one(group->joints[i], point, out);
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "planar gear",
+                 .size = sizeof(baum_planar_gear_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = PARAMETER_COUNT,
+  .scleronomic = true,
+  .row_count = 1,
+  .bodies = bodies,
+  .lower = lower,
+  .evaluate = evaluate,
+};
+
+BAUM_I_DEFINE(joint, planar_gear, type)

@@ -1,0 +1,298 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What planar joints and forces share: checks of their common fields, points in body axes, packing.
+ *
+ * A point given in ground axes of the drawn pose becomes s = A^T (point - r) on a body drawn at r.
+ */
+#include "mechanism/planar/planar.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+
+/* A drawing in decimal numbers puts a particle and a pin at the same place only to rounding. */
+static const double SAME_PLACE = 1e-9;
+
+/* ---- bodies ---- */
+
+/* Ground is of no type. */
+static baum_i_frame_kind frame_of(const baum_i_body *body)
+{
+  return body->type ? body->type->frame : BAUM_I_FRAME_GROUND;
+}
+
+static bool has_angle(const baum_i_body *body)
+{
+  return frame_of(body) == BAUM_I_FRAME_BODY || frame_of(body) == BAUM_I_FRAME_GROUND;
+}
+
+static const char *body_label(const baum_i_body *body, char text[BAUM_I_LABEL_SIZE])
+{
+  return baum_i_label(&body->element, "body", text);
+}
+
+baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
+                                     const char *label, const char *field)
+{
+  baum_status status = baum_i_check_body(mechanism, id, label, field);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
+  if (frame_of(body) == BAUM_I_FRAME_NONE) {
+    char text[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no place in the plane", label,
+                       field, body_label(body, text));
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
+                                       const char *label)
+{
+  const baum_i_planar_head *head = def;
+  baum_status status = baum_i_planar_check_body(mechanism, head->body_a, label, "body_a");
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_body(mechanism, head->body_b, label, "body_b");
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (head->body_a.index1 == head->body_b.index1) {
+    char text[BAUM_I_LABEL_SIZE];
+    int index = baum_i_body_index(mechanism, head->body_a);
+    const char *which = index == 0 ? "ground" : body_label(mechanism->bodies[index], text);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label, which);
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field)
+{
+  const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
+  if (has_angle(body)) {
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no angle", label, field,
+                     body_label(body, text));
+}
+
+baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
+                                       const char *label)
+{
+  const baum_i_planar_head *head = def;
+  baum_status status = baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
+  return status == BAUM_OK ? baum_i_planar_check_angle(mechanism, head->body_b, label, "body_b")
+                           : status;
+}
+
+void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
+{
+  const baum_i_planar_head *head = def;
+  span->body_count = 2;
+  if (span->bodies) {
+    span->bodies[0] = baum_i_body_index(mechanism, head->body_a);
+    span->bodies[1] = baum_i_body_index(mechanism, head->body_b);
+  }
+}
+
+/* ---- points ---- */
+
+/* Both components finite, or both NaN. */
+static baum_status check_point(const char *label, const char *field_x, const char *field_y,
+                               const double point[2])
+{
+  if (isnan(point[0]) && isnan(point[1])) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_check_finite(label, field_x, "m", point[0]);
+  return status == BAUM_OK ? baum_i_check_finite(label, field_y, "m", point[1]) : status;
+}
+
+/* Of a point that has passed check_point(). */
+static bool is_given(const double point[2])
+{
+  return !isnan(point[0]);
+}
+
+static baum_status check_points(const baum_i_planar_head *head, const char *label)
+{
+  baum_status status = check_point(label, "point[0]", "point[1]", head->point);
+  if (status == BAUM_OK) {
+    status = check_point(label, "point_a[0]", "point_a[1]", head->point_a);
+  }
+  return status == BAUM_OK ? check_point(label, "point_b[0]", "point_b[1]", head->point_b) : status;
+}
+
+static baum_status check_with_point(const baum_i_planar_head *head, const char *label,
+                                    bool point_allowed)
+{
+  if (!point_allowed) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point is given and leaves no length; give point_a and point_b instead",
+                       label);
+  }
+  bool a = is_given(head->point_a);
+  if (a || is_given(head->point_b)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point and %s are both given; give point alone, or point_a and point_b",
+                       label, a ? "point_a" : "point_b");
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_one_way(const baum_i_planar_head *head, const char *label,
+                                 bool point_allowed)
+{
+  if (is_given(head->point)) {
+    return check_with_point(head, label, point_allowed);
+  }
+  bool a = is_given(head->point_a);
+  bool b = is_given(head->point_b);
+  if (a != b) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
+                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
+  }
+  if (!a) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
+                       label, point_allowed ? "point, or " : "");
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_id id,
+                                     const char *label, const char *field, const double s[2])
+{
+  const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
+  if (has_angle(body) || !is_given(s) || (s[0] == 0.0 && s[1] == 0.0)) {
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (%g, %g) m, must be (0, 0) on the particle %s",
+                     label, field, s[0], s[1], body_label(body, text));
+}
+
+baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
+                                bool point_allowed)
+{
+  const baum_i_planar_head *head = def;
+  baum_status status = baum_i_planar_check_bodies(mechanism, head, label);
+  if (status == BAUM_OK) {
+    status = check_points(head, label);
+  }
+  if (status == BAUM_OK) {
+    status = check_one_way(head, label, point_allowed);
+  }
+  if (status == BAUM_OK) {
+    status = check_on_particle(mechanism, head->body_a, label, "point_a", head->point_a);
+  }
+  if (status == BAUM_OK) {
+    status = check_on_particle(mechanism, head->body_b, label, "point_b", head->point_b);
+  }
+  return status;
+}
+
+baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body)
+{
+  const baum_i_body *drawn = mechanism->bodies[body];
+  baum_i_frame_kind kind = frame_of(drawn);
+  double q[3] = {0.0};
+  if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY) {
+    double v[3];
+    bool held;
+    drawn->type->drawn(drawn->element.def, q, v, &held);
+  }
+  return baum_i_frame_at(kind, q, NULL);
+}
+
+/* A point in ground axes, drawn pose, to a body's axes. */
+static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
+                            const char *label, double s[2])
+{
+  baum_i_frame frame = baum_i_drawn_frame(mechanism, index);
+  double x = point[0] - frame.x;
+  double y = point[1] - frame.y;
+  const baum_i_body *body = mechanism->bodies[index];
+  if (has_angle(body)) {
+    s[0] = frame.c * x + frame.s * y;
+    s[1] = -frame.s * x + frame.c * y;
+    return BAUM_OK;
+  }
+  s[0] = 0.0;
+  s[1] = 0.0;
+  if (hypot(x, y) <= SAME_PLACE * (hypot(point[0], point[1]) + hypot(frame.x, frame.y))) {
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: point is (%g, %g) m, must be at the particle %s, drawn at (%g, %g) m",
+                     label, point[0], point[1], body_label(body, text), frame.x, frame.y);
+}
+
+baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
+                                 const char *label, double s[4])
+{
+  const baum_i_planar_head *head = def;
+  if (!is_given(head->point)) {
+    memcpy(s, head->point_a, sizeof head->point_a);
+    memcpy(s + 2, head->point_b, sizeof head->point_b);
+    return BAUM_OK;
+  }
+  int a = baum_i_body_index(mechanism, head->body_a);
+  int b = baum_i_body_index(mechanism, head->body_b);
+  baum_status status = place_on(mechanism, a, head->point, label, s);
+  return status == BAUM_OK ? place_on(mechanism, b, head->point, label, s + 2) : status;
+}
+
+/* ---- packing: three columns per body to its nv ---- */
+
+void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
+                          double *six)
+{
+  for (int k = 0; k < span->body_count; k++) {
+    const baum_i_body *body = point->mechanism->bodies[span->bodies[k]];
+    for (int i = 0; i < 3; i++) {
+      six[3 * k + i] = x && i < body->nv ? x[body->v + i] : 0.0;
+    }
+  }
+}
+
+void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *x)
+{
+  for (int k = 0; k < span->body_count; k++) {
+    const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+    for (int i = 0; i < body->nv; i++) {
+      x[body->v + i] += six[3 * k + i];
+    }
+  }
+}
+
+void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                            const double *six, double *packed)
+{
+  for (int row = 0; row < rows; row++) {
+    for (int k = 0; k < span->body_count; k++) {
+      int nv = mechanism->bodies[span->bodies[k]]->nv;
+      for (int i = 0; i < nv; i++) {
+        *packed++ = six[i];
+      }
+      six += 3;
+    }
+  }
+}
+
+void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *packed)
+{
+  /* Three rows of each body, of which it has the first nv. */
+  ptrdiff_t rows_size = (ptrdiff_t)9 * span->body_count;
+  for (int k = 0; k < span->body_count; k++) {
+    int nv = mechanism->bodies[span->bodies[k]]->nv;
+    baum_i_planar_pack(mechanism, span, nv, six + rows_size * k, packed);
+    packed += (ptrdiff_t)nv * span->nl;
+  }
+}

@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What planar joints and forces share: placing, markers, and packing of their two bodies' columns.
+ *
+ * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
+ * p' = k x p = (-p_y, p_x):
+ *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
+ * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b; packing leaves out what a
+ * particle (angle) or ground (all) does not have.
+ */
+#ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_H
+#define BAUM_I_MECHANISM_PLANAR_PLANAR_H
+
+#include <string.h>
+
+#include <baum/planar.h>
+#include <baum/planar_joints.h>
+
+#include "base/hot.h"
+#include "base/pair.h"
+#include "mechanism/mechanism.h"
+
+/* The fields that every planar joint and spring definition begins with. */
+typedef struct baum_i_planar_head {
+  size_t struct_size;
+  const char *name;
+  baum_body_id body_a;
+  baum_body_id body_b;
+  double point[2];
+  double point_a[2];
+  double point_b[2];
+} baum_i_planar_head;
+
+typedef struct baum_i_marker {
+  double arm[2]; /* p */
+  double r[2];
+  double dr[2]; /* r' */
+  double w;     /* angular velocity of the body */
+} baum_i_marker;
+
+/* p alone, as a pair. */
+static inline baum_i_pair baum_i_arm_on(const baum_i_frame *f, const double *s)
+{
+  return f->c * baum_i_load(s) + f->s * baum_i_turned(baum_i_load(s));
+}
+
+static inline baum_i_marker baum_i_marker_on(const baum_i_frame *f, const double *s)
+{
+  baum_i_marker m;
+  m.arm[0] = f->c * s[0] - f->s * s[1];
+  m.arm[1] = f->s * s[0] + f->c * s[1];
+  m.r[0] = f->x + m.arm[0];
+  m.r[1] = f->y + m.arm[1];
+  m.dr[0] = f->vx - f->w * m.arm[1];
+  m.dr[1] = f->vy + f->w * m.arm[0];
+  m.w = f->w;
+  return m;
+}
+
+static inline baum_i_marker baum_i_marker_at(const baum_i_point *point, int body, const double *s)
+{
+  return baum_i_marker_on(&point->frames[body], s);
+}
+
+/* Velocities over the six columns. */
+static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_frame *b,
+                                            double six[6])
+{
+  const double v[6] = {a->vx, a->vy, a->w, b->vx, b->vy, b->w};
+  for (int i = 0; i < 6; i++) {
+    six[i] = v[i];
+  }
+}
+
+/* Check that a body exists and has a place in the plane. */
+baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
+                                     const char *label, const char *field);
+
+/* Check body_a and body_b, as above, and that they differ. */
+baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
+                                       const char *label);
+
+/* Check the bodies and that the points are given in exactly one way; point_allowed false refuses
+ * `point`: for elements of non-zero length. */
+baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
+                                bool point_allowed);
+
+/* A body that has passed the checks above must have an angle (ground does); both bodies. */
+baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field);
+baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
+                                       const char *label);
+
+/* Bodies of a planar definition; for the `bodies` function of types. */
+void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+
+/* Does a joint keep its two bodies in place to each other? fixed.c */
+bool baum_i_is_weld(const baum_i_joint *joint);
+
+/* Points on both bodies from the definition and the drawn pose, s[0..1] on a, s[2..3] on b. A
+ * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by
+ * baum_i_planar_check()). */
+baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
+                                 const char *label, double s[4]);
+
+/* Drawn frame of a body, from its definition, at rest; valid before freeze. */
+baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
+
+/* What is said below of six columns holds for the three of a span of one body as well. */
+
+/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
+ * absent, all for NULL. */
+void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
+                          double *six);
+
+/* The same as baum_i_planar_scatter(), whatever the bodies are. */
+void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *x);
+
+BAUM_I_INLINE void baum_i_planar_add_three(const double *three, double *x)
+{
+  baum_i_store(x, baum_i_load(x) + (baum_i_pair){three[0], three[1]});
+  x[2] += three[2];
+}
+
+/* Add six numbers to the bodies' places in a vector over v. */
+BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
+                                         const double *six, double *x)
+{
+  bool pair = span->body_count == 2;
+  if (pair && span->nl == 6) {
+    baum_i_planar_add_three(six, x + span->columns[0]);
+    baum_i_planar_add_three(six + 3, x + span->columns[3]);
+  } else if (pair && span->nl == 3) {
+    baum_i_planar_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
+  } else {
+    baum_i_planar_scatter_any(mechanism, span, six, x);
+  }
+}
+
+/* Three numbers of a span of one body. */
+BAUM_I_INLINE void baum_i_planar_scatter_one(const baum_mechanism *mechanism,
+                                             const baum_i_span *span, const double *three,
+                                             double *x)
+{
+  if (span->nl == 3) {
+    baum_i_planar_add_three(three, x + span->columns[0]);
+  } else {
+    baum_i_planar_scatter_any(mechanism, span, three, x);
+  }
+}
+
+/* The same as baum_i_planar_pack(), whatever the bodies are. */
+void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                            const double *six, double *packed);
+
+/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the ground. */
+BAUM_I_INLINE void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span,
+                                      int rows, const double *six, double *packed)
+{
+  bool pair = span->body_count == 2;
+  if (pair && span->nl == 6) {
+    memcpy(packed, six, (size_t)(6 * rows) * sizeof *six);
+  } else if (pair && span->nl == 3) {
+    bool first = span->bodies[1] == 0;
+    for (int row = 0; row < rows; row++, six += 6) {
+      for (int i = 0; i < 3; i++) {
+        *packed++ = first ? six[i] : six[3 + i];
+      }
+    }
+  } else {
+    baum_i_planar_pack_any(mechanism, span, rows, six, packed);
+  }
+}
+
+/* 6 x 6 to nl x nl. */
+void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
+                               const double *six, double *packed);
+
+#endif

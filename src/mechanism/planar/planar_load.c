@@ -1,0 +1,247 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Load on one body, planar: force f at the point s, and torque t, both times the input u if there
+ * is one. With p = A s, over x, y, angle, and u in f and t already:
+ *
+ *   ground axes    g = (f_x, f_y, p x f + t)      g_q: angle, angle: -p . f
+ *                  V = -f . (r + p) when t = 0
+ *   follows_body   g = (A f, s x f + t)           g_q: column angle: k x A f
+ *
+ * where x x y = x_1 y_2 - x_2 y_1. A load in ground axes with a torque counts as having no
+ * potential, because a torque's work depends on the turns; nor has one with an input, whose changes
+ * would make the potential jump where no work is done.
+ */
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/planar/planar.h"
+
+/* Parameters. */
+enum { POINT = 0, FORCE = 2, TORQUE = 4, PARAMETER_COUNT };
+
+static const baum_planar_load_def defaults = {.struct_size = sizeof(baum_planar_load_def)};
+
+/* `input` lies in what was padding after `follows_body`. */
+static const size_t former[] = {
+  offsetof(baum_planar_load_def, follows_body) + sizeof(bool),
+  0,
+};
+
+/* ---- definition ---- */
+
+/* A particle has neither axes nor an angle. */
+static baum_status check_on_particle(const baum_planar_load_def *def, const char *label)
+{
+  if (def->point[0] != 0.0 || def->point[1] != 0.0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: point is (%g, %g) m, must be (0, 0) on a particle",
+                       label, def->point[0], def->point[1]);
+  }
+  if (def->torque != 0.0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: torque is %g N m, must be 0 on a particle", label,
+                       def->torque);
+  }
+  if (def->follows_body) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: follows_body is true, but the body is a particle and does not turn",
+                       label);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check_body(const baum_mechanism *mechanism, const baum_planar_load_def *def,
+                              const char *label)
+{
+  baum_status status = baum_i_planar_check_body(mechanism, def->body, label, "body");
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int index = baum_i_body_index(mechanism, def->body);
+  if (index == 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body is ground, which does not move", label);
+  }
+  bool particle = mechanism->bodies[index]->type->frame == BAUM_I_FRAME_PARTICLE;
+  return particle ? check_on_particle(def, label) : BAUM_OK;
+}
+
+static baum_status check_numbers(const baum_planar_load_def *def, const char *label)
+{
+  const struct {
+    const char *field;
+    const char *unit;
+    double value;
+  } numbers[] = {
+    {"point[0]", "m", def->point[0]}, {"point[1]", "m", def->point[1]},
+    {"force[0]", "N", def->force[0]}, {"force[1]", "N", def->force[1]},
+    {"torque", "N m", def->torque},
+  };
+  baum_status status = BAUM_OK;
+  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == BAUM_OK; i++) {
+    status = baum_i_check_finite(label, numbers[i].field, numbers[i].unit, numbers[i].value);
+  }
+  return status;
+}
+
+static bool has_input(const baum_planar_load_def *def)
+{
+  return def->input.index1 != 0 || def->input.tag != 0;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_load_def *def = given;
+  baum_status status = check_numbers(def, label);
+  if (status == BAUM_OK && has_input(def)) {
+    status = baum_i_check_input(mechanism, def->input, label, "input");
+  }
+  return status == BAUM_OK ? check_body(mechanism, def, label) : status;
+}
+
+static void digest(const void *given, baum_i_digest *sum)
+{
+  const baum_planar_load_def *def = given;
+  baum_i_digest_add_integer(sum, def->follows_body);
+  baum_i_digest_add_integer(sum, def->input.index1);
+}
+
+static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
+{
+  const baum_planar_load_def *def = given;
+  span->body_count = 1;
+  if (span->bodies) {
+    span->bodies[0] = baum_i_body_index(mechanism, def->body);
+  }
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  (void)mechanism;
+  const baum_planar_load_def *def = force->element.def;
+  parameters[POINT] = def->point[0];
+  parameters[POINT + 1] = def->point[1];
+  parameters[FORCE] = def->force[0];
+  parameters[FORCE + 1] = def->force[1];
+  parameters[TORQUE] = def->torque;
+  return BAUM_OK;
+}
+
+/* ---- one load ---- */
+
+typedef struct load {
+  baum_i_marker at;
+  double force[2]; /* ground axes */
+  double torque;
+  bool follows_body;
+  bool has_potential;
+} load;
+
+/* f, in ground axes and with the input; returns what the input is. */
+static inline double set_force(const baum_planar_load_def *def, const baum_i_point *point,
+                               const baum_i_frame *frame, const double *numbers, double f[2])
+{
+  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  f[0] = scale * numbers[FORCE];
+  f[1] = scale * numbers[FORCE + 1];
+  if (def->follows_body) {
+    double x = f[0];
+    f[0] = frame->c * x - frame->s * f[1];
+    f[1] = frame->s * x + frame->c * f[1];
+  }
+  return scale;
+}
+
+static load load_at(const baum_i_force *element, const baum_i_point *point)
+{
+  const baum_planar_load_def *def = element->element.def;
+  const double *numbers = point->parameters + element->element.parameter;
+  const baum_i_frame *frame = &point->frames[element->span.bodies[0]];
+  load l = {
+    .at = baum_i_marker_on(frame, numbers + POINT),
+    .follows_body = def->follows_body,
+    .has_potential = !def->follows_body && numbers[TORQUE] == 0.0 && !has_input(def),
+  };
+  l.torque = numbers[TORQUE] * set_force(def, point, frame, numbers, l.force);
+  return l;
+}
+
+static void set_force_q(const load *l, double out[9])
+{
+  if (l->follows_body) {
+    out[2] = -l->force[1];
+    out[5] = l->force[0];
+  } else {
+    out[8] = -(l->at.arm[0] * l->force[0] + l->at.arm[1] * l->force[1]);
+  }
+}
+
+/* ---- type ---- */
+
+/* Without what only energy and derivatives need. */
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_force *element = group->forces[i];
+    const double *numbers = point->parameters + element->element.parameter;
+    const baum_i_frame *frame = &point->frames[element->span.bodies[0]];
+    double f[2];
+    double torque = numbers[TORQUE] * set_force(element->element.def, point, frame, numbers, f);
+    baum_i_pair arm = baum_i_arm_on(frame, numbers + POINT);
+    const double three[3] = {f[0], f[1], arm[0] * f[1] - arm[1] * f[0] + torque};
+    baum_i_planar_scatter_one(point->mechanism, &element->span, three, out);
+  }
+  return BAUM_OK;
+}
+
+static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+{
+  for (int i = 0; i < group->count; i++) {
+    load l = load_at(group->forces[i], point);
+    if (l.has_potential) {
+      *sum -= l.force[0] * l.at.r[0] + l.force[1] * l.at.r[1];
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  for (int i = 0; i < group->count; i++) {
+    load l = load_at(group->forces[i], point);
+    if (!l.has_potential) {
+      sum[BAUM_I_POWER_LOADS] +=
+        l.force[0] * l.at.dr[0] + l.force[1] * l.at.dr[1] + l.torque * l.at.w;
+    }
+  }
+  return BAUM_OK;
+}
+
+/* g does not depend on v. */
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  if (blocks->force_q) {
+    load l = load_at(element, point);
+    double three[9] = {0.0};
+    set_force_q(&l, three);
+    baum_i_planar_pack_square(point->mechanism, &element->span, three,
+                              blocks->force_q + element->square);
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "planar load",
+                 .size = sizeof(baum_planar_load_def),
+                 .defaults = &defaults,
+                 .former = former,
+                 .check = check,
+                 .digest = digest},
+  .parameter_count = PARAMETER_COUNT,
+  .bodies = bodies,
+  .lower = lower,
+  .force = force,
+  .potential = potential,
+  .linearize = linearize,
+  .power = power,
+};
+
+BAUM_I_DEFINE(force, planar_load, type)

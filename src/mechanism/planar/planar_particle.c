@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Particle in the plane: q = (x, y), v = q'.
+ *
+ *   M = diag(m, m)      g = (m g_x, m g_y) by gravity (gravity.c)
+ */
+#include <string.h>
+
+#include <baum/planar.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/planar/gravity.h"
+
+/* Parameters; the mass is where gravity.c looks for it. */
+enum { MASS = BAUM_I_GRAVITY_MASS, PARAMETER_COUNT };
+
+static const baum_planar_particle_def defaults = {
+  .struct_size = sizeof(baum_planar_particle_def),
+  .mass = 1.0,
+  .velocity = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  (void)mechanism;
+  const baum_planar_particle_def *def = given;
+  baum_status status = baum_i_check_positive(label, "mass", "kg", def->mass);
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "position[0]", "m", def->position[0]);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_finite(label, "position[1]", "m", def->position[1]);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_optional(label, "velocity[0]", "m/s", def->velocity[0]);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_optional(label, "velocity[1]", "m/s", def->velocity[1]);
+  }
+  return status;
+}
+
+static bool constant_mass(const void *def)
+{
+  (void)def;
+  return true;
+}
+
+static void lower(const baum_i_body *body, double *parameters)
+{
+  const baum_planar_particle_def *def = body->element.def;
+  parameters[MASS] = def->mass;
+}
+
+static void drawn(const void *given, double *q, double *v, bool *held)
+{
+  const baum_planar_particle_def *def = given;
+  memcpy(q, def->position, sizeof def->position);
+  memcpy(v, def->velocity, sizeof def->velocity);
+  *held = def->held;
+}
+
+static void scale(const void *def, double length, double *out)
+{
+  (void)def;
+  out[0] = length;
+  out[1] = length;
+}
+
+/* ---- evaluation ---- */
+
+static baum_status mass(const baum_i_body_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_body *body = group->bodies[i];
+    double m = point->parameters[body->element.parameter + MASS];
+    double *block = out + body->mass;
+    block[0] = m;
+    block[1] = 0.0;
+    block[2] = 0.0;
+    block[3] = m;
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_body_type type = {
+  .definition = {.kind = "planar particle",
+                 .size = sizeof(baum_planar_particle_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .frame = BAUM_I_FRAME_PARTICLE,
+  .parameter_count = PARAMETER_COUNT,
+  .scleronomic = true,
+  .constant_force = true,
+  .nv = 2,
+  .constant_mass = constant_mass,
+  .lower = lower,
+  .drawn = drawn,
+  .scale = scale,
+  .mass = mass,
+  .force = baum_i_gravity_force,
+  .potential = baum_i_gravity_potential,
+};
+
+BAUM_I_DEFINE(body, planar_particle, type)

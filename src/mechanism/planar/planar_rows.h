@@ -1,0 +1,179 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A planar joint as kernels: what one joint does, over six columns, seen by its two markers.
+ *
+ * The loops over a group and the packing are here once. They are inline so that a joint's own file,
+ * which knows its kernel, compiles to a loop without calls through pointers.
+ */
+#ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
+#define BAUM_I_MECHANISM_PLANAR_PLANAR_ROWS_H
+
+#include <string.h>
+
+#include "base/hot.h"
+#include "mechanism/planar/planar.h"
+
+enum {
+  BAUM_I_PLANAR_COLUMNS = 6,
+  BAUM_I_PLANAR_ROWS = 3,    /* most that a planar joint has */
+  BAUM_I_PLANAR_NUMBERS = 4, /* parameters begin with s_a and s_b */
+};
+
+/* One joint at a point. */
+typedef struct baum_i_planar_pair {
+  const double *s_a;
+  const double *s_b;
+  const double *numbers; /* of the joint, after both points */
+  const baum_i_frame *frame_a;
+  const baum_i_frame *frame_b;
+  baum_i_marker a;
+  baum_i_marker b;
+} baum_i_planar_pair;
+
+/* Second derivatives of up to three rows over six columns; jtl_q sums over the rows. */
+typedef struct baum_i_planar_blocks {
+  double jw_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  double jtl_q[BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS];
+  double gamma_q[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  double gamma_v[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+} baum_i_planar_blocks;
+
+/* Sets rows values, or rows x 6. */
+typedef void baum_i_planar_kernel(const baum_i_planar_pair *pair, double *out);
+
+/* w (6), lambda (rows); out arrives zeroed. */
+typedef void baum_i_planar_second_kernel(const baum_i_planar_pair *pair, const double *w,
+                                         const double *lambda, baum_i_planar_blocks *out);
+
+/* From the joint's parameters and the frames of its bodies. */
+static inline baum_i_planar_pair baum_i_planar_pair_of(const double *numbers, const baum_i_frame *a,
+                                                       const baum_i_frame *b)
+{
+  return (baum_i_planar_pair){
+    .s_a = numbers,
+    .s_b = numbers + 2,
+    .numbers = numbers + BAUM_I_PLANAR_NUMBERS,
+    .frame_a = a,
+    .frame_b = b,
+    .a = baum_i_marker_on(a, numbers),
+    .b = baum_i_marker_on(b, numbers + 2),
+  };
+}
+
+static inline baum_i_planar_pair baum_i_planar_pair_at(const baum_i_joint *joint,
+                                                       const baum_i_point *point)
+{
+  return baum_i_planar_pair_of(point->parameters + joint->element.parameter,
+                               &point->frames[joint->span.bodies[0]],
+                               &point->frames[joint->span.bodies[1]]);
+}
+
+/* Angle of body_b as seen from body_a, continuous over turns. */
+static inline double baum_i_planar_angle(const baum_i_planar_pair *pair)
+{
+  return pair->frame_b->angle - pair->frame_a->angle;
+}
+
+/* What one joint computes; static const beside the kernels, so that the loop below needs no calls
+ * through pointers. */
+typedef struct baum_i_planar_kernels {
+  int rows;
+  baum_i_planar_kernel *phi;
+  baum_i_planar_kernel *jacobian; /* six columns */
+  baum_i_planar_kernel *gamma;
+} baum_i_planar_kernels;
+
+/* One row of J. */
+static inline void baum_i_planar_set_row(double six[6], double x_a, double y_a, double angle_a,
+                                         double x_b, double y_b, double angle_b)
+{
+  six[0] = x_a;
+  six[1] = y_a;
+  six[2] = angle_a;
+  six[3] = x_b;
+  six[4] = y_b;
+  six[5] = angle_b;
+}
+
+BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const baum_i_point *point,
+                                              const baum_i_planar_pair *pair,
+                                              const baum_i_planar_kernels *kernels,
+                                              double *jacobian)
+{
+  double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
+  kernels->jacobian(pair, six);
+  baum_i_planar_pack(point->mechanism, &joint->span, kernels->rows, six,
+                     jacobian + joint->jacobian);
+}
+
+/* Phi, J and gamma, which have much in common: found first, stored then. */
+BAUM_I_INLINE void baum_i_planar_put_all(const baum_i_joint *joint, const baum_i_point *point,
+                                         const baum_i_planar_pair *pair,
+                                         const baum_i_planar_kernels *kernels,
+                                         const baum_i_rows *rows)
+{
+  double phi[BAUM_I_PLANAR_ROWS];
+  double gamma[BAUM_I_PLANAR_ROWS];
+  kernels->phi(pair, phi);
+  kernels->gamma(pair, gamma);
+  baum_i_planar_put_jacobian(joint, point, pair, kernels, rows->jacobian);
+  memcpy(rows->phi + joint->row, phi, (size_t)kernels->rows * sizeof *phi);
+  memcpy(rows->gamma + joint->row, gamma, (size_t)kernels->rows * sizeof *gamma);
+}
+
+BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group,
+                                                 const baum_i_point *point,
+                                                 const baum_i_planar_kernels *kernels,
+                                                 const baum_i_rows *rows)
+{
+  bool all = rows->phi && rows->jacobian && rows->gamma;
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_joint *joint = group->joints[i];
+    baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+    if (all) {
+      baum_i_planar_put_all(joint, point, &pair, kernels, rows);
+      continue;
+    }
+    if (rows->phi) {
+      kernels->phi(&pair, rows->phi + joint->row);
+    }
+    if (rows->jacobian) {
+      baum_i_planar_put_jacobian(joint, point, &pair, kernels, rows->jacobian);
+    }
+    if (rows->gamma) {
+      kernels->gamma(&pair, rows->gamma + joint->row);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* Put one joint's second derivatives where the caller wants them;
+ * nu_q is zero for every planar joint. */
+void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanism,
+                       const baum_i_planar_blocks *six, const baum_i_joint_blocks *blocks);
+
+static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
+                                                  const baum_i_point *point, const double *w,
+                                                  const double *lambda,
+                                                  baum_i_planar_second_kernel *kernel,
+                                                  const baum_i_joint_blocks *blocks)
+{
+  static const double none[BAUM_I_PLANAR_ROWS] = {0.0};
+  baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
+  double w_six[BAUM_I_PLANAR_COLUMNS];
+  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_planar_blocks six = {.jw_q = {0.0}};
+  kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
+  baum_i_planar_put(joint, point->mechanism, &six, blocks);
+  return BAUM_OK;
+}
+
+/* The members of the type struct that all planar joints share. */
+void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+
+/* Its points from the drawn pose; then the joint lowers its own numbers. A failure, a particle drawn
+ * off `point`, is told when all is lowered: most of these joints take no particles, or no `point`,
+ * and would never reach a return in between. Freeze then gives up all numbers. */
+baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                       double *parameters);
+
+#endif

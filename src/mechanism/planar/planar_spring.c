@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Spring and damper in parallel between two points, planar. With d from body_a's point to body_b's,
+ * l = |d|, stiffness k, damping c, free length l_0, and F = l^2 / 2, G of separation.h:
+ *
+ *   T   = k (l - l_0) + c l'                       tension
+ *   h   = l_q = G^T d / l                          (6)
+ *   g   = -T h                                     (6)
+ *   V   = k (l - l_0)^2 / 2
+ *   g_q = -h (k h + c l_qq v)^T - T l_qq,   l_qq = (F_qq - h h^T) / l          (6 x 6)
+ *   g_v = -c h h^T                                                            (6 x 6)
+ *
+ * With the user's law T(l, l') without V, k and c are its derivatives.
+ * At l = 0 there is no direction; force and derivatives are zero there.
+ */
+#include <float.h>
+#include <math.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/general/separation.h"
+#include "mechanism/general/spring_law.h"
+
+/* Parameters; s_a and s_b come first. */
+enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
+
+static const baum_planar_spring_def defaults = {
+  .struct_size = sizeof(baum_planar_spring_def),
+  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+  .free_length = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_spring_def *def = given;
+  baum_status status = baum_i_planar_check(mechanism, def, label, false);
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "stiffness", "N/m", def->stiffness);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "damping", "N s/m", def->damping);
+  }
+  if (status == BAUM_OK && !isnan(def->free_length)) {
+    status = baum_i_check_not_negative(label, "free_length", "m", def->free_length);
+  }
+  return status;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  const baum_planar_spring_def *def = force->element.def;
+  char label[BAUM_I_LABEL_SIZE];
+  baum_status status =
+    baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label), parameters);
+  double *numbers = parameters + LAW;
+  numbers[BAUM_I_STIFFNESS] = def->stiffness;
+  numbers[BAUM_I_DAMPING] = def->damping;
+  numbers[BAUM_I_FREE_LENGTH] = def->free_length;
+  if (isnan(def->free_length)) {
+    numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_drawn(mechanism, &force->span, parameters);
+  }
+  return status;
+}
+
+/* ---- one spring ---- */
+
+typedef struct spring {
+  baum_i_separation line;
+  double length; /* l, 0 when there is no direction */
+  double rate;
+  double h[6];
+} spring;
+
+static spring spring_at(const baum_i_force *force, const baum_i_point *point)
+{
+  const double *numbers = point->parameters + force->element.parameter;
+  baum_i_marker a = baum_i_marker_at(point, force->span.bodies[0], numbers);
+  baum_i_marker b = baum_i_marker_at(point, force->span.bodies[1], numbers + 2);
+  spring s;
+  s.line = baum_i_separation_of(&a, &b);
+  s.length = baum_i_separation_length(&s.line);
+  if (s.length < DBL_MIN) {
+    /* Of a denormal length the reciprocal is not finite. */
+    return (spring){.line = s.line};
+  }
+  const double e[2] = {s.line.d[0] / s.length, s.line.d[1] / s.length};
+  baum_i_separation_spread(&s.line, e, s.h);
+  s.rate = e[0] * s.line.rate[0] + e[1] * s.line.rate[1];
+  return s;
+}
+
+static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
+{
+  const baum_planar_spring_def *def = force->element.def;
+  return (baum_i_spring_law){.element = &force->element,
+                             .numbers = point->parameters + force->element.parameter + LAW,
+                             .law = def->law,
+                             .user = def->user};
+}
+
+/* l_qq */
+static void bend_of(const spring *s, double bend[36])
+{
+  baum_i_separation_hessian(&s->line, bend);
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      bend[6 * i + j] = (bend[6 * i + j] - s->h[i] * s->h[j]) / s->length;
+    }
+  }
+}
+
+static void set_force_q(const spring *s, const baum_i_tension *t, const double v[6], double out[36])
+{
+  double bend[36];
+  bend_of(s, bend);
+  double tension_q[6];
+  for (int j = 0; j < 6; j++) {
+    double rate_q = 0.0;
+    for (int k = 0; k < 6; k++) {
+      rate_q += bend[6 * j + k] * v[k];
+    }
+    tension_q[j] = t->by_length * s->h[j] + t->by_rate * rate_q;
+  }
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      out[6 * i + j] = -s->h[i] * tension_q[j] - t->value * bend[6 * i + j];
+    }
+  }
+}
+
+static void set_force_v(const spring *s, const baum_i_tension *t, double out[36])
+{
+  for (int i = 0; i < 6; i++) {
+    for (int j = 0; j < 6; j++) {
+      out[6 * i + j] = -t->by_rate * s->h[i] * s->h[j];
+    }
+  }
+}
+
+/* ---- type ---- */
+
+/* -T h, as pairs: T e and its moment on body a, the opposite on b. Of all that springs do this alone
+ * is done in every evaluation. */
+static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
+{
+  const double *numbers = point->parameters + element->element.parameter;
+  const baum_i_frame *f = &point->frames[element->span.bodies[0]];
+  const baum_i_frame *g = &point->frames[element->span.bodies[1]];
+  baum_i_pair p = baum_i_arm_on(f, numbers);
+  baum_i_pair s = baum_i_arm_on(g, numbers + 2);
+  baum_i_pair d = baum_i_load(&g->x) + s - (baum_i_load(&f->x) + p);
+  baum_i_pair rate =
+    baum_i_load(&g->vx) + g->w * baum_i_turned(s) - (baum_i_load(&f->vx) + f->w * baum_i_turned(p));
+  double length = baum_i_length_of(d[0], d[1]);
+  if (length < DBL_MIN) {
+    return BAUM_OK;
+  }
+  baum_i_pair e = d / length;
+  baum_i_spring_law law = law_of(element, point);
+  baum_i_tension t;
+  baum_status status = baum_i_tension_at(&law, point, length, baum_i_dot(e, rate), &t);
+  baum_i_pair pull = t.value * e;
+  const double six[6] = {pull[0],  pull[1],  baum_i_dot(baum_i_turned(p), pull),
+                         -pull[0], -pull[1], -baum_i_dot(baum_i_turned(s), pull)};
+  baum_i_planar_scatter(point->mechanism, &element->span, six, out);
+  return status;
+}
+
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    status = add_one(group->forces[i], point, out);
+  }
+  return status;
+}
+
+static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_force *element = group->forces[i];
+    baum_i_spring_law law = law_of(element, point);
+    *sum += baum_i_spring_potential(&law, spring_at(element, point).length);
+  }
+  return BAUM_OK;
+}
+
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    spring s = spring_at(group->forces[i], point);
+    baum_i_spring_law law = law_of(group->forces[i], point);
+    if (s.length > 0.0) {
+      status = baum_i_spring_power(&law, point, s.length, s.rate, sum);
+    }
+  }
+  return status;
+}
+
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  spring s = spring_at(element, point);
+  if (s.length == 0.0) {
+    return BAUM_OK;
+  }
+  baum_i_spring_law law = law_of(element, point);
+  baum_i_tension t;
+  baum_status status = baum_i_tension_at(&law, point, s.length, s.rate, &t);
+  const baum_i_span *span = &element->span;
+  double six[36];
+  if (blocks->force_q) {
+    double v[6];
+    baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
+    set_force_q(&s, &t, v, six);
+    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
+  }
+  if (blocks->force_v) {
+    set_force_v(&s, &t, six);
+    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
+  }
+  return status;
+}
+
+static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+{
+  spring s = spring_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return s.length == 0.0
+           ? BAUM_OK
+           : baum_i_check_spring_law(&law, point, s.length, s.rate, point->mechanism->length);
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "planar spring",
+                 .size = sizeof(baum_planar_spring_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = PARAMETER_COUNT,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .force = force,
+  .potential = potential,
+  .linearize = linearize,
+  .power = power,
+  .check = check_derivatives,
+};
+
+BAUM_I_DEFINE(force, planar_spring, type)

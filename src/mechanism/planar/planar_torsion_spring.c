@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Torsion spring and damper in parallel between two bodies, planar. With the relative angle
+ * phi = angle_b - angle_a, continuous over turns, stiffness k, damping c, free angle phi_0, over
+ * the six columns x_a y_a angle_a x_b y_b angle_b:
+ *
+ *   T   = k (phi - phi_0) + c phi'                 torque that turns phi back
+ *   h   = phi_q = (0 0 -1 0 0 1)                   (6)
+ *   g   = -T h                                     (6)
+ *   V   = k (phi - phi_0)^2 / 2
+ *   g_q = -k h h^T,   g_v = -c h h^T               (6 x 6)
+ *
+ * With the user's law T(phi, phi') without V, k and c are its derivatives.
+ */
+#include <math.h>
+
+#include "mechanism/definition.h"
+#include "mechanism/general/spring_law.h"
+#include "mechanism/planar/planar.h"
+
+static const baum_planar_torsion_spring_def defaults = {
+  .struct_size = sizeof(baum_planar_torsion_spring_def),
+  .free_angle = BAUM_I_NOT_GIVEN,
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_planar_torsion_spring_def *def = given;
+  baum_status status = baum_i_planar_check_bodies(mechanism, def, label);
+  if (status == BAUM_OK) {
+    status = baum_i_planar_check_angles(mechanism, def, label);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "stiffness", "N m/rad", def->stiffness);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_not_negative(label, "damping", "N m s/rad", def->damping);
+  }
+  if (status == BAUM_OK) {
+    status = baum_i_check_optional(label, "free_angle", "rad", def->free_angle);
+  }
+  return status;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  const baum_planar_torsion_spring_def *def = force->element.def;
+  parameters[BAUM_I_STIFFNESS] = def->stiffness;
+  parameters[BAUM_I_DAMPING] = def->damping;
+  parameters[BAUM_I_FREE_LENGTH] = def->free_angle;
+  if (isnan(def->free_angle)) {
+    parameters[BAUM_I_FREE_LENGTH] = baum_i_drawn_frame(mechanism, force->span.bodies[1]).angle -
+                                     baum_i_drawn_frame(mechanism, force->span.bodies[0]).angle;
+  }
+  return BAUM_OK;
+}
+
+/* ---- one spring ---- */
+
+/* phi and its rate. */
+typedef struct twist {
+  double angle;
+  double rate;
+} twist;
+
+static twist twist_at(const baum_i_force *force, const baum_i_point *point)
+{
+  const baum_i_frame *a = &point->frames[force->span.bodies[0]];
+  const baum_i_frame *b = &point->frames[force->span.bodies[1]];
+  return (twist){b->angle - a->angle, b->w - a->w};
+}
+
+static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *point)
+{
+  const baum_planar_torsion_spring_def *def = force->element.def;
+  return (baum_i_spring_law){.element = &force->element,
+                             .numbers = point->parameters + force->element.parameter,
+                             .law = def->law,
+                             .user = def->user};
+}
+
+static baum_status torque_at(const baum_i_force *force, baum_i_point *point, baum_i_tension *out)
+{
+  twist now = twist_at(force, point);
+  baum_i_spring_law law = law_of(force, point);
+  return baum_i_tension_at(&law, point, now.angle, now.rate, out);
+}
+
+/* -factor h h^T */
+static void put_square(const baum_i_force *force, const baum_mechanism *mechanism, double factor,
+                       double *squares)
+{
+  if (squares) {
+    double six[36] = {0.0};
+    six[6 * 2 + 2] = -factor;
+    six[6 * 2 + 5] = factor;
+    six[6 * 5 + 2] = factor;
+    six[6 * 5 + 5] = -factor;
+    baum_i_planar_pack_square(mechanism, &force->span, six, squares + force->square);
+  }
+}
+
+/* ---- type ---- */
+
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    const baum_i_force *element = group->forces[i];
+    baum_i_tension t;
+    status = torque_at(element, point, &t);
+    const double six[6] = {0.0, 0.0, t.value, 0.0, 0.0, -t.value};
+    baum_i_planar_scatter(point->mechanism, &element->span, six, out);
+  }
+  return status;
+}
+
+static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_force *element = group->forces[i];
+    baum_i_spring_law law = law_of(element, point);
+    *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
+  }
+  return BAUM_OK;
+}
+
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  baum_status status = BAUM_OK;
+  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+    twist now = twist_at(group->forces[i], point);
+    baum_i_spring_law law = law_of(group->forces[i], point);
+    status = baum_i_spring_power(&law, point, now.angle, now.rate, sum);
+  }
+  return status;
+}
+
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  baum_i_tension t;
+  baum_status status = torque_at(element, point, &t);
+  put_square(element, point->mechanism, t.by_length, blocks->force_q);
+  put_square(element, point->mechanism, t.by_rate, blocks->force_v);
+  return status;
+}
+
+static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+{
+  twist now = twist_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return baum_i_check_spring_law(&law, point, now.angle, now.rate, 1.0);
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "planar torsion spring",
+                 .size = sizeof(baum_planar_torsion_spring_def),
+                 .defaults = &defaults,
+                 .check = check},
+  .parameter_count = BAUM_I_SPRING_NUMBERS,
+  .bodies = baum_i_planar_bodies,
+  .lower = lower,
+  .force = force,
+  .potential = potential,
+  .linearize = linearize,
+  .power = power,
+  .check = check_derivatives,
+};
+
+BAUM_I_DEFINE(force, planar_torsion_spring, type)
