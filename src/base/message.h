@@ -18,6 +18,15 @@ enum { BAUM_I_MESSAGE_SIZE = 1024 };
 /* Set this thread's sentence and return status, so that one can write `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
+/* Return the status of a call unless it is BAUM_OK. For places that own nothing to be released. */
+#define BAUM_I_TRY(call)                     \
+  do {                                       \
+    const baum_status baum_i_tried = (call); \
+    if (baum_i_tried != BAUM_OK) {           \
+      return baum_i_tried;                   \
+    }                                        \
+  } while (0)
+
 /* What a function of the user says of its failure: before it is called, and behind; NULL: nothing. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
