@@ -37,7 +37,7 @@ static void solve_kinematics(const baum_mechanism *mechanism)
   double jacobian[N * N];
   double nu[N];
   CHECK(baum_workspace_create(mechanism, &workspace));
-  CHECK(baum_workspace_drawn(workspace, q, v));
+  CHECK(baum_workspace_design(workspace, q, v));
   for (int k = 0; k <= STEPS; k++) {
     double t = k * H;
     for (int i = 0; i < N; i++) {

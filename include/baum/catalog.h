@@ -147,7 +147,7 @@ BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *c
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
 
-/** How far states are from the reference. Errors of positions are relative to the length scale of the mechanism, those of
+/** How far states are from the reference. Errors of positions are relative to the characteristic length of the mechanism, those of
  *  angles and user coordinates in their own unit; those of velocities likewise, and relative to the largest velocity of the
  *  reference so measured. An error below its floor says nothing but that it is below it: the reference is not known
  *  better. */

@@ -25,7 +25,7 @@ extern "C" {
 /** Memory for evaluating one mechanism. */
 typedef struct baum_workspace baum_workspace;
 
-/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the drawn pose
+/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the design configuration
  *  at t = 0.
  *  @param[in]  mechanism  frozen
  *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
@@ -38,11 +38,11 @@ BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum
  */
 BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
-/** The drawn pose and the given velocities, NaN where free.
+/** The design configuration and the given velocities, NaN where free.
  *  @param[out] q,v  (nq), (nv); each may be NULL
  *  @return          BAUM_OK, BAUM_ERR_ARGUMENT
  */
-BAUM_API baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v);
+BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
 /** Change an input, which has its initial value before.
  *  @param value  finite
@@ -124,7 +124,7 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
 /** Which equations baum_workspace_residual() evaluates: q' - v, M v' + J^T lambda - g, and
  *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - v + W^-1 J^T mu instead of the first,
  *  and with mu as many unknowns more; mu is zero but for the errors of a method. W is constant and
- *  diagonal: the diagonal of M in the drawn pose at t = 0, for coordinates of scale s with less than
+ *  diagonal: the diagonal of M in the design configuration at t = 0, for coordinates of scale s with less than
  *  a millionth of the largest M_kk s_k^2 that millionth over s^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */

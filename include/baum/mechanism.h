@@ -287,7 +287,7 @@ typedef struct baum_coupling_def {
   baum_joint_id joint_a; /**< With a coordinate. Default: none, must be set. */
   baum_joint_id joint_b; /**< With a coordinate; not joint_a. Default: none, must be set. */
   double ratio;          /**< [unit b / unit a] Default: 1. */
-  double offset;         /**< [rad or m] of coordinate_b. Default: NaN, that of the drawn pose. */
+  double offset; /**< [rad or m] of coordinate_b. Default: NaN, that of the design configuration. */
   baum_coupling_fn *law; /**< Replaces ratio and offset. Default: NULL. */
   void *user;            /**< Passed to law, not owned. Default: NULL. */
 } baum_coupling_def;
@@ -454,18 +454,20 @@ BAUM_API baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, doubl
  */
 BAUM_API baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double gravity[3]);
 
-/** Set the length scale L that tolerances and errors of positions are relative to.
+/** Set the characteristic length L that tolerances and errors of positions are relative to.
  *  @param mechanism  not yet frozen
  *  @param length     [m] > 0. Default of a mechanism: the size of the drawing, found at freeze.
  *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE
  */
-BAUM_API baum_status baum_mechanism_set_scale(baum_mechanism *mechanism, double length);
+BAUM_API baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism,
+                                                              double length);
 
-/** Read the length scale.
+/** Read the characteristic length.
  *  @param[out] length  [m]; NaN when it was not set and the mechanism is not frozen
  *  @return             BAUM_OK, BAUM_ERR_ARGUMENT
  */
-BAUM_API baum_status baum_mechanism_get_scale(const baum_mechanism *mechanism, double *length);
+BAUM_API baum_status baum_mechanism_get_characteristic_length(const baum_mechanism *mechanism,
+                                                              double *length);
 
 /** Check everything and make the mechanism constant. A second call does nothing.
  *  @param mechanism  with at least one body
@@ -511,16 +513,16 @@ BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
 
 /** What a mechanism can do at its assembled start pose. */
 typedef struct baum_mobility {
-  size_t struct_size;        /**< Set by baum_mechanism_mobility(). */
-  int32_t freedoms;          /**< [-] nv - rank of J at nearby poses; -1: cannot be assembled. */
-  int32_t redundant_rows;    /**< [-] rows that depend on others at every nearby pose. */
-  int32_t conflicting_rows;  /**< [-] rows that cannot be met together with the others. */
-  int32_t free_bodies;       /**< [-] bodies without a joint. */
-  bool near_singular;        /**< The start pose has fewer independent rows than its neighbours, or
+  size_t struct_size;         /**< Set by baum_mechanism_mobility(). */
+  int32_t degrees_of_freedom; /**< [-] nv - rank of J at nearby poses; -1: cannot be assembled. */
+  int32_t redundant_rows;     /**< [-] rows that depend on others at every nearby pose. */
+  int32_t conflicting_rows;   /**< [-] rows that cannot be met together with the others. */
+  int32_t free_bodies;        /**< [-] bodies without a joint. */
+  bool near_singular;         /**< The start pose has fewer independent rows than its neighbours, or
                                   comes within 1e-5 of that, relative to the scales. */
-  double worst_phi;          /**< [m or rad] largest |Phi| after assembly. */
-  baum_joint_id worst_joint; /**< Joint of worst_phi. */
-  char text[1024];           /**< The same in sentences, by name. */
+  double worst_phi;           /**< [m or rad] largest |Phi| after assembly. */
+  baum_joint_id worst_joint;  /**< Joint of worst_phi. */
+  char text[1024];            /**< The same in sentences, by name. */
 } baum_mobility;
 
 /** Count freedoms, redundant and conflicting rows and free bodies at the assembled start pose, at
@@ -537,13 +539,14 @@ BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, ba
 /** What an evaluation of the accelerations costs in a run, and what it is spared. Counts follow from
  *  the structure; forces and functions of the user are not counted. */
 typedef struct baum_report {
-  size_t struct_size;      /**< Set by baum_mechanism_report(). */
-  int32_t bodies;          /**< [-] without ground. */
-  int32_t joints;          /**< [-] with drivers and user constraints. */
-  int32_t forces;          /**< [-] gravity not among them. */
-  int32_t velocities;      /**< [-] nv. */
-  int32_t rows;            /**< [-] nc. */
-  int32_t freedoms;        /**< [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
+  size_t struct_size; /**< Set by baum_mechanism_report(). */
+  int32_t bodies;     /**< [-] without ground. */
+  int32_t joints;     /**< [-] with drivers and user constraints. */
+  int32_t forces;     /**< [-] gravity not among them. */
+  int32_t velocities; /**< [-] nv. */
+  int32_t rows;       /**< [-] nc. */
+  int32_t
+    degrees_of_freedom;    /**< [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
   int32_t redundant_rows;  /**< [-] left out of every solution. */
   int32_t constant_rows;   /**< [-] without time derivatives, for they are not of time. */
   int32_t islands;         /**< [-] of bodies that joints hold together, ground left out. */
@@ -574,9 +577,9 @@ BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum
                                            size_t caller_size);
 
 /** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v, and those
- *  in laws and curves) with differences, in the drawn pose at t = 0 and at three poses beside it, at
+ *  in laws and curves) with differences, in the design configuration at t = 0 and at three poses beside it, at
  *  t = 0, 0.37 and 1.3. An entry is wrong when it is off by more than 1e-6 of itself and 1e-9 of its
- *  row. mass() must be symmetric, without negative numbers on its diagonal in the drawn pose, and
+ *  row. mass() must be symmetric, without negative numbers on its diagonal in the design configuration, and
  *  constant where constant_mass says so. Kinks, and poses and
  *  times that functions refuse, raise no alarm; an element that refuses all poses gives that
  *  failure, but for the laws of drivers.

@@ -6,9 +6,9 @@
  *  Positions are of the centre of mass, in ground axes; angles are counter-clockwise and continuous
  *  over turns.
  *
- *  Placing: joints and springs are placed either by `point` (ground axes, in the drawn pose, the
+ *  Placing: joints and springs are placed either by `point` (ground axes, in the design configuration, the
  *  same for both bodies) or by `point_a` and `point_b` (each in the axes of its body, for ground
- *  the ground axes); NaN means not given; both ways or neither is refused. The drawn pose is a
+ *  the ground axes); NaN means not given; both ways or neither is refused. The design configuration is a
  *  guess that is assembled at start. A point of a particle is the particle itself. A spring and a
  *  distance joint with `point` would have no length: they take point_a and point_b.
  *
@@ -30,12 +30,13 @@ extern "C" {
 
 /** A rigid body. The body axes have their origin at the centre of mass. */
 typedef struct baum_planar_body_def {
-  size_t struct_size;      /**< Set by the default. Do not write. */
-  const char *name;        /**< Label in messages. Copied. Default: NULL, "body<k>". */
-  double mass;             /**< [kg] > 0. Default: 1. */
-  double inertia;          /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
-  double position[2];      /**< [m] of the centre of mass in the drawn pose. Default: (0, 0). */
-  double angle;            /**< [rad] of the body axes in the drawn pose. Default: 0. */
+  size_t struct_size; /**< Set by the default. Do not write. */
+  const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
+  double mass;        /**< [kg] > 0. Default: 1. */
+  double inertia;     /**< [kg m^2] > 0, about the centre of mass. Default: 1. */
+  double
+    position[2]; /**< [m] of the centre of mass in the design configuration. Default: (0, 0). */
+  double angle;  /**< [rad] of the body axes in the design configuration. Default: 0. */
   double velocity[2];      /**< [m/s] of the centre of mass at start. Default: NaN, free. */
   double angular_velocity; /**< [rad/s] at start. Default: NaN, free. */
   bool held;               /**< Assembly keeps the drawn position and angle. Default: false. */
@@ -86,7 +87,7 @@ typedef struct baum_planar_particle_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   double mass;        /**< [kg] > 0. Default: 1. */
-  double position[2]; /**< [m] in the drawn pose. Default: (0, 0). */
+  double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
   double velocity[2]; /**< [m/s] at start. Default: NaN, free. */
   bool held;          /**< Assembly keeps the drawn position. Default: false. */
 } baum_planar_particle_def;
@@ -139,7 +140,7 @@ typedef struct baum_planar_revolute_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
 } baum_planar_revolute_def;
@@ -192,11 +193,12 @@ typedef struct baum_planar_translational_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
-  double angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
+  double
+    angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design configuration. */
 } baum_planar_translational_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -248,10 +250,10 @@ typedef struct baum_planar_distance_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double length;       /**< [m] > 0. Default: NaN, that of the drawn pose. */
+  double length;       /**< [m] > 0. Default: NaN, that of the design configuration. */
 } baum_planar_distance_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -301,10 +303,11 @@ typedef struct baum_planar_fixed_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the drawn pose. */
+  double
+    angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design configuration. */
 } baum_planar_fixed_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -365,12 +368,12 @@ typedef struct baum_planar_spring_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "force<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double stiffness;    /**< [N/m] >= 0. Default: 0. */
   double damping;      /**< [N s/m] >= 0. Default: 0. */
-  double free_length;  /**< [m] >= 0. Default: NaN, that of the drawn pose. */
+  double free_length;  /**< [m] >= 0. Default: NaN, that of the design configuration. */
   baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
   void *user;          /**< Passed to law, not owned. Default: NULL. */
 } baum_planar_spring_def;
@@ -424,7 +427,7 @@ typedef struct baum_planar_torsion_spring_def {
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
   double stiffness;    /**< [N m/rad] >= 0. Default: 0. */
   double damping;      /**< [N m s/rad] >= 0. Default: 0. */
-  double free_angle;   /**< [rad] angle_b - angle_a without torque. Default: NaN, as drawn. */
+  double free_angle;   /**< [rad] angle_b - angle_a without torque. Default: NaN, as designed. */
   baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
   void *user;          /**< Passed to law, not owned. Default: NULL. */
 } baum_planar_torsion_spring_def;

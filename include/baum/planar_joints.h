@@ -23,7 +23,7 @@ typedef struct baum_planar_pin_in_slot_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
@@ -84,12 +84,12 @@ typedef struct baum_planar_rack_and_pinion_def {
   const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a; /**< Default: none, must be set. */
   baum_body_id body_b; /**< Default: none, must be set; not body_a. */
-  double point[2];     /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
   double radius;  /**< [m] of its pitch circle, not 0; sign as above. Default: 0, must be set. */
-  double offset;  /**< [m] that is kept. Default: NaN, that of the drawn pose. */
+  double offset;  /**< [m] that is kept. Default: NaN, that of the design configuration. */
 } baum_planar_rack_and_pinion_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -152,7 +152,7 @@ typedef struct baum_planar_gear_def {
                              Default: 0, must be set. */
   double radius_b;      /**< [m] of its pitch circle, not 0; negative: internal teeth.
                              Default: 0, must be set. */
-  double offset;        /**< [m] that is kept. Default: NaN, that of the drawn pose. */
+  double offset;        /**< [m] that is kept. Default: NaN, that of the design configuration. */
 } baum_planar_gear_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -216,7 +216,7 @@ typedef struct baum_planar_curve_def {
   const char *name;     /**< Label in messages. Copied. Default: NULL, "joint<k>". */
   baum_body_id body_a;  /**< Default: none, must be set. */
   baum_body_id body_b;  /**< Default: none, must be set; not body_a. */
-  double point[2];      /**< [m] ground axes, drawn pose. Default: NaN, not given. */
+  double point[2];      /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];    /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];    /**< [m] on body_b, its axes. Default: NaN, not given. */
   baum_curve_fn *curve; /**< F. Default: NULL, must be set. */

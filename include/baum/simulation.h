@@ -115,7 +115,7 @@ BAUM_API const char *baum_formulation_name(baum_formulation formulation);
 BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
                                      baum_formulation formulation);
 
-/** What to do with the drawn pose. */
+/** What to do with the design configuration. */
 typedef enum baum_start {
   BAUM_START_ASSEMBLE = 0, /**< Assemble; refuse moves above a quarter of the scale, or 1 rad. */
   BAUM_START_EXACT = 1,    /**< Refuse a pose or velocities that do not fulfil the constraints. */
@@ -462,7 +462,7 @@ typedef struct baum_counters {
   double
     damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
                        beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise. */
-  int64_t near_singular_intervals; /**< [-] passages near singular poses, see
+  int64_t near_singular_intervals; /**< [-] crossings near singular poses, see
                                         baum_simulation_near_singular(). */
   int64_t branch_warnings; /**< [-] of these those behind which the motion is on another branch, or
                                 may be. */

@@ -300,7 +300,7 @@ baum_status baum_catalog_compare(const baum_catalog_choice *choice, const baum_m
     status = check_sizes(&at, mechanism, &nq);
   }
   if (status == BAUM_OK) {
-    status = baum_mechanism_get_scale(mechanism, &scale);
+    status = baum_mechanism_get_characteristic_length(mechanism, &scale);
   }
   if (status == BAUM_OK) {
     status = compare_all(&at, scale, times, n, q, v, &error);

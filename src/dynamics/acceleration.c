@@ -42,7 +42,7 @@ static baum_status solve(baum_workspace *w)
 {
   const baum_i_kkt_values values = {.mass = w->mass,
                                     .jacobian = w->jacobian,
-                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   w->solved_by = NULL;

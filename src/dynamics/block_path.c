@@ -58,11 +58,11 @@ static baum_status make_block(const baum_workspace *w, const baum_i_left_out *le
   baum_status status = BAUM_ERR_MEMORY;
   if (t.pins && t.diagonal) {
     find_traits(m, &t);
-    const unsigned char *redundant = w->redundancy.count > 0 ? w->redundancy.dropped : NULL;
+    const unsigned char *redundant = w->redundancy.count > 0 ? w->redundancy.omitted : NULL;
     const baum_i_block_layout layout = {.structure = &w->structure,
                                         .pins = t.pins,
                                         .diagonal = t.diagonal,
-                                        .dropped = left_out ? left_out->dropped : redundant,
+                                        .omitted = left_out ? left_out->omitted : redundant,
                                         .still = left_out ? left_out->still : NULL};
     int hub = -1;
     status = baum_i_block_create(&layout, &hub, &path->block);
@@ -171,7 +171,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
                                   baum_i_block_path *path)
 {
   path->mass_is_constant = w->mechanism->constant_mass;
-  baum_i_point_set(&w->point, 0.0, w->mechanism->drawn_q, NULL);
+  baum_i_point_set(&w->point, 0.0, w->mechanism->design_q, NULL);
   baum_status status = baum_i_evaluate_mass(w);
   if (status != BAUM_OK) {
     return status;
@@ -205,7 +205,7 @@ static bool is_uneven(const baum_i_block_path *path)
   range moves = {.least = (double)INFINITY};
   range turns = {.least = (double)INFINITY};
   for (int i = 0; i < 2 * b->pin_count; i++) {
-    const double *w = b->weight + 2 * (size_t)b->pins[i / 2].triple[i % 2];
+    const double *w = b->weight + 2 * (size_t)b->pins[i / 2].body_block[i % 2];
     const double *p = path->points + 2 * (size_t)i;
     see(&moves, w[0] + w[1] * (p[0] * p[0] + p[1] * p[1]));
   }
@@ -213,8 +213,8 @@ static bool is_uneven(const baum_i_block_path *path)
     const baum_i_full_node *full = &b->fulls[i];
     for (int k = full->first_side; full->side_count > 1 && k < full->first_side + full->side_count;
          k++) {
-      see(&moves, b->weight[2 * (size_t)b->side_triple[k]]);
-      see(&turns, b->weight[2 * (size_t)b->side_triple[k] + 1]);
+      see(&moves, b->weight[2 * (size_t)b->side_body_block[k]]);
+      see(&turns, b->weight[2 * (size_t)b->side_body_block[k] + 1]);
     }
   }
   return b->dense_count > 0 || moves.most > UNEVEN * moves.least ||
@@ -327,7 +327,7 @@ static void set_dropped_rates(baum_workspace *w, const double *v)
 {
   const baum_mechanism *m = w->mechanism;
   for (int i = 0; v && w->redundancy.count > 0 && i < m->nc; i++) {
-    if (w->redundancy.dropped[i]) {
+    if (w->redundancy.omitted[i]) {
       const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
       const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
       w->phi_rate[i] = -w->nu[i];
@@ -453,10 +453,10 @@ static baum_status solve(baum_workspace *w, bool last)
   return status;
 }
 
-static void clear_dropped(baum_workspace *w)
+static void clear_omitted(baum_workspace *w)
 {
   for (int i = 0; w->redundancy.count > 0 && i < w->mechanism->nc; i++) {
-    w->lambda[i] = w->redundancy.dropped[i] ? 0.0 : w->lambda[i];
+    w->lambda[i] = w->redundancy.omitted[i] ? 0.0 : w->lambda[i];
   }
 }
 
@@ -506,7 +506,7 @@ baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q
   status = solve(w, v && !right->force);
   if (status == BAUM_OK) {
     bool finite = w->path->kernel->read_motion(w->path->block, w->a);
-    clear_dropped(w);
+    clear_omitted(w);
     status = finite ? BAUM_OK : BAUM_ERR_SINGULAR;
   }
   return status;

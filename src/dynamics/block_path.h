@@ -36,7 +36,7 @@ typedef struct baum_i_left_out {
   int count;
   unsigned char *still;   /* (body_count) from the first body: a = 0 */
   unsigned char *joints;  /* (joint_count) whose rows are not looked at */
-  unsigned char *dropped; /* (nc) their rows, and the redundant ones */
+  unsigned char *omitted; /* (nc) their rows, and the redundant ones */
 } baum_i_left_out;
 
 /* For the redundant rows as they are known now; left_out may be NULL: nothing. BAUM_OK also where

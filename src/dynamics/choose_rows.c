@@ -58,7 +58,7 @@ static void invert(const unsigned char *flags, int count, unsigned char *out)
 static baum_status find_independent(const baum_workspace *w, double distance, look *at, bool *found)
 {
   int rank = 0;
-  invert(w->redundancy.dropped, w->mechanism->nc, at->independent);
+  invert(w->redundancy.omitted, w->mechanism->nc, at->independent);
   baum_status status = baum_i_jacobian_rank(&w->structure, w->jacobian, at->column_scale, distance,
                                             &rank, at->independent);
   *found = status == BAUM_OK && rank == w->redundancy.rank;
@@ -91,7 +91,7 @@ baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const do
   }
   status = find_apart(workspace, t, q, &at, &found);
   if (found) {
-    invert(at.independent, workspace->mechanism->nc, workspace->redundancy.dropped);
+    invert(at.independent, workspace->mechanism->nc, workspace->redundancy.omitted);
   }
   finish(&at);
   return status;
@@ -184,23 +184,23 @@ static void take_paths(baum_workspace *w, const paths *made)
   destroy(&before);
 }
 
-baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped)
+baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted)
 {
   size_t nc = (size_t)workspace->mechanism->nc;
-  if (memcmp(workspace->redundancy.dropped, dropped, nc) == 0) {
+  if (memcmp(workspace->redundancy.omitted, omitted, nc) == 0) {
     return BAUM_OK;
   }
-  unsigned char *before = baum_i_copy(workspace->redundancy.dropped, nc, 1);
+  unsigned char *before = baum_i_copy(workspace->redundancy.omitted, nc, 1);
   if (!before) {
     return baum_i_fail_memory();
   }
   paths made;
-  memcpy(workspace->redundancy.dropped, dropped, nc);
+  memcpy(workspace->redundancy.omitted, omitted, nc);
   baum_status status = make_paths(workspace, &made);
   if (status == BAUM_OK) {
     take_paths(workspace, &made);
   } else {
-    memcpy(workspace->redundancy.dropped, before, nc);
+    memcpy(workspace->redundancy.omitted, before, nc);
   }
   baum_i_free(before);
   return status;
@@ -220,10 +220,10 @@ static baum_status look_for_others(baum_workspace *w, double t, const double *q,
   status = find_apart(w, t, q, &at, &found);
   if (found) {
     invert(at.independent, nc, at.independent);
-    *changed = memcmp(at.independent, w->redundancy.dropped, (size_t)nc) != 0;
+    *changed = memcmp(at.independent, w->redundancy.omitted, (size_t)nc) != 0;
   }
   if (*changed) {
-    status = baum_i_leave_out_rows(w, at.independent);
+    status = baum_i_omit_rows(w, at.independent);
     *changed = status == BAUM_OK;
   }
   finish(&at);

@@ -23,7 +23,7 @@ static baum_i_kkt_values values_of(const baum_workspace *w)
 {
   return (baum_i_kkt_values){.mass = w->mass,
                              .jacobian = w->jacobian,
-                             .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+                             .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
 }
 
 static baum_status translate(const baum_workspace *w, baum_status status)

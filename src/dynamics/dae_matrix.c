@@ -19,7 +19,7 @@
  * linearization.
  *
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
- * ones only add values to the slots found then. A dropped row reads 1 on its diagonal.
+ * ones only add values to the slots found then. A omitted row reads 1 on its diagonal.
  */
 #include <string.h>
 
@@ -174,8 +174,8 @@ static void walk_row(const factors *f, const baum_i_joint *joint, int r, int fir
 {
   const baum_workspace *w = f->w;
   int row = first + joint->row + r;
-  bool dropped = w->redundancy.count > 0 && w->redundancy.dropped[joint->row + r];
-  double keep = dropped ? 0.0 : 1.0;
+  bool omitted = w->redundancy.count > 0 && w->redundancy.omitted[joint->row + r];
+  double keep = omitted ? 0.0 : 1.0;
   emit(s, row, row, 1.0 - keep);
   for (int j = 0; j < joint->span.nl; j++) {
     int at = joint->jacobian + r * joint->span.nl + j;

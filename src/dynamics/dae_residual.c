@@ -12,7 +12,7 @@
  *   Phi'
  *   Phi
  *
- * A dropped row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and beta are those of row i.
+ * A omitted row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and beta are those of row i.
  */
 #include <string.h>
 
@@ -55,10 +55,10 @@ static void add_correction(baum_workspace *w, const double *mu, double *residual
   }
 }
 
-static void hold_dropped(const baum_workspace *w, const double *multipliers, double *rows)
+static void hold_omitted(const baum_workspace *w, const double *multipliers, double *rows)
 {
   for (int i = 0; i < w->mechanism->nc && w->redundancy.count > 0; i++) {
-    rows[i] = w->redundancy.dropped[i] ? multipliers[i] : rows[i];
+    rows[i] = w->redundancy.omitted[i] ? multipliers[i] : rows[i];
   }
 }
 
@@ -91,11 +91,11 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   baum_i_mass_times(&w->structure, w->mass, dv, newton);
   baum_i_jacobian_transposed_times(&w->structure, w->jacobian, lambda, newton);
   constraint_rows(w, dae, dv, rows);
-  hold_dropped(w, lambda, rows);
+  hold_omitted(w, lambda, rows);
   if (dae->index == BAUM_RESIDUAL_GGL) {
     add_correction(w, lambda + nc, residual);
     memcpy(rows + nc, w->phi, (size_t)nc * sizeof *rows);
-    hold_dropped(w, lambda + nc, rows + nc);
+    hold_omitted(w, lambda + nc, rows + nc);
   }
   return BAUM_OK;
 }

@@ -25,11 +25,11 @@
 typedef struct baum_i_redundancy {
   int rank;               /* of J at the neighbours */
   int rank_at_start;      /* at the start pose itself; less: it is singular, or next to that */
-  int count;              /* dropped rows, nc - rank */
-  unsigned char *dropped; /* (nc) 1 where a row is left out */
+  int count;              /* omitted rows, nc - rank */
+  unsigned char *omitted; /* (nc) 1 where a row is left out */
   double tried;           /* pivot at which they were last looked for; 0: as good as never */
   /* Of least_multipliers.c: */
-  baum_i_kkt *kkt;  /* NULL while nothing has been dropped */
+  baum_i_kkt *kkt;  /* NULL while nothing has been omitted */
   double *weight;   /* (mass_size) block values of W */
   double *mobility; /* (nc) square of the length of row i of J M^-1/2 */
   double *part;     /* (nc) of multipliers, in the null space of J^T */
@@ -47,7 +47,7 @@ typedef enum baum_i_blocks {
   BAUM_I_BLOCKS_CROWDED,  /* a body has very many joints */
   BAUM_I_BLOCKS_FILLED,   /* so has every part of a dense net */
   BAUM_I_BLOCKS_MASSLESS, /* M of a body is not positive definite */
-  BAUM_I_BLOCKS_UNKNOWN   /* M or a force cannot be evaluated in the drawn pose */
+  BAUM_I_BLOCKS_UNKNOWN   /* M or a force cannot be evaluated in the design configuration */
 } baum_i_blocks;
 
 typedef struct baum_i_block_verdict {
@@ -182,7 +182,7 @@ void baum_i_reaction(const baum_workspace *workspace, int joint, const double *l
 
 /* From M in the workspace. */
 void baum_i_choose_metric(baum_workspace *workspace);
-/* From M in the drawn pose, where W has not been chosen. */
+/* From M in the design configuration, where W has not been chosen. */
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
 /* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu) with
@@ -261,7 +261,7 @@ baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const do
 
 /* Leave out these rows (nc) from now on in place of those before, as many and of the same rank. BAUM_ERR_MEMORY,
  * BAUM_ERR_UNSUPPORTED where blocks do not suit the others, statuses of functions of the user; then all stays as it is. */
-baum_status baum_i_leave_out_rows(baum_workspace *workspace, const unsigned char *dropped);
+baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
 
 /* Where the pivot, of the usual one, has become poor, for rows that were well apart need not be so everywhere: leave out
  * others if these are. true: they have changed, and what was solved for is gone. Allocates, but hardly ever. */
@@ -270,7 +270,7 @@ bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, do
 /* Are there rows of the whole rank that are well apart in this pose, whichever are left out? */
 bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
-/* ---- least_multipliers.c: where rows have been dropped, with M and J in the workspace ---- */
+/* ---- least_multipliers.c: where rows have been omitted, with M and J in the workspace ---- */
 
 /* workspace->lambda becomes the one of least norm, in rows scaled by M, that holds the same forces.
  * BAUM_ERR_SINGULAR where it does not balance the forces; also BAUM_ERR_MEMORY. */
@@ -279,7 +279,7 @@ baum_status baum_i_make_multipliers_least(baum_workspace *workspace);
 /* Names of the joints whose multipliers are not unique, into text. Likewise; then it is empty. */
 baum_status baum_i_redundancy_text(baum_workspace *workspace, char *text, size_t size);
 
-/* Which multipliers are unique (nc); all of them where no row has been dropped. Likewise. */
+/* Which multipliers are unique (nc); all of them where no row has been omitted. Likewise. */
 baum_status baum_i_find_unique_multipliers(baum_workspace *workspace, bool *unique);
 
 /* ---- sizes of rows and states ---- */

@@ -55,13 +55,13 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
 
 /* ---- life ---- */
 
-/* Which rows are redundant, from the drawn pose at t = 0. Where that cannot be assembled or evaluated all
+/* Which rows are redundant, from the design configuration at t = 0. Where that cannot be assembled or evaluated all
  * rows are taken for independent; evaluation will tell what is wrong. */
 static baum_status learn_redundancy(baum_workspace *w)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = baum_i_find_redundancy(w, 0.0, w->mechanism->drawn_q);
+  baum_status status = baum_i_find_redundancy(w, 0.0, w->mechanism->design_q);
   status = status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
   return status == BAUM_OK ? baum_i_use_blocks(w) : status;
 }
@@ -86,17 +86,17 @@ baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspac
   return status;
 }
 
-baum_status baum_workspace_drawn(baum_workspace *workspace, double *q, double *v)
+baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v)
 {
   if (!workspace) {
-    return fail_null("baum_workspace_drawn", "the workspace");
+    return fail_null("baum_workspace_design", "the workspace");
   }
   const baum_mechanism *m = workspace->mechanism;
   if (q) {
-    memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
+    memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
   }
   if (v) {
-    memcpy(v, m->drawn_v, (size_t)m->nv * sizeof *v);
+    memcpy(v, m->design_v, (size_t)m->nv * sizeof *v);
   }
   return BAUM_OK;
 }

@@ -28,15 +28,15 @@ static void clear(baum_i_left_out *out)
 {
   baum_i_free(out->still);
   baum_i_free(out->joints);
-  baum_i_free(out->dropped);
+  baum_i_free(out->omitted);
 }
 
 static baum_status make(const baum_mechanism *m, baum_i_left_out *out)
 {
   out->still = baum_i_alloc((size_t)m->body_count, 1);
   out->joints = baum_i_alloc((size_t)m->joint_count, 1);
-  out->dropped = baum_i_alloc((size_t)m->nc, 1);
-  return out->still && out->joints && out->dropped ? BAUM_OK : baum_i_fail_memory();
+  out->omitted = baum_i_alloc((size_t)m->nc, 1);
+  return out->still && out->joints && out->omitted ? BAUM_OK : baum_i_fail_memory();
 }
 
 static bool is_of(const baum_i_span *span, const bool *bodies)
@@ -55,10 +55,10 @@ static int drop_rows(const baum_workspace *w, baum_i_left_out *out)
   const baum_mechanism *m = w->mechanism;
   int kept = 0;
   for (int i = 0; i < m->nc; i++) {
-    out->dropped[i] = w->redundancy.count > 0 ? w->redundancy.dropped[i] : 0;
+    out->omitted[i] = w->redundancy.count > 0 ? w->redundancy.omitted[i] : 0;
     if (out->joints[baum_i_row_joint(m, i)]) {
-      kept += out->dropped[i] ? 0 : 1;
-      out->dropped[i] = 1;
+      kept += out->omitted[i] ? 0 : 1;
+      out->omitted[i] = 1;
     }
   }
   return kept;

@@ -64,7 +64,7 @@ static int count_kept(const baum_workspace *w, const baum_i_joint *joint)
 {
   int kept = 0;
   for (int i = joint->row; i < joint->row + joint->rows; i++) {
-    kept += w->redundancy.count > 0 && w->redundancy.dropped[i] ? 0 : 1;
+    kept += w->redundancy.count > 0 && w->redundancy.omitted[i] ? 0 : 1;
   }
   return kept;
 }
@@ -133,7 +133,7 @@ static void count_bodies(const baum_mechanism *m, baum_i_islands *out)
       baum_i_island *island = &out->island[out->of_body[i]];
       island->bodies++;
       island->velocities += m->bodies[i]->nv;
-      island->freedoms += m->bodies[i]->nv;
+      island->degrees_of_freedom += m->bodies[i]->nv;
     }
   }
 }
@@ -149,7 +149,7 @@ static void count_joints(const baum_workspace *w, const bool *ground, baum_i_isl
       baum_i_island *island = &out->island[out->of_body[first]];
       island->joints++;
       island->rows += joint->rows;
-      island->freedoms -= count_kept(w, joint);
+      island->degrees_of_freedom -= count_kept(w, joint);
       island->moved |= !joint->type->scleronomic;
     }
   }
@@ -163,8 +163,9 @@ static void judge(const baum_workspace *w, baum_i_islands *out)
   bool known = r->rank + r->count == m->nc;
   for (int k = 0; k < out->count; k++) {
     baum_i_island *island = &out->island[k];
-    island->freedoms = known ? island->freedoms : -1;
-    island->immobile = island->freedoms == 0 && !island->moved && r->rank_at_start == r->rank;
+    island->degrees_of_freedom = known ? island->degrees_of_freedom : -1;
+    island->immobile =
+      island->degrees_of_freedom == 0 && !island->moved && r->rank_at_start == r->rank;
   }
   for (int i = 1; i <= m->body_count; i++) {
     int island = out->of_body[i];

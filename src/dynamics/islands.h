@@ -11,9 +11,10 @@ typedef struct baum_i_island {
   int joints; /* drivers and user constraints are joints too */
   int rows;
   int velocities;
-  int freedoms;  /* -1: unknown, as redundant rows could not be told from contradicting ones */
-  bool moved;    /* some row depends on time */
-  bool immobile; /* no freedom, and nothing that moves it */
+  int
+    degrees_of_freedom; /* -1: unknown, as redundant rows could not be told from contradicting ones */
+  bool moved;           /* some row depends on time */
+  bool immobile;        /* no freedom, and nothing that moves it */
 } baum_i_island;
 
 typedef struct baum_i_islands {

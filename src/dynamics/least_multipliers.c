@@ -49,7 +49,7 @@ static baum_status factor(baum_workspace *w, const double *shift)
 {
   const baum_i_redundancy *r = &w->redundancy;
   const baum_i_kkt_values values = {
-    .mass = r->weight, .jacobian = w->jacobian, .shift = shift, .dropped = r->dropped};
+    .mass = r->weight, .jacobian = w->jacobian, .shift = shift, .omitted = r->omitted};
   for (int b = 0; b < w->structure.mass_block_count; b++) {
     const baum_i_mass_block *block = &w->structure.mass_blocks[b];
     for (int i = 0; i < block->size; i++) {
@@ -92,7 +92,7 @@ static baum_status apply_transposed(baum_workspace *w, const double *u, double *
     baum_i_jacobian_times(&w->structure, w->jacobian, f + nv, out);
   }
   for (int i = 0; i < nc && status == BAUM_OK; i++) {
-    out[i] = w->redundancy.dropped[i] ? u[i] - out[i] : 0.0;
+    out[i] = w->redundancy.omitted[i] ? u[i] - out[i] : 0.0;
   }
   return status;
 }
@@ -366,7 +366,7 @@ static baum_status find_reach(baum_workspace *w, double *least)
   double *size = begin(w).u;
   baum_i_row_displacements(w, size);
   for (int i = 0; i < nc; i++) {
-    z[i] = r->dropped[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
+    z[i] = r->omitted[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
     w->shift[i] = SHIFT * size[i] * size[i];
   }
   baum_status status = factor(w, w->shift);

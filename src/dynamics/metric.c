@@ -40,7 +40,7 @@ baum_status baum_i_need_metric(baum_workspace *w)
   if (w->metric_ready) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_position_stage(w, 0.0, w->mechanism->drawn_q);
+  baum_status status = baum_i_position_stage(w, 0.0, w->mechanism->design_q);
   if (status == BAUM_OK) {
     baum_i_choose_metric(w);
   }

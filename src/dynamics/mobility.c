@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
-#include "dynamics/survey.h"
+#include "dynamics/snapshot.h"
 
 /* Append to the report's text; what does not fit is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
@@ -62,7 +62,7 @@ static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
   for (int i = 0; i < w->mechanism->nc; i++) {
     report->conflicting_rows += fabs(w->phi[i]) >= 0.1 * report->worst_phi ? 1 : 0;
   }
-  report->freedoms = -1;
+  report->degrees_of_freedom = -1;
   say(report, "Cannot be assembled: %s.", reason);
   return BAUM_OK;
 }
@@ -75,11 +75,11 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   if (status != BAUM_OK) {
     return status;
   }
-  report->freedoms = m->nv - (m->nc > 0 ? r->rank : 0);
+  report->degrees_of_freedom = m->nv - (m->nc > 0 ? r->rank : 0);
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
-  say(report, "%d %s, %d coordinates, %d constraint rows.", report->freedoms,
-      report->freedoms == 1 ? "freedom" : "freedoms", m->nv, m->nc);
+  say(report, "%d %s, %d coordinates, %d constraint rows.", report->degrees_of_freedom,
+      report->degrees_of_freedom == 1 ? "freedom" : "degrees_of_freedom", m->nv, m->nc);
   if (r->count > 0) {
     char names[512] = "";
     status = baum_i_position_stage(w, 0.0, q);
@@ -99,7 +99,7 @@ static baum_status look(baum_workspace *w, double *q, void *whole)
 {
   baum_mobility *report = whole;
   const baum_mechanism *m = w->mechanism;
-  memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
+  memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
   baum_status status = baum_i_assemble(w, 0.0, q, NULL, m->held);
   if (status == BAUM_ERR_INCONSISTENT) {
     status = report_conflict(w, report);
@@ -115,7 +115,7 @@ baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobili
                                     size_t caller_size)
 {
   baum_mobility report = {.struct_size = sizeof report};
-  const baum_i_survey_out to = {"baum_mechanism_mobility", out, caller_size, &report,
-                                sizeof report};
-  return baum_i_survey(mechanism, look, &to);
+  const baum_i_snapshot_out to = {"baum_mechanism_mobility", out, caller_size, &report,
+                                  sizeof report};
+  return baum_i_snapshot(mechanism, look, &to);
 }

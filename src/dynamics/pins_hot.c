@@ -51,10 +51,10 @@ BAUM_I_INLINE markers markers_on(const baum_i_frame *f, const baum_i_frame *g, b
 /* Body 0 or 1 of both. */
 BAUM_I_INLINE markers markers_of(const two_pins *two, const baum_i_frame *frames, int body)
 {
-  /* Triples of planar bodies have the numbers of the bodies. */
+  /* Body blocks of planar bodies have the numbers of the bodies. */
   return markers_on(
-    &frames[(ptrdiff_t)two->pin[0].triple[body]],
-    &frames[(ptrdiff_t)two->pin[two->second].triple[body]],
+    &frames[(ptrdiff_t)two->pin[0].body_block[body]],
+    &frames[(ptrdiff_t)two->pin[two->second].body_block[body]],
     baum_i_four_gathered(two->points + 2 * body, two->points + 4 * two->second + 2 * body));
 }
 

@@ -30,7 +30,7 @@ static baum_status least_change(baum_workspace *w)
 {
   const baum_i_kkt_values values = {.mass = w->mass,
                                     .jacobian = w->jacobian,
-                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
@@ -111,7 +111,7 @@ static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, 
   }
   for (int i = 0; i < m->nc && *is; i++) {
     *is =
-      (w->redundancy.count > 0 && w->redundancy.dropped[i]) || fabs(w->phi[i]) <= most * w->rhs[i];
+      (w->redundancy.count > 0 && w->redundancy.omitted[i]) || fabs(w->phi[i]) <= most * w->rhs[i];
   }
   return status;
 }
@@ -218,7 +218,7 @@ baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, 
     double distance = w->work_c[i];
     bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance ||
                   fabs(w->phi_rate[i]) > NEGLIGIBLE * (speed * distance + fabs(w->nu[i]));
-    if (w->redundancy.dropped[i] && is_off) {
+    if (w->redundancy.omitted[i] && is_off) {
       status = fail_left_out(w, i);
     }
   }

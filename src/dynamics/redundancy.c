@@ -103,7 +103,7 @@ static void keep_set(search *s, const pose_rank *rank)
   r->rank = rank->all;
   r->count = nc - rank->all;
   for (int i = 0; i < nc; i++) {
-    r->dropped[i] = s->independent[i] ? 0 : 1;
+    r->omitted[i] = s->independent[i] ? 0 : 1;
   }
 }
 
@@ -196,7 +196,7 @@ static baum_status look_around(search *s, double t, const double *q)
 static void keep_all(baum_i_redundancy *r, int nc)
 {
   r->count = 0;
-  memset(r->dropped, 0, (size_t)nc);
+  memset(r->omitted, 0, (size_t)nc);
 }
 
 /* The pose to look at is assembled: off the constraints no row depends on others exactly. */

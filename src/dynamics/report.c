@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "dynamics/immobile.h"
 #include "dynamics/islands.h"
-#include "dynamics/survey.h"
+#include "dynamics/snapshot.h"
 
 /* Append to the report's text; what does not fit is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
@@ -29,14 +29,14 @@ static void report_sizes(const baum_workspace *w, bool assembled, baum_report *r
   report->velocities = m->nv;
   report->rows = m->nc;
   report->redundant_rows = w->redundancy.count;
-  report->freedoms = assembled ? m->nv - (m->nc > 0 ? w->redundancy.rank : 0) : -1;
+  report->degrees_of_freedom = assembled ? m->nv - (m->nc > 0 ? w->redundancy.rank : 0) : -1;
   for (int k = 0; k < m->joint_count; k++) {
     report->constant_rows += m->joints[k]->type->scleronomic ? m->joints[k]->rows : 0;
   }
   say(report, "mechanism     bodies %d, joints %d, forces %d; velocities %d, rows %d",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc);
   if (assembled) {
-    say(report, ", freedoms %d\n", report->freedoms);
+    say(report, ", degrees of freedom %d\n", report->degrees_of_freedom);
   } else {
     say(report, "\n              cannot be assembled\n");
   }
@@ -236,10 +236,10 @@ static void report_spared(const baum_mechanism *m, baum_report *report)
 
 /* ---- the whole ---- */
 
-/* A pose to look at: assembled, or as drawn where that fails; at rest. */
+/* A pose to look at: assembled, or as designed where that fails; at rest. */
 static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
 {
-  memcpy(q, w->mechanism->drawn_q, (size_t)w->mechanism->nq * sizeof *q);
+  memcpy(q, w->mechanism->design_q, (size_t)w->mechanism->nq * sizeof *q);
   baum_status status = baum_i_assemble(w, 0.0, q, NULL, w->mechanism->held);
   *assembled = status == BAUM_OK;
   return status == BAUM_ERR_MEMORY ? status : BAUM_OK;
@@ -275,6 +275,7 @@ baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *
                                   size_t caller_size)
 {
   baum_report report = {.struct_size = sizeof report};
-  const baum_i_survey_out to = {"baum_mechanism_report", out, caller_size, &report, sizeof report};
-  return baum_i_survey(mechanism, look, &to);
+  const baum_i_snapshot_out to = {"baum_mechanism_report", out, caller_size, &report,
+                                  sizeof report};
+  return baum_i_snapshot(mechanism, look, &to);
 }

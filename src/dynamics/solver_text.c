@@ -52,7 +52,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
     (void)snprintf(text, size, "the mass matrix of %.150s is not positive definite", label);
     break;
   case BAUM_I_BLOCKS_UNKNOWN:
-    (void)snprintf(text, size, "mass or force cannot be evaluated in the drawn pose");
+    (void)snprintf(text, size, "mass or force cannot be evaluated in the design configuration");
     break;
   case BAUM_I_BLOCKS_SUIT:
   case BAUM_I_BLOCKS_UNWANTED:

@@ -8,7 +8,7 @@
  *   [ J                                                              0  ] [ x  ] = - [ Phi                           ]
  *
  * With scale by_a of the size of 1 no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A. Cardona, 2007;
- * M. Arnold, O. Bruels, 2007). Of a dropped row i, lambda_i = 0 stays.
+ * M. Arnold, O. Bruels, 2007). Of a omitted row i, lambda_i = 0 stays.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H

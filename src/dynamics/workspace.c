@@ -65,8 +65,8 @@ static baum_status make_arrays(baum_workspace *w)
       return baum_i_fail_memory();
     }
   }
-  w->redundancy.dropped = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  return w->redundancy.dropped ? BAUM_OK : baum_i_fail_memory();
+  w->redundancy.omitted = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  return w->redundancy.omitted ? BAUM_OK : baum_i_fail_memory();
 }
 
 static baum_status make_structure(baum_workspace *w)
@@ -211,7 +211,7 @@ void baum_workspace_destroy(baum_workspace *workspace)
   baum_i_point_release(&workspace->point);
   baum_i_block_path_destroy(workspace->path);
   baum_i_immobile_destroy(workspace->immobile);
-  baum_i_free(workspace->redundancy.dropped);
+  baum_i_free(workspace->redundancy.omitted);
   baum_i_kkt_destroy(workspace->redundancy.kkt);
   baum_i_kkt_destroy(workspace->kkt);
   baum_i_free(workspace->structure.mass_blocks);

@@ -78,7 +78,7 @@ void baum_i_continuation_close(baum_i_continuation *path)
 
 static bool is_kept(const baum_workspace *w, int row)
 {
-  return w->redundancy.count == 0 || !w->redundancy.dropped[row];
+  return w->redundancy.count == 0 || !w->redundancy.omitted[row];
 }
 
 /* Refusals are no failures: BAUM_OK, and the reason in the verdict. */
@@ -116,7 +116,7 @@ static baum_status factor(baum_workspace *w)
 {
   const baum_i_kkt_values values = {.mass = w->mass,
                                     .jacobian = w->jacobian,
-                                    .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
   w->evaluations++;
   return baum_i_kkt_factor(w->kkt, &values);
 }

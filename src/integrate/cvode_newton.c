@@ -81,7 +81,7 @@ static void make_right_side(const baum_i_cvode_newton *newton, const double *r, 
   baum_i_mass_times(&w->structure, newton->mass, r + m->nv, forces);
   baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nv, rows);
   for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
-    rows[i] = w->redundancy.dropped[i] ? 0.0 : rows[i];
+    rows[i] = w->redundancy.omitted[i] ? 0.0 : rows[i];
   }
   for (int i = 0; i < 2 * m->nv + m->nc; i++) {
     right[i] *= newton->c;

@@ -425,8 +425,8 @@ static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
 
 static baum_status check_freedom(const baum_workspace *w)
 {
-  int freedoms = w->mechanism->nv - (w->mechanism->nc > 0 ? w->redundancy.rank : 0);
-  if (freedoms == 0) {
+  int degrees_of_freedom = w->mechanism->nv - (w->mechanism->nc > 0 ? w->redundancy.rank : 0);
+  if (degrees_of_freedom == 0) {
     return BAUM_OK;
   }
   return baum_i_fail(
@@ -434,7 +434,8 @@ static baum_status check_freedom(const baum_workspace *w)
     "kinematics: %d %s left, so that the motion does not follow from Phi(q, t) = 0 "
     "alone; add a driver for each, or name an integrator of the equations of "
     "motion, such as baum_rk4 or baum_cvode_adams",
-    freedoms, freedoms == 1 ? "freedom is" : "freedoms are");
+    degrees_of_freedom,
+    degrees_of_freedom == 1 ? "degree of freedom is" : "degrees of freedom are");
 }
 
 static baum_status set_up(kinematics_run *run, const baum_i_problem *problem,

@@ -32,7 +32,7 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
   size_t pins = baum_i_even((size_t)b->pin_count);
   const array all[ARRAY_COUNT] = {
     {&b->nodes, sizeof(baum_i_node) / sizeof(double) * nodes},
-    {&b->weight, 2 * (size_t)b->triple_count},
+    {&b->weight, 2 * (size_t)b->body_block_count},
     {&b->free, motion},
     {&b->motion, motion},
     {&b->response, motion},
@@ -86,7 +86,7 @@ static baum_status make_arrays(baum_i_block *b)
 /* Over y = L^T a masses and weights are one. */
 static void set_dense_weights(baum_i_block *b)
 {
-  for (int t = 1 + b->structure->mass_block_count; t < b->triple_count; t++) {
+  for (int t = 1 + b->structure->mass_block_count; t < b->body_block_count; t++) {
     b->weight[2 * t] = 1.0;
     b->weight[2 * t + 1] = 1.0;
     for (int c = 0; c < 3; c++) {
@@ -139,10 +139,11 @@ void baum_i_block_destroy(baum_i_block *block)
   if (!block) {
     return;
   }
-  const void *arrays[] = {block->pins,  block->fulls,       block->side_triple, block->entries,
-                          block->alike, block->opposite,    block->first_pairs, block->full_pairs,
-                          block->zeros, block->target,      block->place,       block->side_from,
-                          block->dense, block->dense_sides, block->still,       block->numbers};
+  const void *arrays[] = {
+    block->pins,  block->fulls,       block->side_body_block, block->entries,
+    block->alike, block->opposite,    block->first_pairs,     block->full_pairs,
+    block->zeros, block->target,      block->place,           block->side_from,
+    block->dense, block->dense_sides, block->still,           block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -169,8 +170,8 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
   }
   for (size_t i = 0; i < baum_i_even((size_t)block->pin_count); i++) {
     double *to = block->pin_weight + 4 * i;
-    memcpy(to, block->weight + 2 * (size_t)block->pins[i].triple[0], 2 * sizeof *to);
-    memcpy(to + 2, block->weight + 2 * (size_t)block->pins[i].triple[1], 2 * sizeof *to);
+    memcpy(to, block->weight + 2 * (size_t)block->pins[i].body_block[0], 2 * sizeof *to);
+    memcpy(to + 2, block->weight + 2 * (size_t)block->pins[i].body_block[1], 2 * sizeof *to);
   }
   return positive;
 }

@@ -4,14 +4,14 @@
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
  * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot. Columns
- * go in *triples*: a planar body is one, W diagonal; user coordinates with M = L L^T take as many as
- * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. Numbers of triples
+ * go in *body blocks*: a planar body is one, W diagonal; user coordinates with M = L L^T take as many as
+ * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. Numbers of body blocks
  * stand in the order of v, then ground, then y; a particle's third is that of its neighbour, which it
- * leaves alone, its W being 0. A triple that a node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
+ * leaves alone, its W being 0. A body block that a node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
- * so that only c, its *arm*, is stored. Two nodes that share a triple are coupled; S is sparse, and
+ * so that only c, its *arm*, is stored. Two nodes that share a body block are coupled; S is sparse, and
  * its order of elimination, fill and every index are fixed when the solver is made.
  *
  * Structure here; the arithmetic is block_sides_hot.c and block_hot.c.
@@ -34,7 +34,7 @@ typedef struct baum_i_block_layout {
   const baum_i_kkt_structure *structure;
   const baum_i_block_pin *pins;  /* (row_block_count) */
   const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant there */
-  const unsigned char *dropped;  /* (nc) or NULL, see baum_i_kkt_values */
+  const unsigned char *omitted;  /* (nc) or NULL, see baum_i_kkt_values */
   const unsigned char *still;    /* (mass_block_count) or NULL: a = 0 there whatever acts, as of
                                     ground; diagonal ones only */
 } baum_i_block_layout;
@@ -43,9 +43,9 @@ typedef struct baum_i_block_layout {
  * last one stands twice in arrays that are said to have an even one. */
 typedef struct baum_i_pin_node {
   int32_t node;
-  int32_t row;       /* first of its two */
-  int32_t triple[2]; /* of body a and b */
-  int32_t place[2];  /* of these triples */
+  int32_t row;           /* first of its two */
+  int32_t body_block[2]; /* of body a and b */
+  int32_t place[2];      /* of these body blocks */
 } baum_i_pin_node;
 
 static inline size_t baum_i_even(size_t count)
@@ -56,7 +56,7 @@ static inline size_t baum_i_even(size_t count)
 /* A node of any other shape. */
 typedef struct baum_i_full_node {
   int32_t node;
-  int32_t row[2];     /* -1: a missing or dropped one */
+  int32_t row[2];     /* -1: a missing or omitted one */
   int32_t first_side; /* of all full sides */
   int32_t side_count;
 } baum_i_full_node;
@@ -71,25 +71,25 @@ typedef struct baum_i_side_entry {
 typedef struct baum_i_pin_pair {
   int32_t off;
   int32_t arm[2]; /* of the later and of the earlier node */
-  int32_t triple;
+  int32_t body_block;
 } baum_i_pin_pair;
 
-/* A coupling by one triple of which one side at least is full; ~arm stands for a pin's side. */
+/* A coupling by one body block of which one side at least is full; ~arm stands for a pin's side. */
 typedef struct baum_i_full_pair {
   int32_t off;
   int32_t side[2]; /* of the later and of the earlier node */
-  int32_t triple;
+  int32_t body_block;
 } baum_i_full_pair;
 
 /* A body whose M is not diagonal, or not constant. */
 typedef struct baum_i_dense_body {
   int mass_block;
-  int32_t triple; /* first of its own */
-  int32_t place;  /* of that, and so of y */
-  int factor;     /* start of L in factor[] */
+  int32_t body_block; /* first of its own */
+  int32_t place;      /* of that, and so of y */
+  int factor;         /* start of L in factor[] */
 } baum_i_dense_body;
 
-/* Where a node touches a dense body: sides of all its triples, one after the other. */
+/* Where a node touches a dense body: sides of all its body blocks, one after the other. */
 typedef struct baum_i_dense_side {
   int32_t body; /* in dense[] */
   int32_t side; /* first */
@@ -108,7 +108,7 @@ typedef struct baum_i_block {
   baum_i_elimination order;
 
   int node_count;
-  int triple_count; /* with ground */
+  int body_block_count; /* with ground */
   int pin_count;
   int full_count;
   int side_count;
@@ -124,14 +124,14 @@ typedef struct baum_i_block {
   int factor_size;   /* numbers in factor[] */
   int motion_size;   /* v, ground, and y of dense bodies */
   double weak_pivot; /* det D over the product of the diagonal that S had: refined below */
-  bool leaves_v;     /* a triple has numbers outside of v: dense bodies, particles */
+  bool leaves_v;     /* a body block has numbers outside of v: dense bodies, particles */
   int hub;           /* mass block that more rows touch than blocks are good for; -1: none */
 
   unsigned char *still; /* (mass_block_count) W = 0 */
 
   baum_i_pin_node *pins;         /* (even pin_count) */
   baum_i_full_node *fulls;       /* (full_count) */
-  int32_t *side_triple;          /* (side_count) */
+  int32_t *side_body_block;      /* (side_count) */
   int32_t *side_from;            /* (side_count x 2) where its columns are in the values of J,
                                     row by row; -1: no second row; both: by entries */
   baum_i_side_entry *entries;    /* (entry_count) */
@@ -141,18 +141,18 @@ typedef struct baum_i_block {
   baum_i_full_pair *full_pairs;  /* (full_pair_count) add to it */
   int32_t *zeros;                /* (zero_count) blocks to clear first */
   int32_t *target;               /* blocks that pairs of couplings go to, node after node */
-  int32_t *place;           /* (triple_count) where its numbers are in free[], motion[] and such */
-  baum_i_dense_body *dense; /* (dense_count) */
+  int32_t *place; /* (body_block_count) where its numbers are in free[], motion[] and such */
+  baum_i_dense_body *dense;       /* (dense_count) */
   baum_i_dense_side *dense_sides; /* (dense_side_count) */
 
   double *numbers;    /* behind all arrays below */
   baum_i_node *nodes; /* (node_count) */
-  double *weight;     /* (triple_count x 2) W of the first two columns, and of the third */
+  double *weight;     /* (body_block_count x 2) W of the first two columns, and of the third */
   double *free;       /* (motion_size) a0 = W f */
   double *motion;     /* (motion_size) a */
   double *response;   /* (motion_size) W, where free[] is */
   double *arm;        /* (even pin_count x 4) c_a, c_b */
-  double *pin_weight; /* (even pin_count x 4) weights of both triples once more, side by side */
+  double *pin_weight; /* (even pin_count x 4) weights of both body blocks once more, side by side */
   double *side;       /* (side_count x 6) column by column */
   double *right;      /* (node_count x 2) r */
   double *off;        /* (off_count x 4) S below the diagonal, then L^T, column by column */
@@ -229,7 +229,7 @@ typedef struct baum_i_block_kernel {
   void (*couple)(baum_i_block *block);
   /* L D L^T, and the right side forward; the motion is a0. */
   baum_i_pivots (*eliminate)(baum_i_block *block);
-  /* The right side backward, which gives lambda, also into its rows (nc) but for dropped ones;
+  /* The right side backward, which gives lambda, also into its rows (nc) but for omitted ones;
    * and the motion. */
   void (*substitute)(baum_i_block *block, double *lambda);
   /* Whether every row of r - J a is rounding. */

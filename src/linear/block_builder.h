@@ -18,7 +18,7 @@ typedef struct baum_i_raw_node {
  * in the order of the rows. */
 typedef struct baum_i_raw_side {
   int32_t node;
-  int32_t triple;
+  int32_t body_block;
   int32_t number;
 } baum_i_raw_side;
 
@@ -26,15 +26,15 @@ typedef struct baum_i_block_builder {
   const baum_i_block_layout *layout;
   baum_i_block *block;
   int32_t *column_body;      /* (nv) mass block of each column */
-  int32_t *triple_of;        /* (mass_block_count) first triple */
+  int32_t *body_block_of;    /* (mass_block_count) first body block */
   int32_t *dense_of;         /* (mass_block_count) in dense[], -1: diagonal */
   baum_i_vector nodes;       /* baum_i_raw_node */
   baum_i_vector sides;       /* baum_i_raw_side */
-  baum_i_vector full_sides;  /* int32_t triple */
+  baum_i_vector full_sides;  /* int32_t body block */
   baum_i_vector entries;     /* baum_i_side_entry */
   baum_i_vector dense_sides; /* baum_i_dense_side */
   int raw_pins;
-  int32_t *sorted_start;    /* (triple_count + 1) sides of a triple */
+  int32_t *sorted_start;    /* (body_block_count + 1) sides of a body block */
   int32_t *sorted;          /* (sides.count) */
   int32_t *graph_start;     /* (nodes.count + 1) */
   baum_i_vector neighbours; /* int32_t */
@@ -44,13 +44,14 @@ typedef struct baum_i_block_builder {
 } baum_i_block_builder;
 
 /* Whether W = 0 there, so that it couples nothing. */
-static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int triple)
+static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body_block)
 {
   const unsigned char *still = u->block->still;
-  return triple == 0 || (triple <= u->layout->structure->mass_block_count && still[triple - 1]);
+  return body_block == 0 ||
+         (body_block <= u->layout->structure->mass_block_count && still[body_block - 1]);
 }
 
-/* Couplings of nodes that share a triple, and the blocks that are cleared first. BAUM_OK or
+/* Couplings of nodes that share a body block, and the blocks that are cleared first. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 

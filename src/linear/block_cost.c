@@ -90,7 +90,7 @@ static double count_bytes(const baum_i_block *b)
   double entries = (double)sizeof *b->entries + NUMBER;
   double rows = NUMBER * 5.0; /* Phi, Phi', nu, gamma, lambda */
   double couplings = NUMBER * 4.0 + INDEX;
-  double motion = NUMBER * 2.0 * b->motion_size + (NUMBER * 2.0 + INDEX) * b->triple_count;
+  double motion = NUMBER * 2.0 * b->motion_size + (NUMBER * 2.0 + INDEX) * b->body_block_count;
   return pins * b->pin_count + nodes * b->node_count + sides * b->side_count +
          entries * b->entry_count + rows * full_rows(b) + couplings * b->off_count +
          INDEX * (baum_i_block_target_count(b) + b->zero_count) + motion +

@@ -44,14 +44,14 @@ static baum_status add_pair(baum_i_block_builder *u, const baum_i_raw_side *x,
     bool alike = (~k) % 2 == (~n) % 2;
     baum_i_pin_pair *pair = baum_i_vector_append(alike ? &u->alike : &u->opposite);
     if (pair) {
-      *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .triple = x->triple};
+      *pair = (baum_i_pin_pair){.off = off, .arm = {~n, ~k}, .body_block = x->body_block};
     }
     return pair ? BAUM_OK : BAUM_ERR_MEMORY;
   }
   baum_i_full_pair *pair = baum_i_vector_append(u->is_set[off] ? &u->full_pairs : &u->first_pairs);
   u->is_set[off] = 1;
   if (pair) {
-    *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .triple = x->triple};
+    *pair = (baum_i_full_pair){.off = off, .side = {n, k}, .body_block = x->body_block};
   }
   return pair ? BAUM_OK : BAUM_ERR_MEMORY;
 }
@@ -76,7 +76,7 @@ baum_status baum_i_block_make_pairs(baum_i_block_builder *u)
   const baum_i_raw_side *sides = u->sides.items;
   u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
   baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
-  for (int t = 1; t < u->block->triple_count; t++) {
+  for (int t = 1; t < u->block->body_block_count; t++) {
     bool couples = !baum_i_block_is_fixed(u, t);
     for (int32_t i = u->sorted_start[t]; couples && i < u->sorted_start[t + 1]; i++) {
       for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Arithmetic of the Schur complement in blocks: see block.h for the equations and the storage.
  *
- *   S_nk = sum over shared triples of G_n W G_k^T;   for two pins  +- w_0 I + w_2 c_n c_k^T
+ *   S_nk = sum over shared body blocks of G_n W G_k^T;   for two pins  +- w_0 I + w_2 c_n c_k^T
  *
  * Right-looking L D L^T. With U = S_ik adj(D), all that a pivot gives to others is a product with
  * U times 1 / det D, so that the division runs beside the products; the right side goes along.
@@ -41,7 +41,7 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
 /* The same of all full nodes, and their rows of lambda, where these are wanted (NULL: nowhere). */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
-  const int32_t *triples = b->side_triple;
+  const int32_t *body_blocks = b->side_body_block;
   const int32_t *place = b->place;
   const double *weight = b->weight;
   double *motion = b->motion;
@@ -51,8 +51,8 @@ BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
     const double *side = b->side + 6 * (ptrdiff_t)full->first_side;
     for (ptrdiff_t s = full->first_side; s < full->first_side + full->side_count; s++, side += 6) {
       baum_i_columns g = baum_i_load_full(side);
-      double *x = motion + place[triples[s]];
-      const double *w = weight + 2 * (ptrdiff_t)triples[s];
+      double *x = motion + place[body_blocks[s]];
+      const double *w = weight + 2 * (ptrdiff_t)body_blocks[s];
       baum_i_square moving = {{g.c[0], g.c[1]}};
       baum_i_store(x, baum_i_load(x) - w[0] * baum_i_transposed_times(moving, lambda));
       x[2] -= w[1] * baum_i_dot(g.c[2], lambda);
@@ -76,7 +76,7 @@ static inline void set_pairs(const baum_i_block *b, const baum_i_pin_pair *pairs
   double *off = b->off;
   for (int i = 0; i < count; i++) {
     const baum_i_pin_pair *pair = &pairs[i];
-    const double *w = weight + 2 * (size_t)pair->triple;
+    const double *w = weight + 2 * (size_t)pair->body_block;
     baum_i_pair n = baum_i_load(arm + 2 * (size_t)pair->arm[0]);
     baum_i_pair k = baum_i_load(arm + 2 * (size_t)pair->arm[1]);
     baum_i_square s = baum_i_add_diagonal(baum_i_outer_product(n, w[1] * k), sign * w[0]);
@@ -97,7 +97,7 @@ static inline baum_i_square couple_to_pin(const baum_i_block *b, int32_t side, i
 
 static inline baum_i_square couple_sides(const baum_i_block *b, const baum_i_full_pair *pair)
 {
-  const double *w = b->weight + 2 * (ptrdiff_t)pair->triple;
+  const double *w = b->weight + 2 * (ptrdiff_t)pair->body_block;
   int32_t later = pair->side[0];
   int32_t earlier = pair->side[1];
   if (later >= 0 && earlier < 0) {
@@ -361,7 +361,7 @@ static bool check_full(const baum_i_block *b, const baum_i_full_node *full)
   baum_i_pair size = magnitude(rest);
   for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
     baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-    const double *x = b->motion + b->place[b->side_triple[s]];
+    const double *x = b->motion + b->place[b->side_body_block[s]];
     for (int c = 0; c < 3; c++) {
       rest -= x[c] * g.c[c];
       size += magnitude(x[c] * g.c[c]);
@@ -396,7 +396,7 @@ static void gather(const baum_i_block *b)
     baum_i_pair sum = -baum_i_load(b->rest + 2 * (size_t)full->node);
     for (int s = full->first_side; s < full->first_side + full->side_count; s++) {
       baum_i_columns g = baum_i_load_full(b->side + 6 * (size_t)s);
-      const double *x = b->pull + b->place[b->side_triple[s]];
+      const double *x = b->pull + b->place[b->side_body_block[s]];
       sum += x[0] * g.c[0] + x[1] * g.c[1] + x[2] * g.c[2];
     }
     baum_i_store(b->nodes[full->node].lambda, sum);

@@ -33,7 +33,7 @@ static inline void subtract_product(twofold *sum, double x, double y)
   add(sum, -product);
 }
 
-/* What a node has on one triple, column by column. */
+/* What a node has on one body block, column by column. */
 typedef struct side {
   int32_t place;
   double g[6];
@@ -54,7 +54,7 @@ static void for_sides(baum_i_block *b, side_fn *visit)
   for (int i = 0; i < b->full_count; i++) {
     const baum_i_full_node *full = &b->fulls[i];
     for (int k = full->first_side; k < full->first_side + full->side_count; k++) {
-      side s = {.place = b->place[b->side_triple[k]]};
+      side s = {.place = b->place[b->side_body_block[k]]};
       memcpy(s.g, b->side + 6 * (size_t)k, sizeof s.g);
       visit(b, full->node, &s);
     }

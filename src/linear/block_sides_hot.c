@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Nodes that are not pins, from the blocks of J that their joints give: sides, in pairs of rows and
- * triples of columns; Phi' and the right side; pivots.
+ * body blocks of columns; Phi' and the right side; pivots.
  *
  *   D = sum over sides of G W G^T,   J a0 - r = sum over sides of G a0 - r
  */
@@ -41,7 +41,7 @@ static void set_force(baum_i_block *block, const double *force)
   }
 }
 
-/* Row by row, L y = G^T for a body with M = L L^T, over its triples. */
+/* Row by row, L y = G^T for a body with M = L L^T, over its body blocks. */
 static void whiten(baum_i_block *b)
 {
   for (int i = 0; i < b->dense_side_count; i++) {
@@ -60,7 +60,7 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* The velocities of all triples: v itself, or a copy in pull[], which only refinement needs, where
+/* The velocities of all body blocks: v itself, or a copy in pull[], which only refinement needs, where
  * places lie outside of v. Of a dense body L^T v, since its sides are whitened. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
@@ -135,9 +135,9 @@ static inline void add_side(const baum_i_block *b, ptrdiff_t side, const double 
                             const double *velocity, sums *sum)
 {
   baum_i_columns g = take_side(b, side, jacobian);
-  int32_t triple = b->side_triple[side];
-  int32_t place = b->place[triple];
-  const double *w = b->weight + 2 * (ptrdiff_t)triple;
+  int32_t body_block = b->side_body_block[side];
+  int32_t place = b->place[body_block];
+  const double *w = b->weight + 2 * (ptrdiff_t)body_block;
   baum_i_pair turning = w[1] * g.c[2];
   sum->on += w[0] * (g.c[0] * g.c[0] + g.c[1] * g.c[1]) + turning * g.c[2];
   sum->off += w[0] * (g.c[0] * baum_i_exchanged(g.c[0]) + g.c[1] * baum_i_exchanged(g.c[1])) +

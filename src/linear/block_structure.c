@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structure of the Schur complement in blocks: nodes, sides, couplings, and where each number goes.
  *
- * Rows in their order make nodes with sides; sides of one triple couple their nodes; the graph of
+ * Rows in their order make nodes with sides; sides of one body block couple their nodes; the graph of
  * nodes gives the order of elimination, and only then nodes get their final numbers, their places.
  */
 #include "linear/block_structure.h"
@@ -24,7 +24,7 @@ static int triples_for(int size)
   return (size + 2) / 3;
 }
 
-static int count_triples(const baum_i_block_layout *layout, int *dense)
+static int count_body_block(const baum_i_block_layout *layout, int *dense)
 {
   const baum_i_kkt_structure *s = layout->structure;
   int count = 1 + s->mass_block_count;
@@ -42,19 +42,19 @@ static baum_status make_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
   baum_i_block *b = u->block;
-  b->triple_count = count_triples(u->layout, &b->dense_count);
+  b->body_block_count = count_body_block(u->layout, &b->dense_count);
   b->dense = baum_i_alloc((size_t)b->dense_count, sizeof *b->dense);
-  b->place = baum_i_alloc((size_t)b->triple_count, sizeof *b->place);
+  b->place = baum_i_alloc((size_t)b->body_block_count, sizeof *b->place);
   u->column_body = baum_i_alloc((size_t)s->nv, sizeof *u->column_body);
-  u->triple_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->triple_of);
+  u->body_block_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->body_block_of);
   u->dense_of = baum_i_alloc((size_t)s->mass_block_count, sizeof *u->dense_of);
-  if (!b->dense || !b->place || !u->column_body || !u->triple_of || !u->dense_of) {
+  if (!b->dense || !b->place || !u->column_body || !u->body_block_of || !u->dense_of) {
     return BAUM_ERR_MEMORY;
   }
   return BAUM_OK;
 }
 
-/* A diagonal body i is triple 1 + i, so that triples and bodies of the plane have one numbering. */
+/* A diagonal body i is body block 1 + i, so that body blocks and bodies of the plane have one numbering. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
@@ -67,7 +67,7 @@ static void place_bodies(baum_i_block_builder *u)
   for (int32_t i = 0; i < s->mass_block_count; i++) {
     const baum_i_mass_block *body = &s->mass_blocks[i];
     bool diagonal = u->layout->diagonal[i] != 0;
-    u->triple_of[i] = diagonal ? 1 + i : next;
+    u->body_block_of[i] = diagonal ? 1 + i : next;
     u->dense_of[i] = diagonal ? -1 : dense;
     b->place[1 + i] = body->first;
     b->leaves_v = b->leaves_v || !diagonal || body->size < 3;
@@ -76,7 +76,7 @@ static void place_bodies(baum_i_block_builder *u)
     }
     if (!diagonal) {
       b->dense[dense++] = (baum_i_dense_body){
-        .mass_block = i, .triple = next, .place = end, .factor = b->factor_size};
+        .mass_block = i, .body_block = next, .place = end, .factor = b->factor_size};
       b->factor_size += body->size * body->size;
       for (int k = 0; k < triples_for(body->size); k++) {
         b->place[next++] = end;
@@ -89,18 +89,18 @@ static void place_bodies(baum_i_block_builder *u)
 
 /* ---- nodes and sides ---- */
 
-static bool is_dropped(const baum_i_block_builder *u, int row)
+static bool is_omitted(const baum_i_block_builder *u, int row)
 {
-  return u->layout->dropped && u->layout->dropped[row] != 0;
+  return u->layout->omitted && u->layout->omitted[row] != 0;
 }
 
-static baum_status add_side(baum_i_block_builder *u, int32_t triple, int32_t number)
+static baum_status add_side(baum_i_block_builder *u, int32_t body_block, int32_t number)
 {
   baum_i_raw_side *side = baum_i_vector_append(&u->sides);
   if (!side) {
     return BAUM_ERR_MEMORY;
   }
-  *side = (baum_i_raw_side){.node = u->nodes.count - 1, .triple = triple, .number = number};
+  *side = (baum_i_raw_side){.node = u->nodes.count - 1, .body_block = body_block, .number = number};
   baum_i_raw_node *nodes = u->nodes.items;
   nodes[u->nodes.count - 1].side_count++;
   return BAUM_OK;
@@ -127,26 +127,26 @@ static baum_status add_pin(baum_i_block_builder *u, int row, const baum_i_block_
   node->row[1] = row + 1;
   node->is_pin = true;
   int32_t arm = 2 * u->raw_pins++;
-  int32_t a = pin->body_a < 0 ? 0 : u->triple_of[pin->body_a];
-  int32_t b = pin->body_b < 0 ? 0 : u->triple_of[pin->body_b];
+  int32_t a = pin->body_a < 0 ? 0 : u->body_block_of[pin->body_a];
+  int32_t b = pin->body_b < 0 ? 0 : u->body_block_of[pin->body_b];
   baum_status status = add_side(u, a, ~arm);
   return status == BAUM_OK ? add_side(u, b, ~(arm + 1)) : status;
 }
 
-/* The full side of the present node on a triple, made when there is none. */
-static baum_status find_side(baum_i_block_builder *u, int32_t triple, int32_t *number)
+/* The full side of the present node on a body block, made when there is none. */
+static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_t *number)
 {
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
   const baum_i_raw_side *sides = u->sides.items;
   for (int i = node->first_side; i < node->first_side + node->side_count; i++) {
-    if (sides[i].triple == triple) {
+    if (sides[i].body_block == body_block) {
       *number = sides[i].number;
       return BAUM_OK;
     }
   }
   *number = u->full_sides.count;
-  baum_status status = baum_i_vector_append_number(&u->full_sides, triple);
-  return status == BAUM_OK ? add_side(u, triple, *number) : status;
+  baum_status status = baum_i_vector_append_number(&u->full_sides, body_block);
+  return status == BAUM_OK ? add_side(u, body_block, *number) : status;
 }
 
 /* A dense body's sides are made together, so that they stand one after the other. */
@@ -157,7 +157,7 @@ static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
   int size = u->layout->structure->mass_blocks[body].size;
   for (int k = 0; k < triples_for(size); k++) {
     int32_t number;
-    if (find_side(u, u->triple_of[body] + k, &number) != BAUM_OK) {
+    if (find_side(u, u->body_block_of[body] + k, &number) != BAUM_OK) {
       return BAUM_ERR_MEMORY;
     }
     first = k == 0 ? number : first;
@@ -181,7 +181,7 @@ static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *r
   baum_status status = u->dense_of[body] >= 0 ? find_dense_sides(u, body) : BAUM_OK;
   int32_t number = 0;
   if (status == BAUM_OK) {
-    status = find_side(u, u->triple_of[body] + j / 3, &number);
+    status = find_side(u, u->body_block_of[body] + j / 3, &number);
   }
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
   baum_i_side_entry *entry = status == BAUM_OK ? baum_i_vector_append(&u->entries) : NULL;
@@ -219,7 +219,7 @@ static baum_status add_rows(baum_i_block_builder *u, const baum_i_row_block *row
   int have = 0;
   baum_status status = BAUM_OK;
   for (int r = rows->row; r < rows->row + rows->rows && status == BAUM_OK; r++) {
-    if (!is_dropped(u, r)) {
+    if (!is_omitted(u, r)) {
       pair[have++] = r;
     }
     bool last = r == rows->row + rows->rows - 1;
@@ -240,7 +240,7 @@ static baum_status make_nodes(baum_i_block_builder *u)
   for (int i = 0; i < s->row_block_count && status == BAUM_OK; i++) {
     const baum_i_row_block *rows = &s->row_blocks[i];
     const baum_i_block_pin *pin = &u->layout->pins[i];
-    bool whole = pin->is_pin && !is_dropped(u, rows->row) && !is_dropped(u, rows->row + 1);
+    bool whole = pin->is_pin && !is_omitted(u, rows->row) && !is_omitted(u, rows->row + 1);
     status = whole ? add_pin(u, rows->row, pin) : add_rows(u, rows);
   }
   return status;
@@ -263,7 +263,7 @@ static bool is_whole_side(const baum_i_side_entry *entry, int left)
 static baum_status find_sources(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
-  const int32_t *triple = u->full_sides.items;
+  const int32_t *body_block = u->full_sides.items;
   baum_i_side_entry *entries = u->entries.items;
   int count = u->entries.count;
   b->side_from = baum_i_alloc(2 * (size_t)u->full_sides.count, sizeof *b->side_from);
@@ -276,7 +276,7 @@ static baum_status find_sources(baum_i_block_builder *u)
   u->entries.count = 0;
   for (int i = 0; i < count; i++) {
     int32_t side = entries[i].to / 6;
-    bool dense = triple[side] > u->layout->structure->mass_block_count;
+    bool dense = body_block[side] > u->layout->structure->mass_block_count;
     if (!dense && is_whole_side(&entries[i], count - i)) {
       memcpy(b->side_from + 2 * (ptrdiff_t)side, entries[i].from, sizeof entries[i].from);
       i += 2;
@@ -289,21 +289,21 @@ static baum_status find_sources(baum_i_block_builder *u)
 
 /* ---- the graph ---- */
 
-/* Mass block of a triple that is not ground. */
-static int body_of(const baum_i_block_builder *u, int triple)
+/* Mass block of a body block that is not ground. */
+static int body_of(const baum_i_block_builder *u, int body_block)
 {
-  int body = triple - 1;
+  int body = body_block - 1;
   for (int i = 0; i < u->layout->structure->mass_block_count; i++) {
-    body = u->triple_of[i] <= triple && u->dense_of[i] >= 0 ? i : body;
+    body = u->body_block_of[i] <= body_block && u->dense_of[i] >= 0 ? i : body;
   }
   return body;
 }
 
-/* Sides, triple by triple. */
+/* Sides, body block by body block. */
 static baum_status sort_sides(baum_i_block_builder *u)
 {
-  int triples = u->block->triple_count;
-  u->sorted_start = baum_i_alloc((size_t)triples + 2, sizeof *u->sorted_start);
+  int body_blocks = u->block->body_block_count;
+  u->sorted_start = baum_i_alloc((size_t)body_blocks + 2, sizeof *u->sorted_start);
   u->sorted = baum_i_alloc((size_t)u->sides.count, sizeof *u->sorted);
   if (!u->sorted_start || !u->sorted) {
     return BAUM_ERR_MEMORY;
@@ -311,9 +311,9 @@ static baum_status sort_sides(baum_i_block_builder *u)
   const baum_i_raw_side *sides = u->sides.items;
   int32_t *place = u->sorted_start + 1; /* one ahead: filling moves it to its own end */
   for (int i = 0; i < u->sides.count; i++) {
-    place[sides[i].triple + 1]++;
+    place[sides[i].body_block + 1]++;
   }
-  for (int t = 0; t < triples; t++) {
+  for (int t = 0; t < body_blocks; t++) {
     if (!baum_i_block_is_fixed(u, t) && place[t + 1] > MOST_SIDES) {
       u->block->hub = body_of(u, t);
       return BAUM_ERR_SINGULAR;
@@ -321,7 +321,7 @@ static baum_status sort_sides(baum_i_block_builder *u)
     place[t + 1] += place[t];
   }
   for (int32_t i = 0; i < u->sides.count; i++) {
-    u->sorted[place[sides[i].triple]++] = i;
+    u->sorted[place[sides[i].body_block]++] = i;
   }
   return BAUM_OK;
 }
@@ -332,9 +332,10 @@ static baum_status add_neighbours(baum_i_block_builder *u, int32_t node, int32_t
   const baum_i_raw_side *sides = u->sides.items;
   mark[node] = node + 1;
   for (int s = 0; s < nodes[node].side_count; s++) {
-    int32_t triple = sides[nodes[node].first_side + s].triple;
-    bool couples = !baum_i_block_is_fixed(u, triple);
-    for (int32_t k = u->sorted_start[triple]; couples && k < u->sorted_start[triple + 1]; k++) {
+    int32_t body_block = sides[nodes[node].first_side + s].body_block;
+    bool couples = !baum_i_block_is_fixed(u, body_block);
+    for (int32_t k = u->sorted_start[body_block]; couples && k < u->sorted_start[body_block + 1];
+         k++) {
       int32_t other = sides[u->sorted[k]].node;
       if (mark[other] != node + 1) {
         mark[other] = node + 1;
@@ -396,8 +397,8 @@ static baum_status place_nodes(baum_i_block_builder *u)
       b->pins[b->pin_count++] =
         (baum_i_pin_node){.node = k,
                           .row = node->row[0],
-                          .triple = {side[0].triple, side[1].triple},
-                          .place = {b->place[side[0].triple], b->place[side[1].triple]}};
+                          .body_block = {side[0].body_block, side[1].body_block},
+                          .place = {b->place[side[0].body_block], b->place[side[1].body_block]}};
     } else {
       b->fulls[b->full_count++] =
         (baum_i_full_node){.node = k,
@@ -418,7 +419,7 @@ static void give_all(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
   int ignored;
-  b->side_triple = baum_i_vector_give(&u->full_sides, &b->side_count);
+  b->side_body_block = baum_i_vector_give(&u->full_sides, &b->side_count);
   b->entries = baum_i_vector_give(&u->entries, &b->entry_count);
   b->dense_sides = baum_i_vector_give(&u->dense_sides, &b->dense_side_count);
   b->alike = baum_i_vector_give(&u->alike, &b->alike_count);
@@ -445,7 +446,7 @@ static void clear(baum_i_block_builder *u)
     u->dense_sides.items,
     u->neighbours.items,
     u->column_body,
-    u->triple_of,
+    u->body_block_of,
     u->dense_of,
     u->sorted_start,
     u->sorted,

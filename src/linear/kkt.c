@@ -261,8 +261,8 @@ static void load_right_side(baum_i_kkt *kkt, const double *f, const double *r)
   int nv = kkt->structure->nv;
   copy(f, nv, kkt->b);
   for (int i = 0; i < kkt->structure->nc; i++) {
-    bool dropped = kkt->values.dropped && kkt->values.dropped[i];
-    kkt->b[nv + i] = dropped ? 0.0 : r[i];
+    bool omitted = kkt->values.omitted && kkt->values.omitted[i];
+    kkt->b[nv + i] = omitted ? 0.0 : r[i];
   }
 }
 

@@ -5,7 +5,7 @@
  *   [ J   -S  ] [ lambda ] = [ r ],      M (nv x nv), J (nc x nv), S diagonal, mostly zero
  *
  * M is block diagonal, J a list of dense blocks; both are given by their blocks, row-major, with a
- * structure that never changes. A dropped row i is replaced by lambda_i = 0. Backends stand behind
+ * structure that never changes. A omitted row i is replaced by lambda_i = 0. Backends stand behind
  * one ops table.
  */
 #ifndef BAUM_I_LINEAR_KKT_H
@@ -46,7 +46,7 @@ typedef struct baum_i_kkt_values {
   const double *mass;           /* values of the mass blocks */
   const double *jacobian;       /* values of the row blocks */
   const double *shift;          /* (nc) diagonal of S, or NULL for zeros */
-  const unsigned char *dropped; /* (nc) non-zero where a row is left out, or NULL for none */
+  const unsigned char *omitted; /* (nc) non-zero where a row is left out, or NULL for none */
 } baum_i_kkt_values;
 
 /* How far the present factorization can be trusted. */

@@ -147,7 +147,7 @@ static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian,
   }
 }
 
-/* -S, and 1 for a dropped row. */
+/* -S, and 1 for a omitted row. */
 static void fill_shift(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
                        const double *e, double *matrix)
 {

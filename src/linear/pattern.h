@@ -28,7 +28,7 @@ typedef struct baum_i_pattern {
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
 void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is fine */
 
-/* matrix (column_start[n]) = D K D for D = diag(scale); a row with scale 0 is dropped. */
+/* matrix (column_start[n]) = D K D for D = diag(scale); a row with scale 0 is omitted. */
 void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
                          const double *scale, double *matrix);
 

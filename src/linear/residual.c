@@ -89,10 +89,10 @@ static void add_shift(int nc, const double *shift, const double *lambda, double 
   }
 }
 
-static void leave_out(int nc, const unsigned char *dropped, double *residual, double *size)
+static void leave_out(int nc, const unsigned char *omitted, double *residual, double *size)
 {
   for (int i = 0; i < nc; i++) {
-    if (dropped[i]) {
+    if (omitted[i]) {
       residual[i] = 0.0;
       size[i] = 0.0;
     }
@@ -109,8 +109,8 @@ void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kk
   if (values->shift) {
     add_shift(structure->nc, values->shift, x + nv, residual + nv, size + nv);
   }
-  if (values->dropped) {
-    leave_out(structure->nc, values->dropped, residual + nv, size + nv);
+  if (values->omitted) {
+    leave_out(structure->nc, values->omitted, residual + nv, size + nv);
   }
 }
 

@@ -6,7 +6,7 @@
 
 #include "linear/kkt.h"
 
-/* residual = b - K x and size = |b| + |K| |x|, all of length nv + nc; zero in dropped rows. */
+/* residual = b - K x and size = |b| + |K| |x|, all of length nv + nc; zero in omitted rows. */
 void baum_i_residual_form(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           const double *b, const double *x, double *residual, double *size);
 

@@ -152,7 +152,7 @@ void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kk
   }
   replace_unknown(e, structure->nc);
   for (int i = 0; i < structure->nc; i++) {
-    if (values->dropped && values->dropped[i]) {
+    if (values->omitted && values->omitted[i]) {
       e[i] = 0.0;
     }
   }

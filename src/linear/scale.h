@@ -14,7 +14,7 @@
 
 #include "linear/kkt.h"
 
-/* scale (nv + nc) = (d, e); e_i = 0 where row i is dropped,
+/* scale (nv + nc) = (d, e); e_i = 0 where row i is omitted,
  * which takes the row out of D K D and of D b. */
 void baum_i_scale_compute(const baum_i_kkt_structure *structure, const baum_i_kkt_values *values,
                           double *scale);

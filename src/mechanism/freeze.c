@@ -48,8 +48,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->joint_groups);
   baum_i_free(mechanism->force_groups);
   baum_i_free(mechanism->parameters);
-  baum_i_free(mechanism->drawn_q);
-  baum_i_free(mechanism->drawn_v);
+  baum_i_free(mechanism->design_q);
+  baum_i_free(mechanism->design_v);
   baum_i_free(mechanism->held);
   baum_i_free(mechanism->scale);
   baum_i_free(mechanism->places);
@@ -60,8 +60,8 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   mechanism->joint_group_count = 0;
   mechanism->force_group_count = 0;
   mechanism->parameters = NULL;
-  mechanism->drawn_q = NULL;
-  mechanism->drawn_v = NULL;
+  mechanism->design_q = NULL;
+  mechanism->design_v = NULL;
   mechanism->held = NULL;
   mechanism->scale = NULL;
   mechanism->places = NULL;
@@ -314,12 +314,12 @@ static void include_marker(box *b, const baum_i_frame *f, const double s[2])
 
 /* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1
  * when it has none, as with user coordinates only. */
-static double drawing_size(const baum_mechanism *mechanism)
+static double design_size(const baum_mechanism *mechanism)
 {
   box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   for (int i = 1; i <= mechanism->body_count; i++) {
     if (mechanism->bodies[i]->type->frame != BAUM_I_FRAME_NONE) {
-      baum_i_frame f = baum_i_drawn_frame(mechanism, i);
+      baum_i_frame f = baum_i_design_frame(mechanism, i);
       include_point(&b, f.x, f.y);
     }
   }
@@ -328,8 +328,8 @@ static double drawing_size(const baum_mechanism *mechanism)
     /* Not a driver's, whose definition has no points. */
     if (joint->type->bodies == baum_i_planar_bodies) {
       const baum_i_planar_head *head = joint->element.def;
-      baum_i_frame fa = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
-      baum_i_frame fb = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
+      baum_i_frame fa = baum_i_design_frame(mechanism, joint->span.bodies[0]);
+      baum_i_frame fb = baum_i_design_frame(mechanism, joint->span.bodies[1]);
       include_marker(&b, &(baum_i_frame){.c = 1.0}, head->point);
       include_marker(&b, &fa, head->point_a);
       include_marker(&b, &fb, head->point_b);
@@ -350,12 +350,12 @@ static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
   size_t nv = (size_t)mechanism->nv;
   mechanism->parameter_count = parameters;
   mechanism->parameters = baum_i_alloc((size_t)parameters, sizeof(double));
-  mechanism->drawn_q = baum_i_alloc(nv, sizeof(double));
-  mechanism->drawn_v = baum_i_alloc(nv, sizeof(double));
+  mechanism->design_q = baum_i_alloc(nv, sizeof(double));
+  mechanism->design_v = baum_i_alloc(nv, sizeof(double));
   mechanism->held = baum_i_alloc(nv, sizeof(bool));
   mechanism->scale = baum_i_alloc(nv, sizeof(double));
   mechanism->places = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof(baum_i_body_place));
-  bool complete = mechanism->parameters && mechanism->drawn_q && mechanism->drawn_v &&
+  bool complete = mechanism->parameters && mechanism->design_q && mechanism->design_v &&
                   mechanism->held && mechanism->scale && mechanism->places;
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
@@ -363,7 +363,7 @@ static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
 static void draw_bodies(baum_mechanism *mechanism)
 {
   mechanism->length =
-    isnan(mechanism->given_scale) ? drawing_size(mechanism) : mechanism->given_scale;
+    isnan(mechanism->given_length) ? design_size(mechanism) : mechanism->given_length;
   mechanism->all_planar = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
@@ -373,8 +373,8 @@ static void draw_bodies(baum_mechanism *mechanism)
     }
     mechanism->places[i] = (baum_i_body_place){.q = body->q, .kind = body->type->frame};
     mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;
-    body->type->drawn(body->element.def, mechanism->drawn_q + body->q, mechanism->drawn_v + body->v,
-                      &held);
+    body->type->design(body->element.def, mechanism->design_q + body->q,
+                       mechanism->design_v + body->v, &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);
     for (int j = 0; j < body->nv; j++) {
       mechanism->held[body->q + j] = held;

@@ -56,7 +56,7 @@ baum_status baum_mechanism_create(baum_mechanism **out)
   atomic_init(&mechanism->references, 1);
   mechanism->tag = make_tag(mechanism);
   mechanism->gravity[1] = -9.81;
-  mechanism->given_scale = NAN;
+  mechanism->given_length = NAN;
   mechanism->bodies = baum_i_alloc(1, sizeof(void *));
   if (mechanism->bodies) {
     mechanism->bodies[0] = make_ground();
@@ -166,7 +166,7 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
     return status;
   }
   copy->tag = mechanism->tag;
-  copy->given_scale = mechanism->given_scale;
+  copy->given_length = mechanism->given_length;
   memcpy(copy->gravity, mechanism->gravity, sizeof copy->gravity);
   status = baum_i_copy_inputs(copy, mechanism);
   if (status == BAUM_OK) {
@@ -336,25 +336,26 @@ baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double g
   return BAUM_OK;
 }
 
-baum_status baum_mechanism_set_scale(baum_mechanism *mechanism, double length)
+baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism, double length)
 {
-  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_scale");
+  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_characteristic_length");
   if (status == BAUM_OK) {
     status = baum_i_check_positive("mechanism", "length scale", "m", length);
   }
   if (status == BAUM_OK) {
-    mechanism->given_scale = length;
+    mechanism->given_length = length;
   }
   return status;
 }
 
-baum_status baum_mechanism_get_scale(const baum_mechanism *mechanism, double *length)
+baum_status baum_mechanism_get_characteristic_length(const baum_mechanism *mechanism,
+                                                     double *length)
 {
   if (!mechanism || !length) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_get_scale: %s is NULL",
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_get_characteristic_length: %s is NULL",
                        mechanism ? "length" : "the mechanism");
   }
-  *length = mechanism->frozen ? mechanism->length : mechanism->given_scale;
+  *length = mechanism->frozen ? mechanism->length : mechanism->given_length;
   return BAUM_OK;
 }
 

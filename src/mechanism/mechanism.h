@@ -229,7 +229,7 @@ struct baum_i_body_type {
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
   /* Start pose, and given velocities or NaN. */
-  void (*drawn)(const void *def, double *q, double *v, bool *held);
+  void (*design)(const void *def, double *q, double *v, bool *held);
   /* (nv) relevant change of each coordinate. */
   void (*scale)(const void *def, double length, double *scale);
   /* Sets its blocks. */
@@ -279,7 +279,7 @@ struct baum_i_joint_type {
   int (*rows)(const void *def); /* of one; or NULL */
   /* Fills body_count; and bodies if not NULL. */
   void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
-  /* Numbers from the definition and the drawn pose; BAUM_OK or BAUM_ERR_ARGUMENT with the
+  /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
    * sentence. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
@@ -328,7 +328,7 @@ struct baum_mechanism {
   uint32_t tag; /* shared by copies */
   bool frozen;
   double gravity[3];
-  double given_scale; /* NaN: not set */
+  double given_length; /* NaN: not set */
 
   int body_count;       /* without ground */
   baum_i_body **bodies; /* (body_count + 1), [0] is ground */
@@ -355,10 +355,10 @@ struct baum_mechanism {
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   double *parameters;
-  double *drawn_q; /* (nq) */
-  double *drawn_v; /* (nv) NaN where free */
-  bool *held;      /* (nq) */
-  double *scale;   /* (nv) relevant change of each coordinate */
+  double *design_q; /* (nq) */
+  double *design_v; /* (nv) NaN where free */
+  bool *held;       /* (nq) */
+  double *scale;    /* (nv) relevant change of each coordinate */
   int body_group_count;
   baum_i_body_group *body_groups;
   int joint_group_count;

@@ -462,7 +462,7 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
   mine->rank = w->redundancy.rank;
   mine->rank_at_start = w->redundancy.rank_at_start;
   mine->count = w->redundancy.count;
-  memcpy(mine->dropped, w->redundancy.dropped, (size_t)w->mechanism->nc);
+  memcpy(mine->omitted, w->redundancy.omitted, (size_t)w->mechanism->nc);
   (*out)->blocks_only = w->blocks_only;
   return baum_i_use_blocks(*out);
 }

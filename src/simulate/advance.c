@@ -14,8 +14,8 @@
 #include "simulate/account.h"
 #include "simulate/breaks.h"
 #include "simulate/companion.h"
+#include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/passage.h"
 #include "simulate/rows.h"
 
 /* Times that differ by less than this share of a step are the same. */
@@ -60,14 +60,14 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
     return baum_i_run_explain_failure(run, explain_callback(run, status), state);
   }
   if (observe) {
-    baum_i_passages_note(run, state);
+    baum_i_crossings_note(run, state);
     baum_i_run_observe(run, state->t, true);
     baum_i_companion_follow(run, state);
   }
   memcpy(run->acceleration, run->workspace->a,
          (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
   baum_i_run_copy(run, state, trial);
-  status = baum_i_passages_accelerate(run);
+  status = baum_i_crossings_accelerate(run);
   if (status == BAUM_OK) {
     status =
       run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
@@ -77,7 +77,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
     status = check_finite(run, trial);
   }
   if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_passages_project(run, t_next);
+    status = baum_i_crossings_project(run, t_next);
   }
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
@@ -95,7 +95,7 @@ static void keep_trial(baum_simulation *run)
   if (run->integrator->accept) {
     run->integrator->accept(run->self, &run->problem, &run->state);
   }
-  baum_i_passages_look(run);
+  baum_i_crossings_look(run);
 }
 
 /* ---- a fixed-step method to a target ---- */
@@ -243,7 +243,7 @@ static baum_status internal_step(baum_simulation *run)
     status = check_finite(run, &run->trial);
   }
   if (status == BAUM_OK) {
-    baum_i_passages_step(run, &run->trial);
+    baum_i_crossings_step(run, &run->trial);
   }
   if (status == BAUM_OK && run->account) {
     baum_i_account_step(run);
@@ -255,7 +255,7 @@ static baum_status internal_step(baum_simulation *run)
   }
   if (status == BAUM_OK) {
     baum_i_run_observe(run, run->ahead.t, false);
-    baum_i_passages_look(run);
+    baum_i_crossings_look(run);
   }
   return status;
 }

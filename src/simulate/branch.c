@@ -17,7 +17,7 @@
 #include <string.h>
 
 #include "base/least.h"
-#include "simulate/passage.h"
+#include "simulate/crossing.h"
 
 /* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began at 0.9. Polynomials over
  * the longest steps are off by 0.06. */
@@ -43,7 +43,7 @@ static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing
 static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
                        int *joint)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   *joint = -1;
   baum_i_hermite(knots, count, p->nv, t, p->at.q, p->at.v);
   p->at.t = t;
@@ -119,7 +119,7 @@ static double apart(const baum_simulation *run, const double *q, const double *p
 /* A state of the run is singular as far as its violation allows, or it is not. */
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
@@ -127,7 +127,7 @@ bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 /* Between states: a violation that is not the run's own, nor the polynomial's. */
 bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   double own = 0.0;
   for (int k = 0; k < p->recent_count; k++) {
     own = fmax(own, violation_at(run, &p->recent[k]));
@@ -145,7 +145,7 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
  * sharply from one to the other at a distance. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   return pivot < GAP_OF_VIOLATION * violation_at(run, &p->recent[p->recent_count - 1]);
 }
 
@@ -159,7 +159,7 @@ static double difference(const baum_simulation *run, const double *v, const doub
 
 static void find_jump(baum_simulation *run, double *jump, double *error)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   const baum_i_knot *behind = &p->recent[p->recent_count - 1];
   const baum_i_knot *end = p->clear + p->clear_count;
   double size = baum_i_scaled_size(run->workspace->mechanism, behind->v);
@@ -195,11 +195,11 @@ static baum_branch judge(double jump, double error, bool gap, double largest_tur
   return jump > LARGE_JUMP ? BAUM_BRANCH_LEFT : BAUM_BRANCH_UNKNOWN;
 }
 
-void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
+void baum_i_branch_decide(baum_simulation *run, const baum_i_crossing *crossing,
                           baum_near_singular *out)
 {
-  out->t = passage->at;
-  out->pivot = passage->smallest;
+  out->t = crossing->at;
+  out->pivot = crossing->smallest;
   find_jump(run, &out->jump, &out->jump_error);
-  out->branch = judge(out->jump, out->jump_error, passage->gap, passage->largest_turn);
+  out->branch = judge(out->jump, out->jump_error, crossing->gap, crossing->largest_turn);
 }

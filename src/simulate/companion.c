@@ -21,8 +21,8 @@
 #include "base/alloc.h"
 #include "base/text.h"
 #include "simulate/breaks.h"
+#include "simulate/crossing.h"
 #include "simulate/local_error.h"
-#include "simulate/passage.h"
 #include "simulate/saved.h"
 
 /* Errors relative to the scales: a right result is within 0.01, a wrong one off by 0.1, and this lies between. */
@@ -349,7 +349,7 @@ static bool may_matter(baum_simulation *run)
 
 static void wait(baum_simulation *run, const baum_i_state *state)
 {
-  bool is_clear = !run->passages || !run->passages->open;
+  bool is_clear = !run->crossings || !run->crossings->open;
   if (may_matter(run)) {
     set_out(run, &run->companion->kept[0]);
   } else if (is_clear && run->counters.steps % STRIDE == 0) {

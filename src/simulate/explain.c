@@ -29,7 +29,8 @@ static void say_mechanism(baum_simulation *run)
   const baum_i_redundancy *r = &run->workspace->redundancy;
   int rank = m->nc > 0 ? r->rank : 0;
   say(run,
-      "mechanism     bodies %d, joints %d, forces %d; velocities %d, constraint rows %d, freedoms "
+      "mechanism     bodies %d, joints %d, forces %d; velocities %d, constraint rows %d, degrees "
+      "of freedom "
       "%d\n",
       m->body_count, m->joint_count, m->force_count, m->nv, m->nc, m->nv - rank);
   if (r->count > 0) {

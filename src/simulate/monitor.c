@@ -9,7 +9,7 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "simulate/account.h"
-#include "simulate/passage.h"
+#include "simulate/crossing.h"
 
 /* ---- the sentence of the run ---- */
 
@@ -71,7 +71,7 @@ static const double TIMES = 10.0;
 
 static double may_be_off(const baum_simulation *run, double kept)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   double pivot = p && p->recent_count > 0 ? p->recent[p->recent_count - 1].pivot : 0.0;
   return NEGLIGIBLE + TIMES * sqrt(kept * fmin(1.0, kept / pivot));
 }
@@ -101,7 +101,7 @@ static void observe_redundant(baum_simulation *run, double t)
   int row = 0;
   for (int i = 0; i < m->nc; i++) {
     double size = fabs(w->phi[i]) / distance[i];
-    if (!w->redundancy.dropped[i]) {
+    if (!w->redundancy.omitted[i]) {
       kept = fmax(kept, size);
     } else if (size > left_out) {
       left_out = size;

@@ -6,7 +6,7 @@
 #include "base/message.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
-#include "simulate/passage.h"
+#include "simulate/crossing.h"
 
 /* Without memory the account and the companion go on with those before, which are no worse than they were. */
 static void tell_others(baum_simulation *run)
@@ -15,7 +15,7 @@ static void tell_others(baum_simulation *run)
   baum_i_message_keep(&kept);
   for (int k = 0; k < 2; k++) {
     if (run->beside[k]) {
-      (void)baum_i_leave_out_rows(run->beside[k], run->workspace->redundancy.dropped);
+      (void)baum_i_omit_rows(run->beside[k], run->workspace->redundancy.omitted);
     }
   }
   (void)baum_i_message_settle(BAUM_OK, &kept);
@@ -56,13 +56,13 @@ static double guess_pivot(baum_simulation *run)
 /* Of the usual one, noted last. */
 static double find_pivot(baum_simulation *run)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   return run->workspace->path ? p->recent[p->recent_count - 1].pivot : guess_pivot(run);
 }
 
 baum_status baum_i_run_choose_rows(baum_simulation *run)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   const baum_i_state *state = &run->state;
   if (!p || p->recent_count == 0) {
     return BAUM_OK;
@@ -73,7 +73,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   baum_i_run_end_before_change(run);
   tell_others(run);
   settle(run);
-  baum_i_passages_end(run);
+  baum_i_crossings_end(run);
   baum_status status = baum_i_run_begin_anew(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
     run->integrator->forget(run->self); /* pivots of other rows */
@@ -83,15 +83,15 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
 
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state)
 {
-  if (run->passages && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0)) {
+  if (run->crossings && baum_i_choose_rows(run->workspace, state->t, state->q, 0.0)) {
     tell_others(run);
-    baum_i_passages_end(run);
+    baum_i_crossings_end(run);
   }
 }
 
-baum_status baum_i_run_leave_out_rows(baum_simulation *run, const unsigned char *dropped)
+baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted)
 {
-  baum_status status = baum_i_leave_out_rows(run->workspace, dropped);
+  baum_status status = baum_i_omit_rows(run->workspace, omitted);
   if (status == BAUM_OK) {
     tell_others(run);
   }

@@ -12,7 +12,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run);
 /* Likewise for a state that comes from outside of the motion, with which all begins anew in any case. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
-/* Leave out these (nc). Statuses of baum_i_leave_out_rows(); then all stays as it is. */
-baum_status baum_i_run_leave_out_rows(baum_simulation *run, const unsigned char *dropped);
+/* Leave out these (nc). Statuses of baum_i_omit_rows(); then all stays as it is. */
+baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
 
 #endif

@@ -47,7 +47,7 @@ typedef struct baum_i_schedule {
 
 typedef struct baum_i_account baum_i_account;
 typedef struct baum_i_companion baum_i_companion;
-typedef struct baum_i_passages baum_i_passages;
+typedef struct baum_i_crossings baum_i_crossings;
 typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
@@ -65,7 +65,7 @@ struct baum_simulation {
   baum_i_events *events;       /* see events.h; NULL: there are none */
   baum_i_companion *companion; /* see companion.h; NULL: the error is not estimated */
 
-  baum_i_passages *passages; /* through singular poses, see passage.h; NULL: not looked for */
+  baum_i_crossings *crossings; /* through singular poses, see crossing.h; NULL: not looked for */
 
   double *parameters;       /* own copy of the mechanism's once a driver is set, else NULL */
   baum_i_schedule schedule; /* of inputs */

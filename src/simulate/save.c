@@ -19,8 +19,8 @@
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
+#include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/passage.h"
 #include "simulate/rows.h"
 #include "simulate/saved.h"
 #include "simulate/schedule.h"
@@ -488,7 +488,7 @@ static baum_status leave_out_rows(baum_simulation *run, const reader *r, const b
   baum_status status = BAUM_OK;
   for (int k = 0; k < list->count && run->workspace->redundancy.count > 0; k++) {
     if (list->parts[k].kind == BAUM_I_SAVED_ROWS) {
-      status = baum_i_run_leave_out_rows(run, r->at[k]);
+      status = baum_i_run_omit_rows(run, r->at[k]);
     }
   }
   return status == BAUM_OK || status == BAUM_ERR_MEMORY
@@ -540,8 +540,8 @@ static void own_ids(baum_simulation *run)
 {
   own_id(run, &run->counters.max_phi_joint);
   own_id(run, &run->counters.max_phi_rate_joint);
-  for (int k = 0; run->passages && k < BAUM_I_PASSAGES; k++) {
-    own_id(run, &run->passages->kept[k].joint);
+  for (int k = 0; run->crossings && k < BAUM_I_PASSAGES; k++) {
+    own_id(run, &run->crossings->kept[k].joint);
   }
 }
 

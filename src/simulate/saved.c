@@ -9,8 +9,8 @@
 #include "dynamics/immobile.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
+#include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/passage.h"
 
 /* ---- parts ---- */
 
@@ -117,7 +117,7 @@ static void list_structure(const baum_simulation *run, baum_i_saved *list)
   size_t still = immobile ? (size_t)immobile->count : 0;
   baum_i_saved_compare(list, "the rank of the constraints", w->redundancy.rank);
   baum_i_saved_part *rows = add(list, "which rows are redundant", BAUM_I_SAVED_ROWS);
-  rows->place = w->redundancy.dropped;
+  rows->place = w->redundancy.omitted;
   rows->size = (size_t)w->mechanism->nc;
   rows->integer = w->redundancy.count;
   baum_i_saved_compare(list, "whether blocks suit", w->path != NULL);
@@ -221,9 +221,9 @@ static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots,
   }
 }
 
-static void list_passages(baum_simulation *run, baum_i_saved *list)
+static void list_crossings(baum_simulation *run, baum_i_saved *list)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   int joints = run->workspace->mechanism->joint_count;
   BAUM_I_SAVED_ADD(list, "usual pivot", p->usual);
   BAUM_I_SAVED_ADD_BOUNDED(list, "recent count", p->recent_count, 0, BAUM_I_RECENT);
@@ -232,13 +232,13 @@ static void list_passages(baum_simulation *run, baum_i_saved *list)
   list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, p->nv);
   BAUM_I_SAVED_ADD_FLAG(list, "state not looked at", p->unseen);
   BAUM_I_SAVED_ADD_BOUNDED(list, "joint noted", p->joint_noted, -1, joints - 1);
-  BAUM_I_SAVED_ADD_FLAG(list, "passage open", p->open);
-  BAUM_I_SAVED_ADD(list, "passage from", p->present.from);
-  BAUM_I_SAVED_ADD(list, "passage at", p->present.at);
-  BAUM_I_SAVED_ADD(list, "passage smallest", p->present.smallest);
-  BAUM_I_SAVED_ADD_FLAG(list, "passage gap", p->present.gap);
-  BAUM_I_SAVED_ADD(list, "passage largest turn", p->present.largest_turn);
-  BAUM_I_SAVED_ADD_BOUNDED(list, "passage joint", p->present.joint, -1, joints - 1);
+  BAUM_I_SAVED_ADD_FLAG(list, "crossing open", p->open);
+  BAUM_I_SAVED_ADD(list, "crossing from", p->present.from);
+  BAUM_I_SAVED_ADD(list, "crossing at", p->present.at);
+  BAUM_I_SAVED_ADD(list, "crossing smallest", p->present.smallest);
+  BAUM_I_SAVED_ADD_FLAG(list, "crossing gap", p->present.gap);
+  BAUM_I_SAVED_ADD(list, "crossing largest turn", p->present.largest_turn);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "crossing joint", p->present.joint, -1, joints - 1);
   baum_i_saved_add_some(list, "near-singular intervals", p->kept, sizeof *p->kept,
                         run->counters.near_singular_intervals, BAUM_I_PASSAGES);
 }
@@ -284,8 +284,8 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   if (run->companion) {
     baum_i_companion_saved(run->companion, list);
   }
-  if (run->passages) {
-    list_passages(run, list);
+  if (run->crossings) {
+    list_crossings(run, list);
   }
   baum_i_saved_compare(list, "the number of events", run->events ? run->events->count : 0);
   if (run->events) {

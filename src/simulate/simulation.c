@@ -8,9 +8,9 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
+#include "simulate/crossing.h"
 #include "simulate/events.h"
 #include "simulate/options.h"
-#include "simulate/passage.h"
 
 /* ---- memory ---- */
 
@@ -173,7 +173,7 @@ static baum_status choose_solver(baum_simulation *run)
 static baum_status start_as_drawn(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  return baum_i_run_start(run, run->options.start_time, m->drawn_q, m->drawn_v);
+  return baum_i_run_start(run, run->options.start_time, m->design_q, m->design_v);
 }
 
 static baum_status make_account(baum_simulation *run)
@@ -187,9 +187,9 @@ static baum_status make_companion(baum_simulation *run)
   return baum_i_companion_is_wanted(run) ? baum_i_companion_create(run) : BAUM_OK;
 }
 
-static baum_status make_passages(baum_simulation *run)
+static baum_status make_crossings(baum_simulation *run)
 {
-  return run->integrator->without_freedom ? BAUM_OK : baum_i_passages_create(run);
+  return run->integrator->without_freedom ? BAUM_OK : baum_i_crossings_create(run);
 }
 
 static baum_status make_integrator(baum_simulation *run)
@@ -211,9 +211,9 @@ static baum_status accept_start(baum_simulation *run)
 
 /* One after the other, each on what the ones before have made. */
 static baum_status (*const STAGES[])(baum_simulation *run) = {
-  make_states,    start_as_drawn,  choose_solver, baum_i_run_check_velocities,
-  choose_problem, make_account,    make_passages, make_integrator,
-  make_companion, warn_redundancy, warn_settings, accept_start,
+  make_states,    start_as_drawn,  choose_solver,  baum_i_run_check_velocities,
+  choose_problem, make_account,    make_crossings, make_integrator,
+  make_companion, warn_redundancy, warn_settings,  accept_start,
 };
 
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
@@ -307,7 +307,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   baum_i_companion_destroy(simulation->companion);
   baum_i_account_destroy(simulation->integrator, simulation->account);
   baum_i_events_destroy(simulation->events);
-  baum_i_passages_destroy(simulation->passages);
+  baum_i_crossings_destroy(simulation->crossings);
   baum_workspace_destroy(simulation->workspace);
   baum_i_free(simulation->memory);
   baum_i_free(simulation->parameters);

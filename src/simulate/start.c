@@ -7,8 +7,8 @@
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
+#include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/passage.h"
 #include "simulate/rows.h"
 #include "simulate/schedule.h"
 
@@ -268,7 +268,7 @@ void baum_i_run_accept(baum_simulation *run, double energy)
   run->grid = (baum_i_grid){.origin = run->state.t};
   run->origin = run->state.t;
   baum_i_companion_begin(run);
-  baum_i_passages_forget(run->passages);
+  baum_i_crossings_forget(run->crossings);
   if (run->account) {
     baum_i_account_begin(run);
   }

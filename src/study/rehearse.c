@@ -2,7 +2,7 @@
 /* What becomes of errors over twice the span and from other starts.
  *
  * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they may grow hundredfold.
- * So rows that may be recommended are run again over twice the span, from the start as drawn and from two others whose
+ * So rows that may be recommended are run again over twice the span, from the start as designed and from two others whose
  * velocities differ by NUDGE of their size, or, where all is at rest, of the rate of the motion. There is a reference for
  * each, by the setting of the study's own. Rows that cost more than NEAR times another one that is as exact are left out.
  */
@@ -41,7 +41,7 @@ static baum_status allocate(const baum_study *study, baum_i_course *course)
   return course->times && course->rows && course->q && course->v ? BAUM_OK : baum_i_fail_memory();
 }
 
-/* Start as drawn, nudged by a share of the velocities. */
+/* Start as designed, nudged by a share of the velocities. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_course *course)
 {
   const baum_mechanism *m = study->mechanism;

@@ -43,7 +43,7 @@ typedef struct baum_i_environment {
   char date[32]; /* ISO 8601, UTC */
 } baum_i_environment;
 
-typedef struct baum_i_survey {
+typedef struct baum_i_snapshot {
   const baum_study *study;
   const char *title;
   const char *error; /* what it means */
@@ -60,13 +60,13 @@ typedef struct baum_i_survey {
   int32_t front_count[BAUM_I_COSTS];
   baum_i_advice advice[BAUM_I_COSTS][BAUM_I_ADVICE];
   baum_i_environment environment;
-} baum_i_survey;
+} baum_i_snapshot;
 
 /* Read a study; to be cleared, also after a failure. */
-baum_status baum_i_survey_read(const baum_study *study, const char *title, baum_i_survey *out);
-void baum_i_survey_clear(baum_i_survey *survey);
+baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out);
+void baum_i_snapshot_clear(baum_i_snapshot *survey);
 /* Rows in that state. */
-int baum_i_survey_count(const baum_i_survey *survey, baum_study_state state);
+int baum_i_snapshot_count(const baum_i_snapshot *survey, baum_study_state state);
 
 /* To be added to the name of a method, where it may go by steps and by tolerances. */
 const char *baum_i_way(const baum_study_method *method);
@@ -109,10 +109,10 @@ const char *baum_i_remark(const baum_i_report_row *row, int k);
 
 /* ---- forms ---- */
 
-void baum_i_report_text(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_report_csv(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_report_json(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_report_page(const baum_i_survey *survey, baum_i_buffer *out);
+void baum_i_report_text(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_report_csv(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_report_json(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_report_page(const baum_i_snapshot *survey, baum_i_buffer *out);
 
 /* ---- parts of the page ---- */
 
@@ -124,20 +124,20 @@ typedef struct baum_i_highlights {
   int count;
 } baum_i_highlights;
 
-baum_i_highlights baum_i_choose_highlights(const baum_i_survey *survey);
+baum_i_highlights baum_i_choose_highlights(const baum_i_snapshot *survey);
 /* Its colour, or -1. */
 int baum_i_highlight_of(const baum_i_highlights *highlights, int method);
 
 void baum_i_put_style(baum_i_buffer *out);
 void baum_i_put_script(baum_i_buffer *out);
-void baum_i_put_charts(const baum_i_survey *survey, const baum_i_highlights *highlights,
+void baum_i_put_charts(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                        baum_i_buffer *out);
-void baum_i_put_stability_maps(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_put_advice_table(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlights *highlights,
+void baum_i_put_stability_maps(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_put_advice_table(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_put_method_table(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                              baum_i_buffer *out);
-void baum_i_put_row_table(const baum_i_survey *survey, baum_i_buffer *out);
-void baum_i_put_messages(const baum_i_survey *survey, baum_i_buffer *out);
+void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out);
+void baum_i_put_messages(const baum_i_snapshot *survey, baum_i_buffer *out);
 
 /* ---- files ---- */
 

@@ -52,7 +52,7 @@ static double place(const axis *a, double decades)
 }
 
 /* Whole decades around what is drawn. */
-static void span(const baum_i_survey *survey, axis *a, const axis *x, const axis *y)
+static void span(const baum_i_snapshot *survey, axis *a, const axis *x, const axis *y)
 {
   double least = INFINITY;
   double largest = -INFINITY;
@@ -134,7 +134,7 @@ static void put_mark(baum_i_buffer *out, const axis *x, const axis *y, const bau
 }
 
 /* The rows of a method from survey->order[first] on; returns the first behind them. */
-static int put_line(const baum_i_survey *survey, int first, int colour, const axis *x,
+static int put_line(const baum_i_snapshot *survey, int first, int colour, const axis *x,
                     const axis *y, baum_i_buffer *out)
 {
   int method = survey->order[first]->row.method;
@@ -160,7 +160,7 @@ static int put_line(const baum_i_survey *survey, int first, int colour, const ax
 }
 
 /* First the grey ones, so that the others lie above them. */
-static void put_lines(const baum_i_survey *survey, const baum_i_highlights *highlights,
+static void put_lines(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                       const axis *x, const axis *y, baum_i_buffer *out)
 {
   for (int above = 0; above < 2; above++) {
@@ -179,7 +179,7 @@ static void put_lines(const baum_i_survey *survey, const baum_i_highlights *high
   }
 }
 
-static void put_front(const baum_i_survey *survey, baum_study_cost cost, const axis *x,
+static void put_front(const baum_i_snapshot *survey, baum_study_cost cost, const axis *x,
                       const axis *y, baum_i_buffer *out)
 {
   bool begun = false;
@@ -195,7 +195,7 @@ static void put_front(const baum_i_survey *survey, baum_study_cost cost, const a
 }
 
 /* Left of it errors are not told apart. */
-static void put_floor(const baum_i_survey *survey, const axis *x, baum_i_buffer *out)
+static void put_floor(const baum_i_snapshot *survey, const axis *x, baum_i_buffer *out)
 {
   double floor = log10(survey->reference.uncertainty);
   if (floor >= x->from && floor <= x->to) {
@@ -206,7 +206,7 @@ static void put_floor(const baum_i_survey *survey, const axis *x, baum_i_buffer 
   }
 }
 
-static void put_chart(const baum_i_survey *survey, const baum_i_highlights *highlights,
+static void put_chart(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                       const chart *c, baum_i_buffer *out)
 {
   axis x = {.column = baum_i_column_by_key("error"), .times = 1.0};
@@ -251,7 +251,7 @@ static void put_marks(baum_i_buffer *out)
   baum_i_put(out, "</defs></svg>\n");
 }
 
-static void put_legend(const baum_i_survey *survey, const baum_i_highlights *highlights,
+static void put_legend(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                        baum_i_buffer *out)
 {
   baum_i_put(out, "<ul class=\"legend\">\n");
@@ -274,7 +274,7 @@ static void put_legend(const baum_i_survey *survey, const baum_i_highlights *hig
                   "d=\"M-16 0H16\"/></svg>the front</li></ul>\n");
 }
 
-void baum_i_put_charts(const baum_i_survey *survey, const baum_i_highlights *highlights,
+void baum_i_put_charts(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                        baum_i_buffer *out)
 {
   put_marks(out);

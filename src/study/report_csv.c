@@ -18,7 +18,7 @@ static void put_cell(baum_i_buffer *out, const baum_i_column *column, const baum
   }
 }
 
-void baum_i_report_csv(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_report_csv(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   for (int c = 0; c < baum_i_column_count; c++) {
     baum_i_putf(out, "%s%s", c ? "," : "", baum_i_columns[c].key);

@@ -12,7 +12,7 @@
 enum { ERRORS = 6 }; /* 1e-1, 1e-3, ... 1e-11 */
 static const double MISSED = 3.0;
 
-static double work_at(const baum_i_survey *survey, int method, int k)
+static double work_at(const baum_i_snapshot *survey, int method, int k)
 {
   double work = (double)NAN;
   double error = pow(10.0, -1.0 - 2.0 * k);
@@ -20,7 +20,7 @@ static double work_at(const baum_i_survey *survey, int method, int k)
   return status == BAUM_OK ? work : (double)NAN;
 }
 
-static void find_cheapest(const baum_i_survey *survey, double cheapest[ERRORS])
+static void find_cheapest(const baum_i_snapshot *survey, double cheapest[ERRORS])
 {
   for (int k = 0; k < ERRORS; k++) {
     cheapest[k] = (double)NAN;
@@ -31,7 +31,7 @@ static void find_cheapest(const baum_i_survey *survey, double cheapest[ERRORS])
 }
 
 /* Decades of work above the cheapest, summed over the errors that anyone reaches. */
-static double score(const baum_i_survey *survey, int method, const double cheapest[ERRORS])
+static double score(const baum_i_snapshot *survey, int method, const double cheapest[ERRORS])
 {
   double sum = 0.0;
   for (int k = 0; k < ERRORS; k++) {
@@ -43,7 +43,7 @@ static double score(const baum_i_survey *survey, int method, const double cheape
   return sum;
 }
 
-static bool is_taken(const baum_i_survey *survey, const baum_i_highlights *taken, int method,
+static bool is_taken(const baum_i_snapshot *survey, const baum_i_highlights *taken, int method,
                      bool by_integrator)
 {
   for (int k = 0; k < taken->count; k++) {
@@ -57,7 +57,7 @@ static bool is_taken(const baum_i_survey *survey, const baum_i_highlights *taken
 }
 
 /* -1: there is none left. */
-static int best_left(const baum_i_survey *survey, const double cheapest[ERRORS],
+static int best_left(const baum_i_snapshot *survey, const double cheapest[ERRORS],
                      const baum_i_highlights *taken, bool by_integrator)
 {
   int best = -1;
@@ -74,7 +74,7 @@ static int best_left(const baum_i_survey *survey, const double cheapest[ERRORS],
   return best;
 }
 
-baum_i_highlights baum_i_choose_highlights(const baum_i_survey *survey)
+baum_i_highlights baum_i_choose_highlights(const baum_i_snapshot *survey)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);

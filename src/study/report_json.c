@@ -36,7 +36,7 @@ static void put_flag(baum_i_buffer *out, const char *key, bool flag)
   baum_i_put(out, flag ? "true" : "false");
 }
 
-static void put_heading(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_heading(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   const baum_i_environment *e = &survey->environment;
   baum_i_put(out, "{\"report\": \"baum study\"");
@@ -139,14 +139,14 @@ static void put_advice(const baum_i_advice *advice, baum_study_cost cost, baum_i
   put_text(out, "why", advice->why, false);
 }
 
-static void put_front(const baum_i_survey *survey, baum_study_cost cost, baum_i_buffer *out)
+static void put_front(const baum_i_snapshot *survey, baum_study_cost cost, baum_i_buffer *out)
 {
   for (int k = 0; k < survey->front_count[cost]; k++) {
     baum_i_putf(out, "%s%d", k ? ", " : "", (int)survey->front[cost][k]);
   }
 }
 
-void baum_i_report_json(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_report_json(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   put_heading(survey, out);
   put_reference(&survey->reference, out);

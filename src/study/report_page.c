@@ -4,7 +4,7 @@
 
 #include "study/report.h"
 
-static void put_head(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_head(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_put(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
                   "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
@@ -17,11 +17,11 @@ static void put_head(const baum_i_survey *survey, baum_i_buffer *out)
   baum_i_put(out, "</head>\n<body>\n");
 }
 
-static void put_counts(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_counts(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_putf(out, "%d settings of %d methods", survey->row_count, survey->method_count);
   for (int s = BAUM_STUDY_WAITING; s <= BAUM_STUDY_TIMED_OUT; s++) {
-    int count = baum_i_survey_count(survey, (baum_study_state)s);
+    int count = baum_i_snapshot_count(survey, (baum_study_state)s);
     const char *name =
       s == BAUM_STUDY_TIMED_OUT ? "timed out" : baum_study_state_name((baum_study_state)s);
     if (count > 0) {
@@ -37,7 +37,7 @@ static void put_item(baum_i_buffer *out, const char *name, const char *text)
   baum_i_put(out, "</dd>\n");
 }
 
-static void put_header(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_header(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   const baum_study_reference *r = &survey->reference;
   baum_i_put(out, "<header>\n<h1>");
@@ -56,7 +56,7 @@ static void put_header(const baum_i_survey *survey, baum_i_buffer *out)
   baum_i_put(out, "</dd>\n</dl>\n</header>\n");
 }
 
-static void put_environment(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_environment(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   const baum_i_environment *e = &survey->environment;
   baum_i_put(out, "<section>\n<h2>Where it was measured</h2>\n<dl>\n");
@@ -74,7 +74,7 @@ static void put_environment(const baum_i_survey *survey, baum_i_buffer *out)
   baum_i_put(out, "</dl>\n</section>\n");
 }
 
-void baum_i_report_page(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_report_page(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_highlights highlights = baum_i_choose_highlights(survey);
   put_head(survey, out);

@@ -174,7 +174,7 @@ static fate find_fate(const baum_study_row *row)
   return FATES;
 }
 
-static void put_points(const baum_i_survey *survey, const map *m, fate wanted, baum_i_buffer *out)
+static void put_points(const baum_i_snapshot *survey, const map *m, fate wanted, baum_i_buffer *out)
 {
   for (int k = 0; k < survey->row_count; k++) {
     const baum_study_row *row = &survey->rows[k].row;
@@ -192,7 +192,7 @@ static void put_points(const baum_i_survey *survey, const map *m, fate wanted, b
   }
 }
 
-static void put_map(const baum_i_survey *survey, const map *m, baum_i_buffer *out)
+static void put_map(const baum_i_snapshot *survey, const map *m, baum_i_buffer *out)
 {
   baum_i_putf(out,
               "<figure><figcaption>%s</figcaption><svg class=\"map\" viewBox=\"0 0 %d %d\" "
@@ -209,7 +209,7 @@ static void put_map(const baum_i_survey *survey, const map *m, baum_i_buffer *ou
 }
 
 /* Row k is the first with gains of its integrator. */
-static bool is_first(const baum_i_survey *survey, int k)
+static bool is_first(const baum_i_snapshot *survey, int k)
 {
   const baum_integrator *integrator = survey->rows[k].row.integrator;
   for (int j = 0; j < k; j++) {
@@ -227,7 +227,7 @@ static const char HEADING[] =
   "with steps that are too long for the motion, however stable the gains. Crosses: refused or "
   "failed. What lies outside of a map is drawn at its edge.</p>\n<div class=\"maps\">\n";
 
-void baum_i_put_stability_maps(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_put_stability_maps(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   map m = {.points = baum_i_alloc((size_t)2 * POINTS, sizeof(double))};
   if (!m.points) {

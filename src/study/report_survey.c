@@ -40,7 +40,7 @@ static void describe(baum_i_report_row *row)
   row->message = row->row.message && row->row.message[0] ? row->row.message : NULL;
 }
 
-static baum_status read_rows(baum_i_survey *out)
+static baum_status read_rows(baum_i_snapshot *out)
 {
   out->row_count = baum_study_row_count(out->study);
   out->rows = baum_i_alloc((size_t)out->row_count, sizeof *out->rows);
@@ -74,7 +74,7 @@ static int by_method(const void *a, const void *b)
   return (coarse < fine) - (coarse > fine);
 }
 
-static baum_status order_rows(baum_i_survey *out)
+static baum_status order_rows(baum_i_snapshot *out)
 {
   out->order = baum_i_alloc((size_t)out->row_count, sizeof(const baum_i_report_row *));
   if (!out->order) {
@@ -87,7 +87,7 @@ static baum_status order_rows(baum_i_survey *out)
   return BAUM_OK;
 }
 
-static baum_status read_methods(baum_i_survey *out)
+static baum_status read_methods(baum_i_snapshot *out)
 {
   out->method_count = baum_study_method_count(out->study);
   out->methods = baum_i_alloc((size_t)out->method_count, sizeof *out->methods);
@@ -101,7 +101,7 @@ static baum_status read_methods(baum_i_survey *out)
   return status;
 }
 
-static baum_status read_front(baum_i_survey *out, baum_study_cost cost)
+static baum_status read_front(baum_i_snapshot *out, baum_study_cost cost)
 {
   int32_t *count = &out->front_count[cost];
   out->front[cost] = baum_i_alloc((size_t)out->row_count, sizeof *out->front[cost]);
@@ -127,7 +127,7 @@ static void read_advice(const baum_study *study, baum_study_cost cost, baum_i_ad
   baum_i_name_setting(&out->options, out->setting, sizeof out->setting);
 }
 
-static baum_status read_answers(baum_i_survey *out)
+static baum_status read_answers(baum_i_snapshot *out)
 {
   baum_status status = BAUM_OK;
   baum_i_sentence kept;
@@ -142,9 +142,9 @@ static baum_status read_answers(baum_i_survey *out)
   return baum_i_message_settle(status, &kept);
 }
 
-baum_status baum_i_survey_read(const baum_study *study, const char *title, baum_i_survey *out)
+baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out)
 {
-  *out = (baum_i_survey){.study = study, .title = title ? title : "Study"};
+  *out = (baum_i_snapshot){.study = study, .title = title ? title : "Study"};
   out->error = baum_study_error_text(study);
   baum_i_environment_read(&out->environment);
   baum_status status =
@@ -164,7 +164,7 @@ baum_status baum_i_survey_read(const baum_study *study, const char *title, baum_
   return status == BAUM_OK ? read_answers(out) : status;
 }
 
-void baum_i_survey_clear(baum_i_survey *survey)
+void baum_i_snapshot_clear(baum_i_snapshot *survey)
 {
   baum_i_free(survey->rows);
   baum_i_free(survey->order);
@@ -173,7 +173,7 @@ void baum_i_survey_clear(baum_i_survey *survey)
   baum_i_free(survey->front[1]);
 }
 
-int baum_i_survey_count(const baum_i_survey *survey, baum_study_state state)
+int baum_i_snapshot_count(const baum_i_snapshot *survey, baum_study_state state)
 {
   int count = 0;
   for (int k = 0; k < survey->row_count; k++) {

@@ -39,7 +39,7 @@ static void put_choice(const baum_i_advice *advice, baum_i_buffer *out)
   }
 }
 
-void baum_i_put_advice_table(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_put_advice_table(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_put(out, "<section>\n<h2>What to take</h2>\n<p>Work is what was counted, evaluations and "
                   "factorizations together: the same on every machine. CPU time is that of the "
@@ -83,7 +83,7 @@ static void put_method(const baum_study_method *m, int number, int colour, baum_
   baum_i_put(out, "</tr>\n");
 }
 
-void baum_i_put_method_table(const baum_i_survey *survey, const baum_i_highlights *highlights,
+void baum_i_put_method_table(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
                              baum_i_buffer *out)
 {
   baum_i_put(out,
@@ -139,7 +139,7 @@ static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
   baum_i_put(out, "</td></tr>\n");
 }
 
-void baum_i_put_row_table(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_put(out,
              "<section>\n<h2>All settings</h2>\n"
@@ -173,7 +173,7 @@ void baum_i_put_row_table(const baum_i_survey *survey, baum_i_buffer *out)
 /* ---- what was said ---- */
 
 /* The first row of which this was said. */
-static bool is_first(const baum_i_survey *survey, int k)
+static bool is_first(const baum_i_snapshot *survey, int k)
 {
   for (int j = 0; j < k; j++) {
     const char *message = survey->rows[j].message;
@@ -185,7 +185,7 @@ static bool is_first(const baum_i_survey *survey, int k)
 }
 
 /* What was said of row k, and of which settings it was. */
-static void put_message(const baum_i_survey *survey, int k, baum_i_buffer *out)
+static void put_message(const baum_i_snapshot *survey, int k, baum_i_buffer *out)
 {
   const char *message = survey->rows[k].message;
   int count = 0;
@@ -209,7 +209,7 @@ static void put_message(const baum_i_survey *survey, int k, baum_i_buffer *out)
   baum_i_put(out, "</td></tr>\n");
 }
 
-void baum_i_put_messages(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_put_messages(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   bool begun = false;
   for (int k = 0; k < survey->row_count; k++) {

@@ -5,7 +5,7 @@
 #include "study/report.h"
 
 /* Widest name, at least that of a title. */
-static int name_width(const baum_i_survey *survey)
+static int name_width(const baum_i_snapshot *survey)
 {
   int width = baum_i_length("setting");
   for (int k = 0; k < survey->row_count; k++) {
@@ -15,7 +15,7 @@ static int name_width(const baum_i_survey *survey)
   return width;
 }
 
-static void put_heading(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_heading(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   const baum_i_environment *e = &survey->environment;
   const baum_study_reference *r = &survey->reference;
@@ -25,7 +25,7 @@ static void put_heading(const baum_i_survey *survey, baum_i_buffer *out)
               (int)(r->samples ? r->samples : survey->options.samples));
   baum_i_putf(out, "settings   %d", survey->row_count);
   for (int s = BAUM_STUDY_WAITING; s <= BAUM_STUDY_TIMED_OUT; s++) {
-    int count = baum_i_survey_count(survey, (baum_study_state)s);
+    int count = baum_i_snapshot_count(survey, (baum_study_state)s);
     if (count > 0) {
       baum_i_putf(out, ", %d %s", count, baum_study_state_name((baum_study_state)s));
     }
@@ -37,7 +37,7 @@ static void put_heading(const baum_i_survey *survey, baum_i_buffer *out)
               e->compiler, e->cpu, e->date);
 }
 
-static void put_advice(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_advice(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_put(out, "\nWhat to take for an error, cheapest by work\n");
   for (int k = 0; k < BAUM_I_ADVICE; k++) {
@@ -109,7 +109,7 @@ static void put_row(const baum_i_report_row *row, int width, baum_i_buffer *out)
   baum_i_put(out, "\n");
 }
 
-static void put_front(const baum_i_survey *survey, int width, baum_i_buffer *out)
+static void put_front(const baum_i_snapshot *survey, int width, baum_i_buffer *out)
 {
   baum_i_put(out, "\nThe front by work, from cheap to exact\n");
   put_titles(width, out);
@@ -118,7 +118,7 @@ static void put_front(const baum_i_survey *survey, int width, baum_i_buffer *out
   }
 }
 
-static void put_methods(const baum_i_survey *survey, int width, baum_i_buffer *out)
+static void put_methods(const baum_i_snapshot *survey, int width, baum_i_buffer *out)
 {
   baum_i_put(out, "\nThe price of accuracy: factors on the cost for one more digit\n");
   baum_i_put_left(out, "method", width);
@@ -138,7 +138,7 @@ static void put_methods(const baum_i_survey *survey, int width, baum_i_buffer *o
   }
 }
 
-static void put_messages(const baum_i_survey *survey, baum_i_buffer *out)
+static void put_messages(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   baum_i_put(out, "\nWhat was said\n");
   for (int k = 0; k < survey->row_count; k++) {
@@ -151,7 +151,7 @@ static void put_messages(const baum_i_survey *survey, baum_i_buffer *out)
   }
 }
 
-void baum_i_report_text(const baum_i_survey *survey, baum_i_buffer *out)
+void baum_i_report_text(const baum_i_snapshot *survey, baum_i_buffer *out)
 {
   int width = name_width(survey);
   put_heading(survey, out);

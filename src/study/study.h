@@ -57,7 +57,7 @@ typedef struct baum_i_course {
   int n;
   double *times; /* (n) */
   double *rows;  /* (n x width) NULL: not known */
-  double *q;     /* (nq) the start, or NULL: as drawn */
+  double *q;     /* (nq) the start, or NULL: as designed */
   double *v;     /* (nv) likewise */
 } baum_i_course;
 
@@ -192,7 +192,7 @@ typedef struct baum_i_task {
   bool with_account; /* of energy, if the study has it */
 } baum_i_task;
 
-/* Run through the samples of the course, and from the start as drawn on to the end of the span; rows (n x width) NULL: no
+/* Run through the samples of the course, and from the start as designed on to the end of the span; rows (n x width) NULL: no
  * samples are taken. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
                           baum_i_outcome *out);

@@ -226,7 +226,7 @@ static baum_status evaluate(baum_workspace *w, const every_element *parts, point
 static void start_point(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);
-  assert_int_equal(baum_workspace_drawn(w, p->q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, p->q, NULL), BAUM_OK);
   memcpy(p->y, p->q, sizeof p->q);
 }
 
@@ -277,11 +277,11 @@ static baum_status build_everything(void *context)
     status = baum_mechanism_mobility(copy, &mobility, sizeof mobility);
   }
   if (status == BAUM_OK) {
-    assert_int_equal(mobility.freedoms, EVERY_NV - EVERY_NC);
+    assert_int_equal(mobility.degrees_of_freedom, EVERY_NV - EVERY_NC);
     status = baum_mechanism_report(copy, &report, sizeof report);
   }
   if (status == BAUM_OK) {
-    assert_int_equal(report.freedoms, EVERY_NV - EVERY_NC);
+    assert_int_equal(report.degrees_of_freedom, EVERY_NV - EVERY_NC);
     status = baum_mechanism_check_derivatives(parts.mechanism);
   }
   baum_mechanism_destroy(parts.mechanism);

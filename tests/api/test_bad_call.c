@@ -50,8 +50,10 @@ static void calls_on_no_mechanism_are_refused(void **state)
               "the mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_get_gravity(NULL, numbers), BAUM_ERR_ARGUMENT,
               "the mechanism is NULL");
-  ASSERT_SAYS(baum_mechanism_set_scale(NULL, 1.0), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
-  ASSERT_SAYS(baum_mechanism_get_scale(NULL, numbers), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
+  ASSERT_SAYS(baum_mechanism_set_characteristic_length(NULL, 1.0), BAUM_ERR_ARGUMENT,
+              "the mechanism is NULL");
+  ASSERT_SAYS(baum_mechanism_get_characteristic_length(NULL, numbers), BAUM_ERR_ARGUMENT,
+              "the mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_freeze(NULL), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   ASSERT_SAYS(baum_mechanism_sizes(NULL, NULL, NULL, NULL), BAUM_ERR_ARGUMENT,
               "the mechanism is NULL");
@@ -78,7 +80,7 @@ static void a_draft_can_be_examined(void **state)
   baum_mobility mobility;
   baum_report report;
   assert_int_equal(baum_mechanism_mobility(parts.mechanism, &mobility, sizeof mobility), BAUM_OK);
-  assert_int_equal(mobility.freedoms, EVERY_NV - EVERY_NC);
+  assert_int_equal(mobility.degrees_of_freedom, EVERY_NV - EVERY_NC);
   assert_int_equal(baum_mechanism_report(parts.mechanism, &report, sizeof report), BAUM_OK);
   assert_int_equal(report.velocities, EVERY_NV);
   assert_false(baum_mechanism_is_frozen(parts.mechanism));
@@ -125,7 +127,8 @@ static void outputs_of_a_mechanism_may_not_be_null_unless_they_may(void **state)
   ASSERT_SAYS(baum_mechanism_copy(parts.mechanism, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   ASSERT_SAYS(baum_mechanism_get_gravity(parts.mechanism, NULL), BAUM_ERR_ARGUMENT,
               "gravity is NULL");
-  ASSERT_SAYS(baum_mechanism_get_scale(parts.mechanism, NULL), BAUM_ERR_ARGUMENT, "length is NULL");
+  ASSERT_SAYS(baum_mechanism_get_characteristic_length(parts.mechanism, NULL), BAUM_ERR_ARGUMENT,
+              "length is NULL");
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, NULL, sizeof mobility), BAUM_ERR_ARGUMENT,
               "out is NULL");
   ASSERT_SAYS(baum_mechanism_mobility(parts.mechanism, &mobility, 0), BAUM_ERR_ARGUMENT,
@@ -295,7 +298,7 @@ static void calls_on_a_workspace_refuse_null_and_what_is_not_finite(void **state
   baum_sparse sparse = {NULL, NULL, NULL, 0};
   arguments good = {NULL, 0.0, q, v, out, y, &dae, &sparse, parts.rod};
   assert_int_equal(baum_workspace_create(parts.mechanism, &good.w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(good.w, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(good.w, q, v), BAUM_OK);
   for (int i = 0; i < EVERY_NV; i++) {
     v[i] = (double)NAN;
   }
@@ -324,10 +327,10 @@ static void workspaces_refuse_the_rest_by_name(void **state)
   ASSERT_SAYS(baum_workspace_create(NULL, &w), BAUM_ERR_ARGUMENT, "the mechanism is NULL");
   assert_null(w);
   ASSERT_SAYS(baum_workspace_create(parts.mechanism, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
-  ASSERT_SAYS(baum_workspace_drawn(NULL, q, v), BAUM_ERR_ARGUMENT, "the workspace is NULL");
+  ASSERT_SAYS(baum_workspace_design(NULL, q, v), BAUM_ERR_ARGUMENT, "the workspace is NULL");
   assert_int_equal(baum_workspace_create(parts.mechanism, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, NULL, NULL), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, NULL, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
   ASSERT_SAYS(baum_workspace_residual(w, &dae, 0.0, y, y, y), BAUM_ERR_ARGUMENT,
               "index is 5, must be 1, 2, 3 or 4 (GGL)");
   ASSERT_SAYS(baum_workspace_residual(w, NULL, 0.0, y, y, y), BAUM_ERR_ARGUMENT, "dae is NULL");
@@ -468,7 +471,7 @@ static void a_run_and_a_workspace_keep_their_mechanism_alive(void **state)
   baum_mechanism_destroy(parts.mechanism);
   assert_int_equal(baum_simulation_advance_to(run, 0.01), BAUM_OK);
   baum_simulation_destroy(run);
-  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
   assert_int_equal(baum_workspace_phi(w, 0.0, q, phi), BAUM_OK);
   baum_workspace_destroy(w);
 }

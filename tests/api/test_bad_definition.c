@@ -404,8 +404,8 @@ static void nothing_is_added_or_set_after_freeze(void **state)
   }
   ASSERT_SAYS(baum_mechanism_set_gravity(parts.mechanism, 0.0, 0.0, 0.0), BAUM_ERR_STATE,
               "baum_mechanism_set_gravity: the mechanism is frozen");
-  ASSERT_SAYS(baum_mechanism_set_scale(parts.mechanism, 1.0), BAUM_ERR_STATE,
-              "baum_mechanism_set_scale: the mechanism is frozen");
+  ASSERT_SAYS(baum_mechanism_set_characteristic_length(parts.mechanism, 1.0), BAUM_ERR_STATE,
+              "baum_mechanism_set_characteristic_length: the mechanism is frozen");
   assert_int_equal(baum_mechanism_freeze(parts.mechanism), BAUM_OK);
   check_size(parts.mechanism, EVERY_NV, EVERY_NC);
   baum_mechanism_destroy(parts.mechanism);
@@ -423,7 +423,7 @@ static void gravity_and_scale_out_of_range_are_refused(void **state)
   assert_true(gravity[1] == -9.81);
   const double bad[] = {0.0, -1.0, (double)NAN, (double)INFINITY};
   for (int k = 0; k < 4; k++) {
-    ASSERT_SAYS(baum_mechanism_set_scale(mechanism, bad[k]), BAUM_ERR_ARGUMENT,
+    ASSERT_SAYS(baum_mechanism_set_characteristic_length(mechanism, bad[k]), BAUM_ERR_ARGUMENT,
                 "length scale is | m, must be finite and > 0");
   }
   ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_STATE, "the mechanism has no body");

@@ -178,7 +178,7 @@ static void a_rough_drawing_is_assembled_and_reported(void **state)
   double scale = 0.0;
   assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
   assert_int_equal(baum_simulation_counters(run, &counters, sizeof counters), BAUM_OK);
-  assert_int_equal(baum_mechanism_get_scale(mechanism, &scale), BAUM_OK);
+  assert_int_equal(baum_mechanism_get_characteristic_length(mechanism, &scale), BAUM_OK);
   ASSERT_NEAR(baum_simulation_q(run)[0], 1.01, 1e-10, 0.0);
   ASSERT_NEAR(counters.start_change, 0.01 / scale, 1e-6, 0.0);
   baum_simulation_destroy(run);

@@ -215,7 +215,7 @@ static void use_another(const asked *b)
   double a[ASKED_NV];
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(b->mechanism, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, a, NULL), BAUM_OK);
   baum_workspace_destroy(w);
 }
@@ -285,7 +285,7 @@ static void workspaces_cannot_be_used_by_the_functions_they_call(void **unused)
     baum_workspace *w = NULL;
     b.kind = (asked_kind)k;
     check(baum_workspace_create(b.mechanism, &w));
-    check(baum_workspace_drawn(w, q, NULL));
+    check(baum_workspace_design(w, q, NULL));
     check(baum_workspace_acceleration(w, 0.0, q, v, 1.0, 1.0, a[0], NULL));
     b.w = w;
     b.calls = 0;

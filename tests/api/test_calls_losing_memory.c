@@ -103,7 +103,7 @@ static void make_scene(scene *s, stage wanted)
   if (wanted == FROZEN || wanted == RUNNING) {
     assert_int_equal(baum_mechanism_freeze(s->parts.mechanism), BAUM_OK);
     assert_int_equal(baum_workspace_create(s->parts.mechanism, &s->w), BAUM_OK);
-    assert_int_equal(baum_workspace_drawn(s->w, s->q, NULL), BAUM_OK);
+    assert_int_equal(baum_workspace_design(s->w, s->q, NULL), BAUM_OK);
     memcpy(s->y, s->q, sizeof s->q);
     s->q[0] += 1e-3; /* something to be assembled */
   }

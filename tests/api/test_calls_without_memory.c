@@ -53,7 +53,7 @@ typedef struct scene {
   baum_catalog_parameter parameter;
   baum_counters counters;
   baum_energy_account account;
-  baum_near_singular passage;
+  baum_near_singular crossing;
   baum_event_record event;
   baum_event_def event_def;
   baum_amplification amplification;
@@ -74,12 +74,12 @@ typedef struct scene {
   X(baum_mechanism_rows, (s->parts.mechanism, s->parts.pin, &s->n[0], &s->n[1]))             \
   X(baum_mechanism_sizes, (s->parts.mechanism, &s->n[0], &s->n[1], &s->n[2]))                \
   X(baum_mechanism_get_gravity, (s->parts.mechanism, s->x))                                  \
-  X(baum_mechanism_get_scale, (s->parts.mechanism, s->x))                                    \
+  X(baum_mechanism_get_characteristic_length, (s->parts.mechanism, s->x))                    \
   X(baum_mechanism_get_input, (s->parts.mechanism, s->parts.throttle, s->x))                 \
   X(baum_mechanism_set_gravity, (s->open.mechanism, 0.0, -9.81, 0.0))                        \
-  X(baum_mechanism_set_scale, (s->open.mechanism, 1.0))                                      \
+  X(baum_mechanism_set_characteristic_length, (s->open.mechanism, 1.0))                      \
   X(baum_mechanism_set_input, (s->open.mechanism, s->open.throttle, 1.0))                    \
-  X(baum_workspace_drawn, (s->w, s->q, NULL))                                                \
+  X(baum_workspace_design, (s->w, s->q, NULL))                                               \
   X(baum_workspace_phi, (s->w, 0.0, s->q, s->x))                                             \
   X(baum_workspace_jacobian, (s->w, 0.0, s->q, s->x))                                        \
   X(baum_workspace_nu, (s->w, 0.0, s->q, s->x))                                              \
@@ -99,7 +99,7 @@ typedef struct scene {
   X(baum_simulation_counters, (s->run, &s->counters, sizeof s->counters))                    \
   X(baum_simulation_energy_account, (s->run, &s->account, sizeof s->account))                \
   X(baum_simulation_event, (s->run, 0, &s->event, sizeof s->event))                          \
-  X(baum_simulation_near_singular, (s->run, 0, &s->passage, sizeof s->passage))              \
+  X(baum_simulation_near_singular, (s->run, 0, &s->crossing, sizeof s->crossing))            \
   X(baum_simulation_warning, (s->run, 0, &s->warning, sizeof s->warning))                    \
   X(baum_simulation_unique_multipliers, (s->run, s->unique))                                 \
   X(baum_simulation_save, (s->run, s->bytes, BYTES, &s->size))                               \
@@ -275,7 +275,7 @@ static void make_scene(scene *s)
   assert_int_equal(baum_study_create(s->pendulum, 0.0, 1.0, &s->fresh), BAUM_OK);
   s->two[1] = 1.0;
   s->later = 0.02;
-  assert_int_equal(baum_workspace_drawn(s->w, s->q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(s->w, s->q, NULL), BAUM_OK);
   memcpy(s->y, s->q, sizeof s->q);
 }
 

@@ -71,7 +71,7 @@ static void describe(const baum_catalog_choice *choice, double out[6])
   double *x = calloc(room, sizeof *x);
   assert_true(q && v && x);
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
   for (int i = 0; i < n; i++) {
     out[0] += (i + 1) * q[i];
     out[1] += isnan(v[i]) ? 0.0 : (i + 1) * v[i];
@@ -256,7 +256,7 @@ static void errors_are_differences_by_the_scales(void **state)
   double v[2 * NQ];
   double length = 0.0;
   baum_catalog_error error;
-  assert_int_equal(baum_mechanism_get_scale(m, &length), BAUM_OK);
+  assert_int_equal(baum_mechanism_get_characteristic_length(m, &length), BAUM_OK);
   assert_int_equal(baum_catalog_times("slider_crank", t), BAUM_OK);
   for (int i = 0; i < 2; i++) {
     assert_int_equal(baum_catalog_reference(&CRANK, t[i], q + i * NQ, v + i * NQ), BAUM_OK);

@@ -192,7 +192,7 @@ static baum_mechanism *make_bead(variant of, fault *f)
   if (of.lifted) {
     add_lift(m, &bead, f);
   }
-  check(baum_mechanism_set_scale(m, 1.0));
+  check(baum_mechanism_set_characteristic_length(m, 1.0));
   check(baum_mechanism_freeze(m));
   return m;
 }

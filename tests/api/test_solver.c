@@ -337,13 +337,13 @@ static void masses_that_are_not_known_as_drawn_are_told(void **state)
   o.formulation = BAUM_FORMULATION_UNSTABILIZED;
   baum_simulation *run = start(m, &o);
   assert_explained(run, "\nsolver        klu on the whole system: mass or force cannot be "
-                        "evaluated in the drawn pose\n");
+                        "evaluated in the design configuration\n");
   check(baum_simulation_step(run, 1));
   ASSERT_NEAR(baum_simulation_v(run)[0], 0.75, 1e-15, 0.0);
   baum_simulation_destroy(run);
   o.solver = BAUM_SOLVER_BLOCK;
   assert_refused(m, &o, BAUM_ERR_UNSUPPORTED,
-                 "solver is block|mass or force cannot be evaluated in the drawn pose");
+                 "solver is block|mass or force cannot be evaluated in the design configuration");
   baum_mechanism_destroy(m);
 }
 

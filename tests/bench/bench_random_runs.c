@@ -118,10 +118,10 @@ static bool make(scene *s, uint64_t seed, double begin, double span)
   kind.start = begin;
   random_mechanism_make(&s->random, seed, &kind);
   (void)baum_mechanism_sizes(s->random.mechanism, NULL, &s->nv, NULL);
-  (void)baum_mechanism_get_scale(s->random.mechanism, &s->scale);
+  (void)baum_mechanism_get_characteristic_length(s->random.mechanism, &s->scale);
   assert_true(s->nv <= SIZE);
   assert_int_equal(baum_workspace_create(s->random.mechanism, &w), BAUM_OK);
-  (void)baum_workspace_drawn(w, s->q0, NULL);
+  (void)baum_workspace_design(w, s->q0, NULL);
   bool rests = chance_below(&c, 4) == 0;
   for (int i = 0; i < s->nv; i++) {
     s->v0[i] = rests ? 0.0 : chance_number(&c, -3.0, 3.0);
@@ -157,7 +157,7 @@ static void read_warnings(const baum_simulation *run, result *out)
   }
 }
 
-/* From (q, v), or as drawn where these are NULL. */
+/* From (q, v), or as designed where these are NULL. */
 static result run(const scene *s, baum_simulation_options o, const double *q, const double *v)
 {
   baum_simulation *r = NULL;

@@ -409,7 +409,7 @@ static double scale_of(const scene *s)
   model m;
   double scale = 1.0;
   if (scene_build(s, &m) == BAUM_OK) {
-    (void)baum_mechanism_get_scale(m.mechanism, &scale);
+    (void)baum_mechanism_get_characteristic_length(m.mechanism, &scale);
     model_destroy(&m);
   }
   return scale / s->units.length;

@@ -239,7 +239,7 @@ static double seconds(void)
 static double scale_of(const cell *c, const trial *t)
 {
   double scale = 1.0;
-  (void)baum_mechanism_get_scale(t->m.mechanism, &scale);
+  (void)baum_mechanism_get_characteristic_length(t->m.mechanism, &scale);
   return scale / c->scene.units.length;
 }
 

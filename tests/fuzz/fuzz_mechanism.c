@@ -35,7 +35,7 @@ typedef struct pose {
 static pose draw_pose(baum_workspace *w, fuzz_bytes *b, int nv)
 {
   pose p = {.t = fuzz_number(b)};
-  FUZZ_CHECK(baum_workspace_drawn(w, p.q, p.v) == BAUM_OK);
+  FUZZ_CHECK(baum_workspace_design(w, p.q, p.v) == BAUM_OK);
   for (int i = 0; i < nv; i++) {
     p.v[i] = isnan(p.v[i]) ? 0.0 : p.v[i];
   }
@@ -108,7 +108,7 @@ static void check_copy(const baum_mechanism *m, const pose *p, int nv)
   baum_mechanism_destroy(copy);
 }
 
-static bool any_function_fails(const drawn_mechanism *m)
+static bool any_function_fails(const design_mechanism *m)
 {
   for (int k = 0; k < m->user_count; k++) {
     if (m->users[k].calls > 0) {
@@ -118,7 +118,7 @@ static bool any_function_fails(const drawn_mechanism *m)
   return false;
 }
 
-static void evaluate_all(const drawn_mechanism *m, fuzz_bytes *b)
+static void evaluate_all(const design_mechanism *m, fuzz_bytes *b)
 {
   int32_t nv = 0;
   int32_t nc = 0;
@@ -139,15 +139,15 @@ static void evaluate_all(const drawn_mechanism *m, fuzz_bytes *b)
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
-  static drawn_mechanism m;
+  static design_mechanism m;
   fuzz_bytes b = {data, size};
-  drawn_mechanism_make(&m, &b);
+  design_mechanism_make(&m, &b);
   bool frozen = fuzz_status(baum_mechanism_freeze(m.mechanism)) == BAUM_OK;
   FUZZ_CHECK(baum_mechanism_is_frozen(m.mechanism) == frozen);
   if (frozen) {
     look(m.mechanism);
     evaluate_all(&m, &b);
   }
-  drawn_mechanism_destroy(&m);
+  design_mechanism_destroy(&m);
   return 0;
 }

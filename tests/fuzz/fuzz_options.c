@@ -161,12 +161,12 @@ static void read_all(const scene *s)
   baum_warning warning;
   baum_counters counters;
   baum_energy_account account;
-  baum_near_singular passage;
+  baum_near_singular crossing;
   baum_event_record record;
   FUZZ_CHECK(baum_simulation_explain(s->run) && baum_simulation_message(s->run));
   (void)fuzz_status(baum_simulation_counters(s->run, &counters, sizeof counters));
   (void)fuzz_status(baum_simulation_energy_account(s->run, &account, sizeof account));
-  (void)fuzz_status(baum_simulation_near_singular(s->run, 0, &passage, sizeof passage));
+  (void)fuzz_status(baum_simulation_near_singular(s->run, 0, &crossing, sizeof crossing));
   (void)fuzz_status(baum_simulation_event(s->run, 0, &record, sizeof record));
   (void)fuzz_status(baum_simulation_warning(s->run, 0, &warning, sizeof warning));
 }
@@ -207,7 +207,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   int looks = LOOKS + fuzz_below(&b, 4 * STEPS);
   scene s = {.parts = mechanism_at(fuzz_below(&b, MECHANISMS)), .b = &b, .q = q, .v = v};
   baum_simulation_options options;
-  drawn_options(&b, STEPS, factors, &options);
+  design_options(&b, STEPS, factors, &options);
   options.progress = stop_soon;
   options.user = &looks;
   baum_status status = fuzz_status(baum_simulation_create(s.parts->mechanism, &options, &s.run));

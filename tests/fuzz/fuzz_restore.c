@@ -144,7 +144,7 @@ static void use(const scene *s)
   baum_warning warning;
   baum_counters counters;
   baum_event_record record;
-  baum_near_singular passage;
+  baum_near_singular crossing;
   const baum_channel channel = {.quantity = BAUM_ENERGY};
   (void)fuzz_status(baum_simulation_step(s->run, 2));
   (void)fuzz_status(baum_simulation_advance_to(s->run, baum_simulation_time(s->run) - 1e-3));
@@ -155,7 +155,7 @@ static void use(const scene *s)
   }
   for (int64_t k = 0; k < 3; k++) {
     (void)fuzz_status(baum_simulation_event(s->run, k, &record, sizeof record));
-    (void)fuzz_status(baum_simulation_near_singular(s->run, k, &passage, sizeof passage));
+    (void)fuzz_status(baum_simulation_near_singular(s->run, k, &crossing, sizeof crossing));
   }
   FUZZ_CHECK(baum_simulation_explain(s->run));
 }

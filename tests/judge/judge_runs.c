@@ -61,7 +61,7 @@ bool judge_open(judge_case *c, uint64_t seed)
   if (!c->m || !read_start(c) || !accelerations_agree(c)) {
     return false;
   }
-  (void)baum_mechanism_get_scale(c->m, &c->length);
+  (void)baum_mechanism_get_characteristic_length(c->m, &c->length);
   c->failed = NULL;
   if (!judge_find_reference(&c->scene, c->scene.q, c->scene.v, c->length, &c->reference)) {
     c->failed = c->reference.failed;

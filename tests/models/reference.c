@@ -43,7 +43,7 @@ reference_run reference_compare(const reference *with, const baum_mechanism *mec
   double scale = (double)NAN;
   int32_t nq = 0;
   baum_simulation *run = NULL;
-  (void)baum_mechanism_get_scale(mechanism, &scale);
+  (void)baum_mechanism_get_characteristic_length(mechanism, &scale);
   (void)baum_mechanism_sizes(mechanism, &nq, NULL, NULL);
   double *rows = calloc((size_t)with->samples * (size_t)nq, sizeof *rows);
   out.status = rows ? baum_simulation_create(mechanism, options, &run) : BAUM_ERR_MEMORY;

@@ -13,7 +13,7 @@ baum_status variant_plan_make(variant_plan *out)
     status = baum_workspace_create(out->m.mechanism, &workspace);
   }
   if (status == BAUM_OK) {
-    status = baum_workspace_drawn(workspace, out->q, out->v);
+    status = baum_workspace_design(workspace, out->q, out->v);
   }
   baum_workspace_destroy(workspace);
   if (status != BAUM_OK) {

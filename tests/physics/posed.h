@@ -27,7 +27,7 @@ typedef struct posed {
   double *want_lambda;
 } posed;
 
-/* Take over a model that was just built, in its drawn pose. */
+/* Take over a model that was just built, in its design configuration. */
 static inline posed pose_model(baum_status built, model m)
 {
   check(built);
@@ -44,7 +44,7 @@ static inline posed pose_model(baum_status built, model m)
   p.want_a = p.a + nv;
   p.lambda = p.want_a + nv;
   p.want_lambda = p.lambda + nc;
-  check(baum_workspace_drawn(p.workspace, p.q, p.v));
+  check(baum_workspace_design(p.workspace, p.q, p.v));
   return p;
 }
 

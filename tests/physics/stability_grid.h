@@ -41,7 +41,7 @@ static inline void violate(const watched_run *watched, const baum_mechanism *mec
   double q[PHYSICS_NQ];
   double v[PHYSICS_NQ];
   double scale = (double)NAN;
-  check(baum_mechanism_get_scale(mechanism, &scale));
+  check(baum_mechanism_get_characteristic_length(mechanism, &scale));
   for (int i = 0; i < watched->nq; i++) {
     double unit = watched->nq == PHYSICS_NQ && i % 3 == 2 ? 1.0 : scale;
     q[i] = baum_simulation_q(watched->run)[i] + OFF * unit * cos(2.0 * i);

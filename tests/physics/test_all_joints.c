@@ -184,7 +184,7 @@ static void scenes_have_their_freedoms_and_move_far(void **state)
     baum_mobility mobility;
     baum_mechanism *mechanism = joint_scene_make(&joint_scenes[k]);
     check(baum_mechanism_mobility(mechanism, &mobility, sizeof mobility));
-    assert_int_equal(mobility.freedoms, joint_scenes[k].freedoms);
+    assert_int_equal(mobility.degrees_of_freedom, joint_scenes[k].degrees_of_freedom);
     assert_int_equal(mobility.redundant_rows, 0);
     baum_mechanism_destroy(mechanism);
     baum_simulation_options options = reference_options(1e-3);
@@ -263,7 +263,7 @@ static void kinematics_carries_every_joint(void **state)
   int tried = 0;
   for (int k = 0; k < JOINT_SCENES; k++) {
     baum_mechanism *mechanism =
-      joint_scenes[k].freedoms == 1 ? make_driven(&joint_scenes[k]) : NULL;
+      joint_scenes[k].degrees_of_freedom == 1 ? make_driven(&joint_scenes[k]) : NULL;
     if (!mechanism) {
       continue;
     }

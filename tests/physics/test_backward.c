@@ -42,7 +42,7 @@ static double scaled_error(const baum_mechanism *mechanism, const double *q, con
 {
   double scale = (double)NAN;
   double error = 0.0;
-  check(baum_mechanism_get_scale(mechanism, &scale));
+  check(baum_mechanism_get_characteristic_length(mechanism, &scale));
   for (int i = 0; i < NQ; i++) {
     error = fmax(error, fabs(q[i] - want[i]) / (i % 3 == 2 ? 1.0 : scale));
   }

@@ -126,7 +126,7 @@ static void its_freedoms_are_counted(void **state)
   double before = now();
   check(baum_mechanism_mobility(m.mechanism, &mobility, sizeof mobility));
   (void)lap("mobility", before);
-  assert_int_equal(mobility.freedoms, LINKS);
+  assert_int_equal(mobility.degrees_of_freedom, LINKS);
   assert_int_equal(mobility.redundant_rows, 0);
   assert_int_equal(mobility.free_bodies, 0);
   assert_false(mobility.near_singular);
@@ -179,7 +179,7 @@ static double *solve(const model *m)
   double before = now();
   check(baum_workspace_create(m->mechanism, &workspace));
   before = lap("workspace", before);
-  check(baum_workspace_drawn(workspace, q, NULL));
+  check(baum_workspace_design(workspace, q, NULL));
   check(baum_workspace_acceleration(workspace, 0.0, q, v, 0.0, 0.0, a, NULL));
   before = lap("first evaluation", before);
   check(baum_workspace_acceleration(workspace, 0.0, q, v, 0.0, 0.0, a, NULL));

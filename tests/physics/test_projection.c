@@ -81,7 +81,7 @@ static looked_on look_on(const baum_mechanism *mechanism, const scene *of)
   looked_on at = {0};
   double scale = (double)NAN;
   check(baum_mechanism_sizes(mechanism, NULL, &at.nv, &at.nc));
-  check(baum_mechanism_get_scale(mechanism, &scale));
+  check(baum_mechanism_get_characteristic_length(mechanism, &scale));
   check(baum_workspace_create(mechanism, &at.workspace));
   assert_true(at.nv <= WIDEST && at.nc <= WIDEST);
   for (int j = 0; j < at.nv; j++) {

@@ -102,7 +102,7 @@ static void pose(pair *p, double away)
 {
   chance *c = &p->random->chance;
   for (int i = 0; i < p->nv; i++) {
-    p->q[i] = p->random->mechanism->drawn_q[i] + away * chance_number(c, -1.0, 1.0);
+    p->q[i] = p->random->mechanism->design_q[i] + away * chance_number(c, -1.0, 1.0);
     p->v[i] = chance_number(c, -3.0, 3.0);
   }
 }
@@ -129,7 +129,7 @@ static void check_acceleration(pair *p, double t)
   const baum_workspace *w = p->whole;
   baum_status status = baum_i_acceleration(p->blocks, t, p->q, p->v, 0.0, 0.0);
   assert_int_equal(status, baum_i_acceleration(p->whole, t, p->q, p->v, 0.0, 0.0));
-  const unsigned char *dropped = b->redundancy.count > 0 ? b->redundancy.dropped : NULL;
+  const unsigned char *omitted = b->redundancy.count > 0 ? b->redundancy.omitted : NULL;
   if (status != BAUM_OK) {
     assert_int_equal(status, BAUM_ERR_SINGULAR);
     p->singular++;
@@ -142,7 +142,7 @@ static void check_acceleration(pair *p, double t)
   double lambda[SIZE];
   memcpy(a, b->a, (size_t)p->nv * sizeof *a);
   memcpy(lambda, b->lambda, (size_t)p->nc * sizeof *lambda);
-  if (!quad_acceleration(p->whole, t, p->q, p->v, dropped, p->a, p->lambda)) {
+  if (!quad_acceleration(p->whole, t, p->q, p->v, omitted, p->a, p->lambda)) {
     p->singular++;
     return;
   }
@@ -159,7 +159,7 @@ static double violation(pair *p, const double *q, const double *v)
   double worst = 0.0;
   assert_int_equal(baum_i_violation(w, 0.0, q, v), BAUM_OK);
   for (int i = 0; i < p->nc; i++) {
-    if (!w->redundancy.dropped[i]) {
+    if (!w->redundancy.omitted[i]) {
       worst = fmax(worst, fmax(fabs(w->phi[i]), fabs(w->phi_rate[i])));
     }
   }
@@ -307,8 +307,8 @@ static void loaded_light_bodies_keep_all_digits(void **state)
     double a[6];
     double lambda[5];
     assert_non_null(w->path);
-    assert_true(quad_acceleration(w, 0.0, m->drawn_q, v, NULL, a, lambda));
-    assert_int_equal(baum_i_acceleration(w, 0.0, m->drawn_q, v, 0.0, 0.0), BAUM_OK);
+    assert_true(quad_acceleration(w, 0.0, m->design_q, v, NULL, a, lambda));
+    assert_int_equal(baum_i_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0), BAUM_OK);
     /* Up to 1e3 between the masses three digits may go unseen. */
     assert_true(quad_error(6, w->a, a) <= (mass > 0.5e-3 ? 1e-11 : 1e-14));
     assert_true(quad_error(5, w->lambda, lambda) <= 1e-14);

@@ -50,7 +50,7 @@ static void a_light_bracket_carries_what_hangs_on_it(void **state)
     check(baum_simulation_get(run, &channel, 1, reaction));
     check_hold(reaction);
     check(baum_workspace_create(m, &w));
-    check(baum_workspace_drawn(w, q, NULL));
+    check(baum_workspace_design(w, q, NULL));
     check(baum_workspace_acceleration(w, 0.0, q, v, 0.0, 0.0, NULL, lambda));
     check(baum_workspace_reaction(w, 0.0, q, lambda, channel.joint, reaction));
     check_hold(reaction);

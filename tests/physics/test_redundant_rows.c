@@ -104,7 +104,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
   for (int pair = 0; pair < PAIR_COUNT; pair++) {
     posed p = PAIRS[pair].pose(1, true);
     accelerate(&p);
-    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->redundancy.dropped,
+    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->redundancy.omitted,
                                   p.want_a, p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
@@ -255,7 +255,7 @@ static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
     model m = tell_apart(k / 2, units[k % 2]);
     baum_mobility report;
     check(baum_mechanism_mobility(m.mechanism, &report, sizeof report));
-    if (report.redundant_rows != TELL_APART[k / 2].redundant || report.freedoms != 1 ||
+    if (report.redundant_rows != TELL_APART[k / 2].redundant || report.degrees_of_freedom != 1 ||
         report.near_singular != TELL_APART[k / 2].near_singular || report.conflicting_rows != 0) {
       fail_msg("%s, in %s: %s", TELL_APART[k / 2].name, k % 2 == 0 ? "m" : "mm", report.text);
     }

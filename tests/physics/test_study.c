@@ -102,7 +102,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
   }
 }
 
-/* Ground over a passage of a flat pose: branches cross there. */
+/* Ground over a crossing of a flat pose: branches cross there. */
 static void a_motion_past_a_singular_pose_has_no_trusted_reference(void **state)
 {
   (void)state;

@@ -99,7 +99,7 @@ static double compare_runs(int which, const baum_simulation_options *options, do
 {
   posed p = pose_case(which, TURNS * TURN);
   double scale = (double)NAN;
-  check(baum_mechanism_get_scale(p.m.mechanism, &scale));
+  check(baum_mechanism_get_characteristic_length(p.m.mechanism, &scale));
   baum_simulation *turned = start_run(&p, options);
   /* A mechanism of its own, so that nothing is measured from a turned pose: a driver's start. */
   posed other = pose_case(which, 0.0);

@@ -73,7 +73,7 @@ static pair compare_units(int which, const baum_simulation_options *options)
   check(build_case(which, NULL, &m[0]));
   check(build_case(which, &MODEL_MILLI, &m[1]));
   check(baum_mechanism_sizes(m[0].mechanism, &nq, NULL, NULL));
-  check(baum_mechanism_get_scale(m[0].mechanism, &scale));
+  check(baum_mechanism_get_characteristic_length(m[0].mechanism, &scale));
   baum_simulation *si = run_in(&m[0], NULL, options, END[which], &out.steps[0]);
   baum_simulation *milli = run_in(&m[1], &MODEL_MILLI, options, END[which], &out.steps[1]);
   for (int i = 0; i < nq; i++) {

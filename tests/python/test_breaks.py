@@ -47,9 +47,9 @@ class NearSingular(unittest.TestCase):
         self.assertEqual(s.near_singular, [])
         with self.assertWarnsRegex(baum.Warning, "near a singular pose"):
             s.advance_to(1)
-        passages = s.near_singular
-        self.assertEqual(len(passages), s.counters.near_singular_intervals)
-        first = passages[0]
+        crossings = s.near_singular
+        self.assertEqual(len(crossings), s.counters.near_singular_intervals)
+        first = crossings[0]
         self.assertTrue(first.begin < first.t < first.end)
         self.assertLess(first.pivot, 1e-3)
         self.assertEqual(first.branch, "continued")

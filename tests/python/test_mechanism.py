@@ -53,7 +53,7 @@ class Building(unittest.TestCase):
         )
 
     def test_every_kind_can_be_added_and_changed(self):
-        m = baum.Mechanism(gravity=(0, -1, 0), scale=2)
+        m = baum.Mechanism(gravity=(0, -1, 0), characteristic_length=2)
         a = m.planar_body("a")
         b = m.planar_body("b", position=(1, 0))
         m.planar_particle("c", position=(2, 0))
@@ -78,7 +78,7 @@ class Building(unittest.TestCase):
             "a b c d slider weld rod motor spring clock push torque".split(),
         )
         self.assertEqual(m.freeze().sizes, (10, 10, 7))
-        self.assertEqual((m.gravity, m.scale), ((0.0, -1.0, 0.0), 2.0))
+        self.assertEqual((m.gravity, m.characteristic_length), ((0.0, -1.0, 0.0), 2.0))
 
     def test_places_are_slices(self):
         m = slider_crank(omega=150)
@@ -95,14 +95,14 @@ class Building(unittest.TestCase):
 
     def test_mobility_is_told_by_name(self):
         mobility = slider_crank().mobility()
-        self.assertEqual((mobility.freedoms, mobility.redundant_rows), (1, 0))
+        self.assertEqual((mobility.degrees_of_freedom, mobility.redundant_rows), (1, 0))
         self.assertIsInstance(mobility.worst_phi, float)
         self.assertEqual(str(mobility), mobility.text)
         self.assertIn("1 freedom", str(mobility))
 
     def test_report_tells_what_it_costs(self):
         report = slider_crank().report()
-        self.assertEqual((report.rows, report.freedoms, report.nodes), (8, 1, 4))
+        self.assertEqual((report.rows, report.degrees_of_freedom, report.nodes), (8, 1, 4))
         self.assertIs(report.blocks, True)
         self.assertEqual(report.most_joined.name, "crank")
         self.assertGreater(report.flops, 500.0)
@@ -302,9 +302,9 @@ class Drafts(unittest.TestCase):
         m = baum.Mechanism()
         arm = m.planar_body("arm", mass=1, inertia=1)
         m.revolute("pin", m.ground, arm, point=(0, 0))
-        self.assertEqual((m.mobility().freedoms, m.report().rows, m.frozen), (1, 2, False))
+        self.assertEqual((m.mobility().degrees_of_freedom, m.report().rows, m.frozen), (1, 2, False))
         m.fixed("weld", m.ground, arm, point=(0, 0))
-        self.assertEqual((m.mobility().freedoms, m.mobility().redundant_rows), (0, 2))
+        self.assertEqual((m.mobility().degrees_of_freedom, m.mobility().redundant_rows), (0, 2))
 
     def test_a_handle_is_the_same_while_it_is_kept(self):
         m = slider_crank()
@@ -342,7 +342,7 @@ class MovedCopies(unittest.TestCase):
         place = dict(position=(5, -3), angle=1.0)
         moved = baum.Workspace(m.copy(a=place, b=place, c=place))
         there = baum.Workspace(m)
-        q, v = there.drawn()
+        q, v = there.design()
         q = q + 0.1 * np.sin(np.arange(len(q)))
         v = np.cos(np.arange(len(v)))
         np.testing.assert_allclose(moved.phi(0, q), there.phi(0, q), atol=1e-14)

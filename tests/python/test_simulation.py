@@ -146,7 +146,7 @@ class Options(unittest.TestCase):
         for name, method in baum.integrators().items():
             with self.subTest(name):
                 if name == "kinematics":
-                    with self.assertRaisesRegex(baum.Error, "1 freedom is left"):
+                    with self.assertRaisesRegex(baum.Error, "1 degree of freedom is left"):
                         m.simulate([0.1], name)
                     continue
                 if not SUNDIALS and not method.fixed_step:

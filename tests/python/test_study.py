@@ -96,7 +96,7 @@ class Meaning(unittest.TestCase):
         study.add("rk4", step=1e-2).run()
         row = study.rows[0]
         # In millimetres and milliradians of the slider alone, against all bodies by the scale.
-        self.assertLess(row.error, 1e3 * row.error_q * max(m.scale, 1) * 1.001)
+        self.assertLess(row.error, 1e3 * row.error_q * max(m.characteristic_length, 1) * 1.001)
         self.assertNotAlmostEqual(row.error, row.error_q)
 
     def test_a_solution_by_formulas_is_a_reference(self):

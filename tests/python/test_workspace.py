@@ -35,7 +35,7 @@ class Workspaces(unittest.TestCase):
         self.assertEqual(w.reaction(0, q, lambda_, "B").shape, (3,))
 
     def test_drawing_energy_and_projection(self):
-        q, v = self.w.drawn()
+        q, v = self.w.design()
         self.assertEqual(q[:3].tolist(), [0.0765, 0, 0])
         self.assertTrue(np.isnan(v).all())
         kinetic, potential = self.w.energy(0, self.q, self.v)

@@ -7,7 +7,7 @@
 
 /* What drives the crank: its angle is angle + rate t, or that of the law. */
 typedef struct drive {
-  double angle; /* [rad] at the drawn pose */
+  double angle; /* [rad] at the design configuration */
   double rate;  /* [rad/s] */
   baum_law_fn *law;
   void *user;

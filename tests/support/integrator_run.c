@@ -66,7 +66,7 @@ baum_status integrator_run_open(integrator_run *run, const integrator_setup *set
   check(baum_workspace_create(setup->mechanism, &run->workspace));
   int nv = setup->mechanism->nv;
   assert_true(nv <= RUN_SIZE_MAX);
-  check(baum_workspace_drawn(run->workspace, run->state_q, run->state_v));
+  check(baum_workspace_design(run->workspace, run->state_q, run->state_v));
   check(baum_workspace_assemble(run->workspace, 0.0, run->state_q, run->state_v, NULL, 0));
   run->state = (baum_i_state){.q = run->state_q, .v = run->state_v};
   check(baum_i_find_redundancy(run->workspace, 0.0, run->state_q));
@@ -308,7 +308,7 @@ baum_mechanism *make_throw(void)
 {
   baum_mechanism *mechanism = begin();
   (void)add_particle(mechanism, 0.0, 0.0, 1.0, 2.0);
-  check(baum_mechanism_set_scale(mechanism, 1.0));
+  check(baum_mechanism_set_characteristic_length(mechanism, 1.0));
   return freeze(mechanism);
 }
 
@@ -350,7 +350,7 @@ baum_mechanism *make_oscillator(void)
 {
   baum_mechanism *mechanism = begin();
   check(baum_mechanism_set_gravity(mechanism, 0.0, 0.0, 0.0));
-  check(baum_mechanism_set_scale(mechanism, 1.0));
+  check(baum_mechanism_set_characteristic_length(mechanism, 1.0));
   baum_body_id id = add_particle(mechanism, 1.0, 0.0, 0.0, 0.0);
   baum_user_force_def def = baum_user_force_def_default();
   def.bodies = &id;

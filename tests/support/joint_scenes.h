@@ -10,7 +10,7 @@
 typedef struct joint_scene {
   const char *name;
   void (*build)(baum_mechanism *mechanism); /* fails the test on failure */
-  int freedoms;
+  int degrees_of_freedom;
   bool conservative; /* energy is kept: nothing drives */
 } joint_scene;
 

@@ -34,7 +34,7 @@ baum_mechanism *one_coordinate(double x, double v, baum_force_fn *force, void *u
     check(baum_mechanism_add_input(mechanism, "u", 0.0, input));
   }
   check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
-  check(baum_mechanism_set_scale(mechanism, 1.0));
+  check(baum_mechanism_set_characteristic_length(mechanism, 1.0));
   check(baum_mechanism_freeze(mechanism));
   return mechanism;
 }

@@ -18,7 +18,7 @@ void test_point_open(test_point *p, baum_mechanism *mechanism)
   p->nc = mechanism->nc;
   assert_true(p->nv <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
   assert_int_equal(baum_i_point_create(mechanism, &p->point), BAUM_OK);
-  memcpy(p->q, mechanism->drawn_q, (size_t)p->nv * sizeof(double));
+  memcpy(p->q, mechanism->design_q, (size_t)p->nv * sizeof(double));
   test_point_update(p);
 }
 

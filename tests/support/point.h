@@ -19,7 +19,7 @@ typedef struct test_point {
   double v[TEST_SIZE_MAX];
 } test_point;
 
-/* Freeze a mechanism and take it over; the state is the drawn pose at rest. */
+/* Freeze a mechanism and take it over; the state is the design configuration at rest. */
 void test_point_open(test_point *p, baum_mechanism *mechanism);
 void test_point_close(test_point *p);
 

@@ -125,7 +125,7 @@ static void look_on_constraints(scene *s, const char *what)
 static void look_at_all(scene *s, const baum_mechanism *m, chance *c)
 {
   baum_mobility mobility = {.redundant_rows = 0};
-  (void)baum_workspace_drawn(s->w, s->q, NULL);
+  (void)baum_workspace_design(s->w, s->q, NULL);
   move_a_bit(s, c, 0.0);
   look_on_constraints(s, "drawn");
   move_a_bit(s, c, 0.2);

@@ -203,7 +203,7 @@ static void add_body(random_mechanism *r, const random_kind *kind)
 
 /* ---- joints ---- */
 
-/* Point of the drawn pose, near one of both, or in its centre. */
+/* Point of the design configuration, near one of both, or in its centre. */
 static void choose_point(random_mechanism *r, const random_body *a, double point[2])
 {
   chance *c = &r->chance;
@@ -397,7 +397,7 @@ static void add_rows(random_mechanism *r, const random_body *a, const random_bod
 }
 
 /* As it is drawn: points of sliders and slots coincide. */
-static double drawn_coordinate(const random_mechanism *r, int joint)
+static double design_coordinate(const random_mechanism *r, int joint)
 {
   baum_planar_revolute_def def;
   if (r->joint_kind[joint] != 'r') {
@@ -426,7 +426,7 @@ static void add_driver(random_mechanism *r, const random_kind *kind)
   random_rows *rows = &r->rows[r->rows_count++];
   rows->at[0] = chance_number(&r->chance, -0.1, 0.1);
   if (kind->drivers_begin) {
-    rows->at[0] = drawn_coordinate(r, k);
+    rows->at[0] = design_coordinate(r, k);
     rows->at[1] = kind->start;
   }
   def.joint = r->joints[k];

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms by chance: bodies of all kinds, a random graph of joints of all kinds between them and
- * to ground, loads. The drawn pose fulfils all constraints; rows may be redundant. The same seed
+ * to ground, loads. The design configuration fulfils all constraints; rows may be redundant. The same seed
  * gives the same mechanism on every machine.
  */
 #ifndef BAUM_TEST_RANDOM_MECHANISM_H

@@ -83,7 +83,7 @@ static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, dou
   check(baum_mechanism_add_planar_translational(b->m, &def, NULL));
 }
 
-/* Between points that lie in the drawn pose at these places beside the centres; bodies are drawn upright. */
+/* Between points that lie in the design configuration at these places beside the centres; bodies are drawn upright. */
 static void add_rod(builder *b, baum_body_id body_a, baum_body_id body_b, const double at_a[2],
                     const double at_b[2])
 {
@@ -444,12 +444,12 @@ void redundant_judge(uint64_t seed, redundant_tally *tally)
   s.v = s.q + s.nv;
   s.a = s.v + s.nv;
   s.lambda = s.a + s.nv;
-  check(baum_workspace_drawn(s.w, s.q, NULL));
+  check(baum_workspace_design(s.w, s.q, NULL));
   for (int i = 0; i < s.nv; i++) {
     s.v[i] = chance_number(&c, -1.0, 1.0);
   }
   if (baum_workspace_project(s.w, 0.0, s.q, s.v) < BAUM_OK) {
-    check(baum_workspace_drawn(s.w, s.q, NULL));
+    check(baum_workspace_design(s.w, s.q, NULL));
     memset(s.v, 0, (size_t)s.nv * sizeof *s.v);
   }
   for (int k = 0; k < REDUNDANT_STATES; k++) {

@@ -52,7 +52,7 @@ static void complete(saddle *system)
   system->mass = room(system->mass_count, sizeof(double));
   system->jacobian = room(system->jacobian_count, sizeof(double));
   system->shift = room(structure->nc, sizeof(double));
-  system->dropped = room(structure->nc, 1);
+  system->omitted = room(structure->nc, 1);
   system->f = room(structure->nv, sizeof(double));
   system->r = room(structure->nc, sizeof(double));
   system->a = room(structure->nv, sizeof(double));
@@ -92,7 +92,7 @@ saddle saddle_make_dense(int nv, int nc)
 
 void saddle_free(saddle *system)
 {
-  void *all[] = {system->mass,        system->jacobian,   system->shift,  system->dropped,
+  void *all[] = {system->mass,        system->jacobian,   system->shift,  system->omitted,
                  system->f,           system->r,          system->a,      system->lambda,
                  system->mass_blocks, system->row_blocks, system->columns};
   for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
@@ -271,9 +271,9 @@ void saddle_make_consistent(saddle *system, uint64_t seed)
   baum_i_jacobian_times(&system->structure, system->jacobian, system->a, system->r);
 }
 
-void saddle_use_dropped(saddle *system)
+void saddle_use_omitted(saddle *system)
 {
-  system->values.dropped = system->dropped;
+  system->values.omitted = system->omitted;
 }
 
 void saddle_use_shift(saddle *system)
@@ -328,8 +328,8 @@ static wide *write_wide(const saddle *system, int n)
     }
     wide_matrix[i * (n + 1) + n] = i < nv ? system->f[i] : system->r[i - nv];
   }
-  for (int i = nv; i < n && system->values.dropped; i++) {
-    for (int j = 0; j <= n && system->dropped[i - nv]; j++) {
+  for (int i = nv; i < n && system->values.omitted; i++) {
+    for (int j = 0; j <= n && system->omitted[i - nv]; j++) {
       wide_matrix[i * (n + 1) + j] = i == j;
     }
   }

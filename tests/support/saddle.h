@@ -13,7 +13,7 @@ typedef struct saddle {
   double *mass;
   double *jacobian;
   double *shift;
-  unsigned char *dropped;
+  unsigned char *omitted;
   double *f;
   double *r;
   double *a;          /* room for a solution */
@@ -47,7 +47,7 @@ void saddle_free(saddle *system);
 void saddle_make_consistent(saddle *system, uint64_t seed);
 
 /* Turn the dropped or the shift array on, all zero. */
-void saddle_use_dropped(saddle *system);
+void saddle_use_omitted(saddle *system);
 void saddle_use_shift(saddle *system);
 
 /* want (nv + nc) = (a, lambda) by elimination in quadruple precision (long double where there is none). */

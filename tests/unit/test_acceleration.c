@@ -70,7 +70,7 @@ static void check_against_lu(model *m, double gain)
   assert_int_equal(baum_workspace_create(m->mechanism, &w), BAUM_OK);
   assert_int_equal(baum_mechanism_sizes(m->mechanism, NULL, &nv, &nc), BAUM_OK);
   assert_true(nv + nc <= SIZE);
-  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
   for (int i = 0; i < nv; i++) {
     q[i] += 0.02 * scatter(i);
     v[i] = scatter(i + 50);

@@ -29,7 +29,7 @@ static scene open_scene(void)
   scene s;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.rough = true}, &s.m), BAUM_OK);
   assert_int_equal(baum_workspace_create(s.m.mechanism, &s.w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(s.w, s.q, s.v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(s.w, s.q, s.v), BAUM_OK);
   return s;
 }
 
@@ -145,7 +145,7 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
   double q[4];
   double v[4];
-  assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
   assert_int_equal(baum_workspace_assemble(w, 0.0, q, v, NULL, 0), BAUM_OK);
   ASSERT_NEAR(q[0], 0.3 * 0.75, 1e-12, 0.0);
   ASSERT_NEAR(q[2], 1.3 - 0.3 * 0.25, 1e-12, 0.0);

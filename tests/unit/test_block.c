@@ -87,7 +87,7 @@ static baum_status create(const equations *x, int *hub, baum_i_block **out)
   const baum_i_block_layout layout = {.structure = &x->s.structure,
                                       .pins = x->pins,
                                       .diagonal = x->diagonal,
-                                      .dropped = x->s.values.dropped,
+                                      .omitted = x->s.values.omitted,
                                       .still = x->still};
   return baum_i_block_create(&layout, hub, out);
 }
@@ -198,18 +198,18 @@ static void diagonal_masses_among_dense_ones_are_solved(void **state)
 }
 
 /* Every fourth row is left out, so that rows pair otherwise, and some nodes have no row at all. */
-static void dropped_rows_have_no_influence(void **state)
+static void omitted_rows_have_no_influence(void **state)
 {
   (void)state;
   for (uint64_t seed = 1; seed <= 20; seed++) {
     equations *x = make(seed, 8);
-    saddle_use_dropped(&x->s);
+    saddle_use_omitted(&x->s);
     for (int i = 0; i < x->s.structure.nc; i += 4) {
-      x->s.dropped[i] = 1;
+      x->s.omitted[i] = 1;
       x->s.r[i] = 1e30; /* nobody reads it */
     }
     assert_solved(x);
-    memset(x->s.dropped, 1, (size_t)x->s.structure.nc);
+    memset(x->s.omitted, 1, (size_t)x->s.structure.nc);
     assert_solved(x);
     unmake(x);
   }
@@ -383,7 +383,7 @@ static void compare(const baum_mechanism *m, double tolerance)
   for (int k = 0; k < 3; k++) {
     assert_int_equal(baum_workspace_create(m, &w[k]), BAUM_OK);
     assert_non_null(w[k]->path);
-    assert_int_equal(baum_workspace_drawn(w[k], q, v), BAUM_OK);
+    assert_int_equal(baum_workspace_design(w[k], q, v), BAUM_OK);
   }
   for (int i = 0; i < m->nv; i++) {
     v[i] = isnan(v[i]) ? 0.1 * i : v[i];
@@ -484,7 +484,7 @@ int main(void)
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(dense_masses_are_solved),
     cmocka_unit_test(diagonal_masses_among_dense_ones_are_solved),
-    cmocka_unit_test(dropped_rows_have_no_influence),
+    cmocka_unit_test(omitted_rows_have_no_influence),
     cmocka_unit_test(bodies_at_rest_are_ground),
     cmocka_unit_test(both_builds_agree),
     cmocka_unit_test(pivots_tell_how_close_to_singular_a_system_is),

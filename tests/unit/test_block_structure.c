@@ -139,7 +139,7 @@ static void hubs_are_refused_and_named(void **state)
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_null(b);
   assert_int_equal(hub, 3);
-  many.diagonal[1] = 0; /* other numbers of triples */
+  many.diagonal[1] = 0; /* other numbers of body_blocks */
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_int_equal(hub, 3);
   many.diagonal[3] = 0;

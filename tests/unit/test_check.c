@@ -88,7 +88,7 @@ static int half_jacobian(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* Right in the drawn pose only: where y = -0.8. */
+/* Right in the design configuration only: where y = -0.8. */
 static int frozen_jacobian(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -203,7 +203,7 @@ static int right_gamma(double t, const double *q, const double *v, double *out, 
   return 0;
 }
 
-/* It is zero in the drawn pose, at t = 0. */
+/* It is zero in the design configuration, at t = 0. */
 static void a_forgotten_gamma_is_found_at_another_time(void **state)
 {
   (void)state;
@@ -326,12 +326,12 @@ static void a_mass_that_is_not_constant_though_promised_is_found(void **state)
   (void)state;
   double wrong[1] = {0.0};
   assert_int_equal(user_check(make_body(wrong, true, NULL, NULL)), BAUM_ERR_ARGUMENT);
-  assert_non_null(
-    strstr(baum_message(), "body 1 \"arm\": mass()[0][0] is 3 in the drawn pose and 2.9"));
+  assert_non_null(strstr(baum_message(),
+                         "body 1 \"arm\": mass()[0][0] is 3 in the design configuration and 2.9"));
   assert_non_null(strstr(baum_message(), " near it, but constant_mass is true"));
 }
 
-/* A mass of q + user: below zero in the drawn pose, or beside it only. */
+/* A mass of q + user: below zero in the design configuration, or beside it only. */
 static int linear_mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
@@ -353,8 +353,8 @@ static void a_mass_below_zero_in_the_drawn_pose_is_refused(void **state)
     def.user = at_zero + i;
     assert_int_equal(baum_mechanism_add_coordinates(mechanism, &def, NULL), BAUM_OK);
     if (i == 0) {
-      user_check_wrong(mechanism,
-                       "body 1 \"arm\": mass()[0][0] is -2 in the drawn pose, must be >= 0");
+      user_check_wrong(
+        mechanism, "body 1 \"arm\": mass()[0][0] is -2 in the design configuration, must be >= 0");
     } else {
       user_check_right(mechanism);
     }

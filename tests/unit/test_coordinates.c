@@ -80,8 +80,8 @@ static int arm_potential(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static const double drawn_q[2] = {0.3, -0.5};
-static const double drawn_v[2] = {(double)NAN, 2.0};
+static const double design_q[2] = {0.3, -0.5};
+static const double design_v[2] = {(double)NAN, 2.0};
 static const double scales[2] = {1.0, 2.0};
 
 static baum_coordinates_def good(arm *a)
@@ -89,8 +89,8 @@ static baum_coordinates_def good(arm *a)
   baum_coordinates_def def = baum_coordinates_def_default();
   def.name = "arm";
   def.size = 2;
-  def.q = drawn_q;
-  def.v = drawn_v;
+  def.q = design_q;
+  def.v = design_v;
   def.scale = scales;
   def.mass = arm_mass;
   def.force = arm_force;
@@ -143,13 +143,13 @@ static void the_drawing_is_the_start(void **state)
   const baum_mechanism *m = p.mechanism;
   assert_int_equal(m->nv, 5);
   for (int i = 0; i < 2; i++) {
-    ASSERT_NEAR(m->drawn_q[3 + i], drawn_q[i], 0.0, 0.0);
+    ASSERT_NEAR(m->design_q[3 + i], design_q[i], 0.0, 0.0);
     ASSERT_NEAR(m->scale[3 + i], scales[i], 0.0, 0.0);
     assert_true(m->held[3 + i]);
     assert_false(m->held[i]);
   }
-  assert_true(isnan(m->drawn_v[0]) && isnan(m->drawn_v[3]));
-  ASSERT_NEAR(m->drawn_v[4], 2.0, 0.0, 0.0);
+  assert_true(isnan(m->design_v[0]) && isnan(m->design_v[3]));
+  ASSERT_NEAR(m->design_v[4], 2.0, 0.0, 0.0);
   test_point_close(&p);
 }
 
@@ -164,9 +164,9 @@ static void what_is_not_drawn_is_zero_free_and_of_scale_one(void **state)
   test_point p;
   open_arm(&p, &def);
   for (int i = 3; i < 5; i++) {
-    ASSERT_NEAR(p.mechanism->drawn_q[i], 0.0, 0.0, 0.0);
+    ASSERT_NEAR(p.mechanism->design_q[i], 0.0, 0.0, 0.0);
     ASSERT_NEAR(p.mechanism->scale[i], 1.0, 0.0, 0.0);
-    assert_true(isnan(p.mechanism->drawn_v[i]));
+    assert_true(isnan(p.mechanism->design_v[i]));
   }
   test_point_close(&p);
 }

@@ -235,7 +235,7 @@ static void a_projection_that_finds_no_pose_is_told(void **state)
   line.row_count = 1;
   line.phi = vanish;
   assert_int_equal(baum_mechanism_add_user_constraint(mechanism, &line, NULL), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 1.0), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   integrator_setup setup =
     integrator_setup_make(mechanism, baum_cvode_bdf(), BAUM_FORMULATION_PROJECTION);
@@ -342,7 +342,7 @@ static baum_mechanism *make_bursting(void)
   force.body_count = 1;
   force.force = burst;
   assert_int_equal(baum_mechanism_add_user_force(mechanism, &force, NULL), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 1.0), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   return mechanism;
 }

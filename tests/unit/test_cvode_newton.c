@@ -53,7 +53,7 @@ static void open_solver(solver *s, const baum_mechanism *m, baum_formulation for
   }
   double v[SIZE] = {0.0};
   double q[SIZE];
-  memcpy(q, m->drawn_q, (size_t)m->nq * sizeof *q);
+  memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
   const baum_i_state start = {.q = q, .v = v};
   assert_int_equal(baum_cvode_bdf()->create(&s->problem, &start, &s->run), BAUM_OK);
 }
@@ -145,7 +145,7 @@ static int check_states(const solver *s, double tolerance, chance *c)
       r[i] = s->unit[i] * chance_number(c, -1.0, 1.0);
     }
     for (int i = 0; i < s->n; i++) {
-      y[i] = s->workspace->mechanism->drawn_q[i] + 0.02 * y[i];
+      y[i] = s->workspace->mechanism->design_q[i] + 0.02 * y[i];
     }
     double defect = defect_of(s, 0.1 * k, y, gammas[k % 3], r);
     checked += isnan(defect) ? 0 : 1;

@@ -44,7 +44,7 @@ static void take_scales(baum_workspace *w, point *p)
   double displacement[SIZE_MAX_DAE];
   double energy = 0.0;
   assert_int_equal(baum_i_need_metric(w), BAUM_OK);
-  assert_int_equal(baum_i_position_stage(w, 0.0, m->drawn_q), BAUM_OK);
+  assert_int_equal(baum_i_position_stage(w, 0.0, m->design_q), BAUM_OK);
   baum_i_row_displacements(w, displacement);
   for (int i = 0; i < m->nv; i++) {
     p->scale[i] = p->scale[m->nv + i] = m->scale[i];
@@ -67,7 +67,7 @@ static point random_point(baum_workspace *w, baum_residual index, int seed)
     p.dy[i] = p.scale[i] * scatter(seed + 1000 + i);
   }
   for (int i = 0; i < m->nq; i++) {
-    p.y[i] = m->drawn_q[i] + 0.1 * m->scale[i] * scatter(seed + i);
+    p.y[i] = m->design_q[i] + 0.1 * m->scale[i] * scatter(seed + i);
   }
   return p;
 }
@@ -330,7 +330,7 @@ static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **sta
   double residual[SIZE_MAX_DAE];
   double jacobian[SIZE_MAX_DAE * SIZE_MAX_DAE];
   double mass[SIZE_MAX_DAE * SIZE_MAX_DAE];
-  assert_int_equal(baum_workspace_drawn(w, p.y, p.y + nv), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, p.y, p.y + nv), BAUM_OK);
   assert_int_equal(
     baum_workspace_acceleration(w, 0.0, p.y, p.y + nv, 0.0, 0.0, p.dy + nv, p.y + 2 * nv), BAUM_OK);
   memcpy(p.dy, p.y + nv, (size_t)nv * sizeof(double));

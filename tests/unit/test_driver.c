@@ -103,7 +103,7 @@ static baum_status add(baum_mechanism *mechanism, const void *def)
   return baum_mechanism_add_driver(mechanism, def, NULL);
 }
 
-/* A pin with a driver "motor" as joint 2, open at the drawn pose. */
+/* A pin with a driver "motor" as joint 2, open at the design configuration. */
 static void open_motor(test_point *p, baum_law_fn *law, void *user, bool slider)
 {
   planar_scene scene = planar_scene_make();

@@ -42,7 +42,7 @@ static scene open_scene(double mass, double length)
   assert_int_equal(baum_mechanism_add_planar_distance(s.mechanism, &rod, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(s.mechanism), BAUM_OK);
   assert_int_equal(baum_workspace_create(s.mechanism, &s.workspace), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(s.workspace, s.q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(s.workspace, s.q, NULL), BAUM_OK);
   return s;
 }
 

@@ -242,9 +242,9 @@ static void nothing_is_left_out_where_another_row_was_spared(void **state)
   baum_simulation *run = start(m, &o);
   int32_t first = 0;
   check(baum_mechanism_rows(m, foot, &first, NULL));
-  const unsigned char *dropped = run->workspace->redundancy.dropped + first;
+  const unsigned char *omitted = run->workspace->redundancy.omitted + first;
   assert_int_equal(run->workspace->redundancy.count, 1);
-  assert_int_equal(dropped[0] + dropped[1] + dropped[2], 1); /* otherwise this tests nothing */
+  assert_int_equal(omitted[0] + omitted[1] + omitted[2], 1); /* otherwise this tests nothing */
   assert_int_equal(left_out(run), 0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
@@ -267,16 +267,16 @@ static void rows_of_what_is_left_out_are_not_exchanged(void **state)
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
   const baum_workspace *w = run->workspace;
-  const unsigned char *now = w->redundancy.dropped;
-  unsigned char dropped[9];
+  const unsigned char *now = w->redundancy.omitted;
+  unsigned char omitted[9];
   unsigned char before[9];
   assert_int_equal(left_out(run), 1);
   assert_int_equal(w->redundancy.count, 1);
   memcpy(before, now, sizeof before);
-  memset(dropped, 0, sizeof dropped);
-  dropped[0] = 1;
+  memset(omitted, 0, sizeof omitted);
+  omitted[0] = 1;
   const baum_i_block_path *path = w->path;
-  assert_int_equal(baum_i_leave_out_rows(run->workspace, dropped), BAUM_ERR_UNSUPPORTED);
+  assert_int_equal(baum_i_omit_rows(run->workspace, omitted), BAUM_ERR_UNSUPPORTED);
   assert_memory_equal(now, before, sizeof before);
   assert_ptr_equal(w->path, path);
   assert_int_equal(left_out(run), 1);

@@ -72,7 +72,7 @@ static baum_i_islands find(baum_mechanism *m)
 }
 
 static void assert_island(const baum_i_islands *islands, int k, int bodies, int joints, int rows,
-                          int freedoms)
+                          int degrees_of_freedom)
 {
   const baum_i_island *island = &islands->island[k];
   assert_true(k < islands->count);
@@ -80,7 +80,7 @@ static void assert_island(const baum_i_islands *islands, int k, int bodies, int 
   assert_int_equal(island->velocities, 3 * bodies);
   assert_int_equal(island->joints, joints);
   assert_int_equal(island->rows, rows);
-  assert_int_equal(island->freedoms, freedoms);
+  assert_int_equal(island->degrees_of_freedom, degrees_of_freedom);
 }
 
 /* ---- islands ---- */
@@ -182,7 +182,7 @@ static void a_frame_welded_twice_is_no_different(void **state)
   baum_i_islands_clear(&got);
 }
 
-/* The pins come first and are kept; one row of the weld is dropped for what they hold twice. */
+/* The pins come first and are kept; one row of the weld is omitted for what they hold twice. */
 static void where_a_weld_has_lost_a_row_freedoms_are_still_right(void **state)
 {
   (void)state;

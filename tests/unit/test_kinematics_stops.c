@@ -165,7 +165,7 @@ static void rows_left_out_that_do_not_follow_any_longer_stop_the_run(void **stat
   baum_planar_particle_def particle = baum_planar_particle_def_default();
   baum_user_constraint_def rows = baum_user_constraint_def_default();
   assert_int_equal(baum_mechanism_create(&mechanism), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 1.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 1.0), BAUM_OK);
   assert_int_equal(baum_mechanism_add_planar_particle(mechanism, &particle, &point), BAUM_OK);
   rows.name = "rows";
   rows.bodies = &point;
@@ -266,7 +266,8 @@ static void freedom_is_refused_with_its_number_and_advice(void **state)
                 "kinematics: 1 freedom is left|add a driver for each|baum_rk4");
   model_destroy(&scene);
   assert_int_equal(model_chain_3(&scene), BAUM_OK);
-  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED, "kinematics: 3 freedoms are left");
+  check_refused(scene.mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                "kinematics: 3 degrees of freedom are left");
   model_destroy(&scene);
 }
 
@@ -372,7 +373,7 @@ static void a_singular_state_cannot_be_set(void **state)
   baum_mechanism *there = parallelogram_make(&flat);
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(there, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, v), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, v), BAUM_OK);
   memset(v, 0, sizeof v);
   baum_workspace_destroy(w);
   baum_simulation_options o = kinematic_options();

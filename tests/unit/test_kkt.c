@@ -132,27 +132,27 @@ static void the_cost_of_a_full_matrix_is_that_of_gauss(void **state)
   saddle_free(&system);
 }
 
-static void dropped_rows_have_no_multiplier_and_no_influence(void **state)
+static void omitted_rows_have_no_multiplier_and_no_influence(void **state)
 {
   (void)state;
   for (int k = 0; k < CHOICES; k++) {
     saddle system = saddle_make_random(3, 10);
-    saddle_use_dropped(&system);
+    saddle_use_omitted(&system);
     baum_i_kkt *kkt = make_solver(&system, choices[k]);
     for (int i = 0; i < system.structure.nc; i += 4) {
-      system.dropped[i] = 1;
+      system.omitted[i] = 1;
       system.r[i] = 1e30; /* nobody reads it */
     }
     solve_and_compare(kkt, &system, 1e-10);
     for (int i = 0; i < system.structure.nc; i += 4) {
       assert_true(system.lambda[i] == 0.0);
     }
-    memset(system.dropped, 0, (size_t)system.structure.nc);
+    memset(system.omitted, 0, (size_t)system.structure.nc);
     for (int i = 0; i < system.structure.nc; i += 4) {
       system.r[i] = 1.0;
     }
     solve_and_compare(kkt, &system, 1e-10);
-    memset(system.dropped, 1, (size_t)system.structure.nc);
+    memset(system.omitted, 1, (size_t)system.structure.nc);
     solve_and_compare(kkt, &system, 1e-10);
     baum_i_kkt_destroy(kkt);
     saddle_free(&system);
@@ -327,7 +327,7 @@ int main(void)
     cmocka_unit_test(random_systems_are_solved_to_rounding_by_every_backend),
     cmocka_unit_test(new_values_on_the_same_structure_keep_the_pivots),
     cmocka_unit_test(the_cost_of_a_full_matrix_is_that_of_gauss),
-    cmocka_unit_test(dropped_rows_have_no_multiplier_and_no_influence),
+    cmocka_unit_test(omitted_rows_have_no_multiplier_and_no_influence),
     cmocka_unit_test(a_shift_makes_dependent_rows_solvable),
     cmocka_unit_test(one_velocity_without_constraints_is_a_division),
     cmocka_unit_test(as_many_rows_as_velocities_leave_no_freedom),

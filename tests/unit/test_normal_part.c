@@ -62,9 +62,9 @@ static void check_rows(baum_workspace *w, vectors *d)
   memset(d->out, 0, sizeof d->out);
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
-    bool dropped = w->redundancy.count > 0 && w->redundancy.dropped[i];
+    bool omitted = w->redundancy.count > 0 && w->redundancy.omitted[i];
     /* Rounding of a solution that is not refined, for poses whose condition is below 1e4. */
-    ASSERT_NEAR(dropped ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
+    ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
 }
 
@@ -102,7 +102,7 @@ static bool check_mechanism(baum_workspace *w, chance *c)
   draw(c, m->nv, d.v);
   draw(c, m->nv, d.x);
   draw(c, m->nv, d.other);
-  if (baum_i_acceleration(w, 0.0, m->drawn_q, d.v, 0.0, 0.0) != BAUM_OK || w->near_singular > 0) {
+  if (baum_i_acceleration(w, 0.0, m->design_q, d.v, 0.0, 0.0) != BAUM_OK || w->near_singular > 0) {
     return false;
   }
   assert_int_equal(baum_i_normal_part(w, d.x, d.normal), BAUM_OK);
@@ -123,7 +123,7 @@ static int check_by(baum_i_kkt_choice choice, bool blocks, const random_kind *ki
     random_mechanism_make(&random, seed, kind);
     baum_workspace *w = NULL;
     assert_int_equal(baum_i_workspace_create(random.mechanism, choice, &w), BAUM_OK);
-    assert_int_equal(baum_i_find_redundancy(w, 0.0, random.mechanism->drawn_q), BAUM_OK);
+    assert_int_equal(baum_i_find_redundancy(w, 0.0, random.mechanism->design_q), BAUM_OK);
     if (blocks) {
       assert_int_equal(baum_i_use_blocks(w), BAUM_OK);
     }

@@ -154,7 +154,7 @@ static void a_particle_is_its_own_point(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-/* ---- drawn pose ---- */
+/* ---- design configuration ---- */
 
 static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
 {
@@ -193,7 +193,7 @@ static void a_particle_is_at_its_point_up_to_rounding(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void drawn_frames_are_at_rest(void **state)
+static void design_frames_are_at_rest(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -203,16 +203,16 @@ static void drawn_frames_are_at_rest(void **state)
   def.velocity[0] = 5.0;
   baum_body_id id;
   assert_int_equal(baum_mechanism_add_planar_body(scene.mechanism, &def, &id), BAUM_OK);
-  baum_i_frame frame = baum_i_drawn_frame(scene.mechanism, id.index1);
+  baum_i_frame frame = baum_i_design_frame(scene.mechanism, id.index1);
   ASSERT_NEAR(frame.x, 2.0, 0.0, 0.0);
   ASSERT_NEAR(frame.angle, 8.0, 0.0, 0.0);
   ASSERT_NEAR(frame.c, cos(8.0), 0.0, 0.0);
   ASSERT_NEAR(frame.s, sin(8.0), 0.0, 0.0);
   ASSERT_NEAR(frame.vx, 0.0, 0.0, 0.0);
-  frame = baum_i_drawn_frame(scene.mechanism, scene.ball.index1);
+  frame = baum_i_design_frame(scene.mechanism, scene.ball.index1);
   ASSERT_NEAR(frame.y, 0.8, 0.0, 0.0);
   ASSERT_NEAR(frame.c, 1.0, 0.0, 0.0);
-  frame = baum_i_drawn_frame(scene.mechanism, 0);
+  frame = baum_i_design_frame(scene.mechanism, 0);
   ASSERT_NEAR(frame.x, 0.0, 0.0, 0.0);
   ASSERT_NEAR(frame.c, 1.0, 0.0, 0.0);
   baum_mechanism_destroy(scene.mechanism);
@@ -308,7 +308,7 @@ int main(void)
     cmocka_unit_test(a_particle_is_its_own_point),
     cmocka_unit_test(a_point_in_the_drawing_is_turned_into_body_axes),
     cmocka_unit_test(a_particle_is_at_its_point_up_to_rounding),
-    cmocka_unit_test(drawn_frames_are_at_rest),
+    cmocka_unit_test(design_frames_are_at_rest),
     cmocka_unit_test(a_driver_leaves_the_size_of_the_drawing_alone),
     cmocka_unit_test(packing_leaves_out_what_a_particle_does_not_have),
     cmocka_unit_test(scattering_adds_what_gathering_takes),

@@ -92,21 +92,21 @@ static void the_drawing_is_the_start(void **state)
   def.angular_velocity = -2.0;
   def.held = true;
   assert_int_equal(add(mechanism, &def), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 8.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 8.0), BAUM_OK);
   test_point p;
   test_point_open(&p, mechanism);
   const double drawn[3] = {3.0, -1.0, 0.7};
   const double scale[3] = {8.0, 8.0, 1.0};
   for (int i = 0; i < 3; i++) {
-    ASSERT_NEAR(mechanism->drawn_q[3 + i], drawn[i], 0.0, 0.0);
+    ASSERT_NEAR(mechanism->design_q[3 + i], drawn[i], 0.0, 0.0);
     ASSERT_NEAR(mechanism->scale[3 + i], scale[i], 0.0, 0.0);
-    assert_true(isnan(mechanism->drawn_v[i]));
+    assert_true(isnan(mechanism->design_v[i]));
     assert_false(mechanism->held[i]);
     assert_true(mechanism->held[3 + i]);
   }
-  assert_true(isnan(mechanism->drawn_v[3]));
-  ASSERT_NEAR(mechanism->drawn_v[4], 4.0, 0.0, 0.0);
-  ASSERT_NEAR(mechanism->drawn_v[5], -2.0, 0.0, 0.0);
+  assert_true(isnan(mechanism->design_v[3]));
+  ASSERT_NEAR(mechanism->design_v[4], 4.0, 0.0, 0.0);
+  ASSERT_NEAR(mechanism->design_v[5], -2.0, 0.0, 0.0);
   assert_true(mechanism->constant_mass);
   test_point_close(&p);
 }

@@ -85,13 +85,13 @@ static void the_drawing_is_the_start(void **state)
   def.velocity[0] = 4.0;
   def.held = true;
   assert_int_equal(add(mechanism, &def), BAUM_OK);
-  assert_int_equal(baum_mechanism_set_scale(mechanism, 8.0), BAUM_OK);
+  assert_int_equal(baum_mechanism_set_characteristic_length(mechanism, 8.0), BAUM_OK);
   test_point p;
   test_point_open(&p, mechanism);
-  ASSERT_NEAR(mechanism->drawn_q[0], 3.0, 0.0, 0.0);
-  ASSERT_NEAR(mechanism->drawn_q[1], -1.0, 0.0, 0.0);
-  ASSERT_NEAR(mechanism->drawn_v[0], 4.0, 0.0, 0.0);
-  assert_true(isnan(mechanism->drawn_v[1]));
+  ASSERT_NEAR(mechanism->design_q[0], 3.0, 0.0, 0.0);
+  ASSERT_NEAR(mechanism->design_q[1], -1.0, 0.0, 0.0);
+  ASSERT_NEAR(mechanism->design_v[0], 4.0, 0.0, 0.0);
+  assert_true(isnan(mechanism->design_v[1]));
   assert_true(mechanism->held[0] && mechanism->held[1]);
   ASSERT_NEAR(mechanism->scale[0], 8.0, 0.0, 0.0);
   ASSERT_NEAR(mechanism->scale[1], 8.0, 0.0, 0.0);

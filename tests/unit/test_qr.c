@@ -38,10 +38,10 @@ static saddle make_dependent(void)
 /* The accelerations without the dependent rows. */
 static void solve_independent(saddle *system, double *want)
 {
-  saddle_use_dropped(system);
-  system->dropped[3] = system->dropped[4] = 1;
+  saddle_use_omitted(system);
+  system->omitted[3] = system->omitted[4] = 1;
   saddle_solve(system, want);
-  system->values.dropped = NULL;
+  system->values.omitted = NULL;
 }
 
 static baum_i_kkt *make_solver(const saddle *system, baum_i_kkt_choice choice)

@@ -77,13 +77,13 @@ static baum_mechanism *parallelogram(int cranks, double angle)
   return m;
 }
 
-/* Accelerations and multipliers at the drawn pose with velocities v (nv). */
+/* Accelerations and multipliers at the design configuration with velocities v (nv). */
 static void solve(const baum_mechanism *m, const double *v, double *a, double *lambda)
 {
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-  assert_int_equal(baum_i_find_redundancy(w, 0.0, m->drawn_q), BAUM_OK);
-  assert_int_equal(baum_workspace_acceleration(w, 0.0, m->drawn_q, v, 0.0, 0.0, a, lambda),
+  assert_int_equal(baum_i_find_redundancy(w, 0.0, m->design_q), BAUM_OK);
+  assert_int_equal(baum_workspace_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0, a, lambda),
                    BAUM_OK);
   baum_workspace_destroy(w);
 }
@@ -111,7 +111,7 @@ static void a_duplicated_joint_changes_no_acceleration_and_is_named(void **state
   }
   baum_mobility mobility;
   assert_int_equal(baum_mechanism_mobility(twice, &mobility, sizeof mobility), BAUM_OK);
-  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 2);
   assert_int_equal(mobility.conflicting_rows, 0);
   assert_non_null(strstr(mobility.text, "\"pin\", \"pin again\""));
@@ -142,7 +142,7 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   ASSERT_NEAR(a[2], 0.0, 0.0, 1e-12);
   baum_mobility mobility;
   assert_int_equal(baum_mechanism_mobility(three, &mobility, sizeof mobility), BAUM_OK);
-  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 1);
   assert_false(mobility.near_singular);
   assert_non_null(strstr(mobility.text, "1 redundant row"));
@@ -212,9 +212,9 @@ static void multipliers_of_least_norm_still_balance_the_forces(void **state)
   double mass[144];
   double jacobian[144];
   double force[12];
-  assert_int_equal(baum_workspace_mass(w, 0.0, m->drawn_q, mass), BAUM_OK);
-  assert_int_equal(baum_workspace_jacobian(w, 0.0, m->drawn_q, jacobian), BAUM_OK);
-  assert_int_equal(baum_workspace_force(w, 0.0, m->drawn_q, v, force), BAUM_OK);
+  assert_int_equal(baum_workspace_mass(w, 0.0, m->design_q, mass), BAUM_OK);
+  assert_int_equal(baum_workspace_jacobian(w, 0.0, m->design_q, jacobian), BAUM_OK);
+  assert_int_equal(baum_workspace_force(w, 0.0, m->design_q, v, force), BAUM_OK);
   for (int i = 0; i < 12; i++) {
     double sum = -force[i];
     for (int j = 0; j < 12; j++) {
@@ -234,7 +234,7 @@ static void multipliers_that_do_not_balance_the_forces_are_refused(void **state)
   const double v[12] = {0};
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-  assert_int_equal(baum_i_reported_acceleration(w, 0.0, m->drawn_q, v), BAUM_OK);
+  assert_int_equal(baum_i_reported_acceleration(w, 0.0, m->design_q, v), BAUM_OK);
   assert_int_equal(baum_i_make_multipliers_least(w), BAUM_OK);
   w->lambda[0] += 1e-5;
   assert_int_equal(baum_i_make_multipliers_least(w), BAUM_ERR_SINGULAR);
@@ -249,7 +249,7 @@ static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
   baum_mechanism *m = parallelogram(2, 0.0);
   baum_mobility mobility;
   assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
-  assert_int_equal(mobility.freedoms, 1);
+  assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 0);
   assert_true(mobility.near_singular);
   assert_non_null(strstr(mobility.text, "start pose is singular"));
@@ -274,7 +274,7 @@ static void the_rank_does_not_depend_on_the_unit_of_length(void **state)
     assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
     baum_mobility mobility;
     assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
-    assert_int_equal(mobility.freedoms, 1);
+    assert_int_equal(mobility.degrees_of_freedom, 1);
     assert_int_equal(mobility.redundant_rows, 2);
     baum_mechanism_destroy(m);
   }
@@ -291,7 +291,7 @@ static void a_body_without_a_joint_is_named(void **state)
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);
   baum_mobility mobility;
   assert_int_equal(baum_mechanism_mobility(m, &mobility, sizeof mobility), BAUM_OK);
-  assert_int_equal(mobility.freedoms, 4);
+  assert_int_equal(mobility.degrees_of_freedom, 4);
   assert_int_equal(mobility.free_bodies, 1);
   assert_non_null(strstr(mobility.text, "\"stray\""));
   baum_mechanism_destroy(m);
@@ -431,7 +431,7 @@ static void a_workspace_projects_a_redundant_mechanism(void **state)
   double v[12] = {0.0};
   double phi[12];
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
   for (int i = 0; i < 12; i++) {
     q[i] += 1e-4 * sin(3.0 * i);
     v[i] = cos(2.0 * i);

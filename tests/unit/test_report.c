@@ -113,7 +113,7 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.forces, 0);
   assert_int_equal(r.velocities, 9);
   assert_int_equal(r.rows, 11);
-  assert_int_equal(r.freedoms, 0);
+  assert_int_equal(r.degrees_of_freedom, 0);
   assert_int_equal(r.redundant_rows, 2);
   assert_int_equal(r.constant_rows, 10); /* all but the motor's */
   assert_int_equal(r.islands, 1);
@@ -128,8 +128,9 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.most_couplings, 2);
   assert_int_equal(r.most_joints, 3);
   assert_int_equal(r.most_joined.index1, 1); /* the crank, before the slider */
-  assert_says(&r,
-              "mechanism     bodies 3, joints 6, forces 0; velocities 9, rows 11, freedoms 0\n");
+  assert_says(
+    &r,
+    "mechanism     bodies 3, joints 6, forces 0; velocities 9, rows 11, degrees of freedom 0\n");
   assert_says(&r, "islands       1, of 3 bodies, 6 joints, 11 rows\n");
   assert_says(&r, "solver        blocks, 5 nodes, 5 couplings; klu and qr where pivots are bad\n");
   assert_says(&r,
@@ -181,7 +182,7 @@ static void fill_is_what_bodies_do_not_make(void **state)
   assert_int_equal(r.fill, RING - 3);
   assert_int_equal(r.most_couplings, 2);
   assert_int_equal(r.most_joints, 2);
-  assert_int_equal(r.freedoms, 3 * RING - 2 * RING);
+  assert_int_equal(r.degrees_of_freedom, 3 * RING - 2 * RING);
 }
 
 static void islands_are_counted(void **state)
@@ -229,7 +230,7 @@ static void no_joints_cost_no_solution(void **state)
   (void)add_body(m, NULL, 0.0, 0.0);
   baum_report r = report_once(m);
   assert_int_equal(r.nodes, 0);
-  assert_int_equal(r.freedoms, 3);
+  assert_int_equal(r.degrees_of_freedom, 3);
   assert_int_equal(r.most_joints, 0);
   assert_int_equal(r.most_joined.index1, 0);
   ASSERT_NEAR(r.flops, 65.0, 0.0, 0.0);
@@ -333,7 +334,7 @@ static void what_cannot_be_assembled_has_a_cost_nevertheless(void **state)
   rod.length = 2.0;
   must(baum_mechanism_add_planar_distance(m, &rod, NULL));
   baum_report r = report_once(m);
-  assert_int_equal(r.freedoms, -1);
+  assert_int_equal(r.degrees_of_freedom, -1);
   assert_int_equal(r.nodes, 2);
   assert_true(r.flops > 0.0);
   assert_says(&r, "rows 2\n              cannot be assembled\n");

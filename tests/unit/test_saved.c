@@ -51,7 +51,7 @@ static void the_list_is_that_of_the_version(void **state)
   assert_int_equal(baum_simulation_add_event(run, &event, NULL), BAUM_OK);
   baum_i_saved_list(run, &list);
   assert_non_null(run->account);
-  assert_non_null(run->passages);
+  assert_non_null(run->crossings);
   for (int k = 1; k < VERSION_COUNT; k++) {
     assert_true(VERSIONS[k].version > VERSIONS[k - 1].version);
   }

@@ -328,7 +328,7 @@ static void the_law_is_called_once_per_evaluation(void **state)
   const double v[9] = {0.0};
   double a[9];
   assert_int_equal(baum_workspace_create(s.mechanism, &w), BAUM_OK);
-  assert_int_equal(baum_workspace_drawn(w, q, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, q, NULL), BAUM_OK);
   f.law_calls = 0;
   assert_int_equal(baum_workspace_acceleration(w, 0.0, q, v, 1.0, 1.0, a, NULL), BAUM_OK);
   assert_int_equal(f.law_calls, 1);

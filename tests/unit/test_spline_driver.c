@@ -43,7 +43,7 @@ static baum_spline_driver_def along(const double *times, const double *values, i
 
 #if BAUM_HAVE_GSL
 
-/* A pin with a driver as joint 2, open at the drawn pose. */
+/* A pin with a driver as joint 2, open at the design configuration. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
   planar_scene scene = planar_scene_make();
@@ -52,7 +52,7 @@ static void open_cam(test_point *p, baum_spline_driver_def def)
   test_point_open(p, scene.mechanism);
 }
 
-/* s, s', s'' as the third row shows them at the drawn pose at rest, where the coordinate is -1.5
+/* s, s', s'' as the third row shows them at the design configuration at rest, where the coordinate is -1.5
  * and its gamma 0. */
 static void motion_at(test_point *p, double t, double s[3])
 {

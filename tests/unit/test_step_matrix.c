@@ -22,7 +22,7 @@ typedef struct point {
 static void choose(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);
-  assert_int_equal(baum_workspace_drawn(w, p->y, NULL), BAUM_OK);
+  assert_int_equal(baum_workspace_design(w, p->y, NULL), BAUM_OK);
   for (int i = 0; i < SIZE; i++) {
     double x = sin(7.3 * i + 1.0);
     p->y[i] = i < EVERY_NV ? p->y[i] + 0.01 * x : x;

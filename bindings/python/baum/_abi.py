@@ -149,7 +149,7 @@ class baum_user_force_def(Structure):
 class baum_mobility(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
-        ("freedoms", c_int32),
+        ("degrees_of_freedom", c_int32),
         ("redundant_rows", c_int32),
         ("conflicting_rows", c_int32),
         ("free_bodies", c_int32),
@@ -168,7 +168,7 @@ class baum_report(Structure):
         ("forces", c_int32),
         ("velocities", c_int32),
         ("rows", c_int32),
-        ("freedoms", c_int32),
+        ("degrees_of_freedom", c_int32),
         ("redundant_rows", c_int32),
         ("constant_rows", c_int32),
         ("islands", c_int32),
@@ -921,8 +921,8 @@ PROTOTYPES = {
     "baum_mechanism_destroy": (None, [c_void_p]),
     "baum_mechanism_set_gravity": (c_int, [c_void_p, c_double, c_double, c_double]),
     "baum_mechanism_get_gravity": (c_int, [c_void_p, c_void_p]),
-    "baum_mechanism_set_scale": (c_int, [c_void_p, c_double]),
-    "baum_mechanism_get_scale": (c_int, [c_void_p, c_void_p]),
+    "baum_mechanism_set_characteristic_length": (c_int, [c_void_p, c_double]),
+    "baum_mechanism_get_characteristic_length": (c_int, [c_void_p, c_void_p]),
     "baum_mechanism_freeze": (c_int, [c_void_p]),
     "baum_mechanism_is_frozen": (c_bool, [c_void_p]),
     "baum_mechanism_sizes": (c_int, [
@@ -1022,7 +1022,7 @@ PROTOTYPES = {
     ]),
     "baum_workspace_create": (c_int, [c_void_p, POINTER(c_void_p)]),
     "baum_workspace_destroy": (None, [c_void_p]),
-    "baum_workspace_drawn": (c_int, [c_void_p, c_void_p, c_void_p]),
+    "baum_workspace_design": (c_int, [c_void_p, c_void_p, c_void_p]),
     "baum_workspace_set_input": (c_int, [c_void_p, baum_input_id, c_double]),
     "baum_workspace_input": (c_double, [c_void_p, baum_input_id]),
     "baum_workspace_phi": (c_int, [c_void_p, c_double, c_void_p, c_void_p]),

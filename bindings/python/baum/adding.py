@@ -31,7 +31,7 @@ class Adding:
     ):
         """Add a rigid body in the plane: mass [kg], inertia [kg m^2] about the centre of mass,
         drawn position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
-        held: assembly keeps the drawn pose."""
+        held: assembly keeps the design configuration."""
         return self._add(
             "planar_body",
             name,

@@ -59,24 +59,24 @@ class Mechanism(Adding):
     """Bodies, joints, forces and inputs: added, then frozen, then constant and shared between
     threads.
 
-    gravity: (x, y) or (x, y, z) [m/s^2], default (0, -9.81); scale: length [m] that tolerances
-    refer to, default the size of the drawing. Any consistent set of units will do; angles are in
-    radians.
+    gravity: (x, y) or (x, y, z) [m/s^2], default (0, -9.81); characteristic_length: length [m]
+    that tolerances refer to, default the size of the design configuration. Any consistent set of
+    units will do; angles are in radians.
 
-    Points: a joint is placed by `point` (ground axes, drawn pose) or by `point_a` and `point_b`
-    (body axes). Bodies and joints may be given as handles or by name. Fields left out keep the
+    Points: a joint is placed by `point` (ground axes, design configuration) or by `point_a`
+    and `point_b` (body axes). Bodies and joints may be given as handles or by name. Fields left out keep the
     library's defaults. Functions are called with (t, q) or (t, q, v) of the named bodies and return
     their value; see callbacks.py.
     """
 
-    def __init__(self, gravity=None, scale=None):
+    def __init__(self, gravity=None, characteristic_length=None):
         out = ctypes.c_void_p()
         _calls.make(lib.baum_mechanism_create, ctypes.byref(out))
         self._adopt(out.value)
         if gravity is not None:
             self.gravity = gravity
-        if scale is not None:
-            self.scale = scale
+        if characteristic_length is not None:
+            self.characteristic_length = characteristic_length
 
     def _adopt(self, address, like=None):
         """Become the owner of a mechanism of the library, with the elements of another one."""
@@ -232,15 +232,17 @@ class Mechanism(Adding):
         _calls.make(lib.baum_mechanism_set_gravity, self.handle, *(given + [0.0])[:3])
 
     @property
-    def scale(self):
-        """Length scale [m]; NaN when it was not set and the mechanism is not frozen."""
+    def characteristic_length(self):
+        """Characteristic length [m]; NaN when it was not set and the mechanism is not frozen."""
         value = ctypes.c_double()
-        _calls.make(lib.baum_mechanism_get_scale, self.handle, ctypes.byref(value))
+        _calls.make(lib.baum_mechanism_get_characteristic_length, self.handle, ctypes.byref(value))
         return value.value
 
-    @scale.setter
-    def scale(self, value):
-        _calls.make(lib.baum_mechanism_set_scale, self.handle, number(value, "scale"))
+    @characteristic_length.setter
+    def characteristic_length(self, value):
+        _calls.make(
+            lib.baum_mechanism_set_characteristic_length, self.handle, number(value, "characteristic_length")
+        )
 
     def add_break_times(self, times):
         """Declare times [s] at which functions of time jump: no step passes one. Before freezing."""

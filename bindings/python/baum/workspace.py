@@ -62,10 +62,10 @@ class Workspace:
             for input in self.mechanism.inputs
         }
 
-    def drawn(self):
-        """Drawn pose (nq) and given velocities (nv), NaN where free."""
+    def design(self):
+        """Design configuration (nq) and given velocities (nv), NaN where free."""
         q, v = np.empty(self._sizes.nq), np.empty(self._sizes.nv)
-        self._call(lib.baum_workspace_drawn, address(q), address(v))
+        self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
     def phi(self, t, q):
@@ -142,9 +142,9 @@ class Workspace:
     def assemble(self, t=0.0, q=None, v=None, held=()):
         """The nearest q with Phi = 0, and v: finite entries are held, NaN ones follow. Left out,
         both are those of the drawing. held: bodies whose positions stay."""
-        drawn_q, drawn_v = self.drawn()
-        q = drawn_q if q is None else self._q(q)
-        v = drawn_v if v is None else self._v(v)
+        design_q, design_v = self.design()
+        q = design_q if q is None else self._q(q)
+        v = design_v if v is None else self._v(v)
         bodies = [self.mechanism.find("body", body).id for body in held]
         ids = (_abi.baum_body_id * len(bodies))(*bodies)
         self._call(

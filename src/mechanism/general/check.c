@@ -262,10 +262,10 @@ static void set_pose(place *p, int pose)
   static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};
   const baum_mechanism *mechanism = p->point.mechanism;
   for (int i = 0; i < mechanism->nv; i++) {
-    double drawn_v = mechanism->drawn_v[i];
+    double design_v = mechanism->design_v[i];
     int k = 3 * i + pose;
-    p->q[i] = mechanism->drawn_q[i];
-    p->v[i] = fabs(drawn_v) > REST * mechanism->scale[i] ? drawn_v : 0.0; /* NaN: free */
+    p->q[i] = mechanism->design_q[i];
+    p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0; /* NaN: free */
     if (pose > 0) {
       p->q[i] += 0.3 * mechanism->scale[i] * spread(k);
       p->v[i] = mechanism->scale[i] * spread(k + 7 * pose + 1);
@@ -314,7 +314,7 @@ static baum_status check_poses(check_fn *check, const void *element, place *p)
   if (any) {
     return BAUM_OK;
   }
-  set_pose(p, 0); /* for the sentence of the drawn pose */
+  set_pose(p, 0); /* for the sentence of the design configuration */
   return check(element, &p->point);
 }
 

@@ -27,12 +27,12 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
   return is_angle ? baum_i_planar_check_angles(mechanism, joint->element.def, label) : BAUM_OK;
 }
 
-double baum_i_drawn_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)
+double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)
 {
   /* The two bodies alone, renumbered: a coordinate sees no other. */
   int pair[2] = {0, 1};
-  baum_i_frame frames[2] = {baum_i_drawn_frame(mechanism, joint->span.bodies[0]),
-                            baum_i_drawn_frame(mechanism, joint->span.bodies[1])};
+  baum_i_frame frames[2] = {baum_i_design_frame(mechanism, joint->span.bodies[0]),
+                            baum_i_design_frame(mechanism, joint->span.bodies[1])};
   baum_i_joint alone = *joint;
   alone.span.bodies = pair;
   baum_i_point point = {

@@ -10,7 +10,7 @@
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     const char *label, const char *field, const char *purpose);
 
-/* Its value in the drawn pose; for `lower` functions of joints that were added after it. */
-double baum_i_drawn_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint);
+/* Its value in the design configuration; for `lower` functions of joints that were added after it. */
+double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint);
 
 #endif

@@ -107,7 +107,7 @@ static bool constant_mass(const void *given)
   return def->constant_mass;
 }
 
-static void drawn(const void *given, double *q, double *v, bool *held)
+static void design(const void *given, double *q, double *v, bool *held)
 {
   const baum_coordinates_def *def = given;
   for (int i = 0; i < def->size; i++) {
@@ -351,24 +351,24 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
   return BAUM_OK;
 }
 
-/* In the drawn pose alone: beside it, coordinates may be where M is none. */
+/* In the design configuration alone: beside it, coordinates may be where M is none. */
 static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, const double *block)
 {
   int n = body->nv;
-  const double *drawn_q = at->point->mechanism->drawn_q + body->q;
-  bool drawn_pose = memcmp(at->q, drawn_q, (size_t)n * sizeof *drawn_q) == 0;
+  const double *design_q = at->point->mechanism->design_q + body->q;
+  bool design_pose = memcmp(at->q, design_q, (size_t)n * sizeof *design_q) == 0;
   char text[BAUM_I_ENTRY_SIZE];
   baum_i_user_function f = function(body, "mass", n, n);
-  for (int i = 0; i < n && drawn_pose; i++) {
+  for (int i = 0; i < n && design_pose; i++) {
     if (block[i * (n + 1)] < 0.0) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g in the drawn pose, must be >= 0",
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %.9g in the design configuration, must be >= 0",
                          baum_i_user_entry(&f, i * (n + 1), text), block[i * (n + 1)]);
     }
   }
   return BAUM_OK;
 }
 
-/* constant_mass is the claim that a derivative is zero: compare with the drawn pose at t = 0. */
+/* constant_mass is the claim that a derivative is zero: compare with the design configuration at t = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {
@@ -376,17 +376,17 @@ static baum_status check_constant(const baum_i_body *body, const baum_i_local *a
   char text[BAUM_I_ENTRY_SIZE];
   baum_i_local here = *at;
   here.t = 0.0;
-  here.q = at->point->mechanism->drawn_q + body->q;
+  here.q = at->point->mechanism->design_q + body->q;
   double *there = baum_i_take(&here, n * n);
   baum_status status = mass_at(body, &here, there);
   baum_i_user_function f = function(body, "mass", n, n);
   for (int i = 0; i < n * n && status == BAUM_OK; i++) {
     double size = sqrt(fabs(block[i / n * (n + 1)] * block[i % n * (n + 1)]));
     if (fabs(block[i] - there[i]) > 1e-9 * (fabs(block[i]) + size)) {
-      status =
-        baum_i_fail(BAUM_ERR_ARGUMENT,
-                    "%s is %.9g in the drawn pose and %.9g near it, but constant_mass is true",
-                    baum_i_user_entry(&f, i, text), there[i], block[i]);
+      status = baum_i_fail(
+        BAUM_ERR_ARGUMENT,
+        "%s is %.9g in the design configuration and %.9g near it, but constant_mass is true",
+        baum_i_user_entry(&f, i, text), there[i], block[i]);
     }
   }
   return status;
@@ -449,7 +449,7 @@ static const baum_i_body_type type = {
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
   .constant_mass = constant_mass,
-  .drawn = drawn,
+  .design = design,
   .scale = scale,
   .mass = mass,
   .force = force,

@@ -112,8 +112,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   parameters[RATIO] = def->ratio;
   parameters[OFFSET] = def->offset;
   if (isnan(def->offset)) {
-    double a = baum_i_drawn_coordinate(mechanism, coupled(mechanism, def, 0));
-    double b = baum_i_drawn_coordinate(mechanism, coupled(mechanism, def, 1));
+    double a = baum_i_design_coordinate(mechanism, coupled(mechanism, def, 0));
+    double b = baum_i_design_coordinate(mechanism, coupled(mechanism, def, 1));
     parameters[OFFSET] = b - def->ratio * a;
   }
   return BAUM_OK;

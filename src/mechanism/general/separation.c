@@ -18,12 +18,12 @@ void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36])
   hessian[5 * 6 + 5] -= s->d[0] * g[3] - s->d[1] * g[2];
 }
 
-double baum_i_separation_drawn(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double points[4])
+double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
+                                   const double points[4])
 {
   double at[2][2];
   for (int k = 0; k < 2; k++) {
-    baum_i_frame frame = baum_i_drawn_frame(mechanism, span->bodies[k]);
+    baum_i_frame frame = baum_i_design_frame(mechanism, span->bodies[k]);
     baum_i_marker marker = baum_i_marker_on(&frame, points + (size_t)2 * k);
     at[k][0] = marker.r[0];
     at[k][1] = marker.r[1];

@@ -58,9 +58,9 @@ static inline void baum_i_separation_spread(const baum_i_separation *s, const do
 /* F_qq (6 x 6), row-major. */
 void baum_i_separation_hessian(const baum_i_separation *s, double hessian[36]);
 
-/* Length in the drawn pose between the points s_a, s_b on both bodies of a span;
+/* Length in the design configuration between the points s_a, s_b on both bodies of a span;
  * points holds (s_a, s_b). */
-double baum_i_separation_drawn(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double points[4]);
+double baum_i_separation_in_design(const baum_mechanism *mechanism, const baum_i_span *span,
+                                   const double points[4]);
 
 #endif

@@ -48,13 +48,14 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   numbers[LENGTH] = def->length;
   if (isnan(def->length)) {
-    numbers[LENGTH] = baum_i_separation_drawn(mechanism, &joint->span, parameters);
+    numbers[LENGTH] = baum_i_separation_in_design(mechanism, &joint->span, parameters);
   }
   if (!(numbers[LENGTH] > 0.0)) {
     char label[BAUM_I_LABEL_SIZE];
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: length is not given and is 0 m in the drawn pose, must be > 0",
-                       baum_i_label(&joint->element, "joint", label));
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: length is not given and is 0 m in the design configuration, must be > 0",
+      baum_i_label(&joint->element, "joint", label));
   }
   return status;
 }

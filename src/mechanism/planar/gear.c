@@ -96,9 +96,9 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   parameters[RADIUS_B] = def->radius_b;
   parameters[OFFSET] = def->offset;
   if (isnan(def->offset)) {
-    parameters[OFFSET] = rolled(parameters, baum_i_drawn_frame(mechanism, body[A]).angle,
-                                baum_i_drawn_frame(mechanism, body[B]).angle,
-                                baum_i_drawn_frame(mechanism, body[CARRIER]).angle);
+    parameters[OFFSET] = rolled(parameters, baum_i_design_frame(mechanism, body[A]).angle,
+                                baum_i_design_frame(mechanism, body[B]).angle,
+                                baum_i_design_frame(mechanism, body[CARRIER]).angle);
   }
   return BAUM_OK;
 }

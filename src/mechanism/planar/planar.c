@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What planar joints and forces share: checks of their common fields, points in body axes, packing.
  *
- * A point given in ground axes of the drawn pose becomes s = A^T (point - r) on a body drawn at r.
+ * A point given in ground axes of the design configuration becomes s = A^T (point - r) on a body drawn at r.
  */
 #include "mechanism/planar/planar.h"
 
@@ -195,7 +195,7 @@ baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def
   return status;
 }
 
-baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body)
+baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body)
 {
   const baum_i_body *drawn = mechanism->bodies[body];
   baum_i_frame_kind kind = frame_of(drawn);
@@ -203,16 +203,16 @@ baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body)
   if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY) {
     double v[3];
     bool held;
-    drawn->type->drawn(drawn->element.def, q, v, &held);
+    drawn->type->design(drawn->element.def, q, v, &held);
   }
   return baum_i_frame_at(kind, q, NULL);
 }
 
-/* A point in ground axes, drawn pose, to a body's axes. */
+/* A point in ground axes, design configuration, to a body's axes. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
                             const char *label, double s[2])
 {
-  baum_i_frame frame = baum_i_drawn_frame(mechanism, index);
+  baum_i_frame frame = baum_i_design_frame(mechanism, index);
   double x = point[0] - frame.x;
   double y = point[1] - frame.y;
   const baum_i_body *body = mechanism->bodies[index];

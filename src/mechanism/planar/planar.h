@@ -96,14 +96,14 @@ void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum
 /* Does a joint keep its two bodies in place to each other? fixed.c */
 bool baum_i_is_weld(const baum_i_joint *joint);
 
-/* Points on both bodies from the definition and the drawn pose, s[0..1] on a, s[2..3] on b. A
+/* Points on both bodies from the definition and the design configuration, s[0..1] on a, s[2..3] on b. A
  * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by
  * baum_i_planar_check()). */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
                                  const char *label, double s[4]);
 
 /* Drawn frame of a body, from its definition, at rest; valid before freeze. */
-baum_i_frame baum_i_drawn_frame(const baum_mechanism *mechanism, int body);
+baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 
 /* What is said below of six columns holds for the three of a span of one body as well. */
 

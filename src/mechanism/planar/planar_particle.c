@@ -53,7 +53,7 @@ static void lower(const baum_i_body *body, double *parameters)
   parameters[MASS] = def->mass;
 }
 
-static void drawn(const void *given, double *q, double *v, bool *held)
+static void design(const void *given, double *q, double *v, bool *held)
 {
   const baum_planar_particle_def *def = given;
   memcpy(q, def->position, sizeof def->position);
@@ -96,7 +96,7 @@ static const baum_i_body_type type = {
   .nv = 2,
   .constant_mass = constant_mass,
   .lower = lower,
-  .drawn = drawn,
+  .design = design,
   .scale = scale,
   .mass = mass,
   .force = baum_i_gravity_force,

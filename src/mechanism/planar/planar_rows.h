@@ -170,7 +170,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
 /* The members of the type struct that all planar joints share. */
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
 
-/* Its points from the drawn pose; then the joint lowers its own numbers. A failure, a particle drawn
+/* Its points from the design configuration; then the joint lowers its own numbers. A failure, a particle drawn
  * off `point`, is told when all is lowered: most of these joints take no particles, or no `point`,
  * and would never reach a return in between. Freeze then gives up all numbers. */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,

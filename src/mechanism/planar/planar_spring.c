@@ -60,7 +60,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
   numbers[BAUM_I_DAMPING] = def->damping;
   numbers[BAUM_I_FREE_LENGTH] = def->free_length;
   if (isnan(def->free_length)) {
-    numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_drawn(mechanism, &force->span, parameters);
+    numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_in_design(mechanism, &force->span, parameters);
   }
   return status;
 }

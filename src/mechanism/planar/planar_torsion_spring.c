@@ -51,8 +51,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
   parameters[BAUM_I_DAMPING] = def->damping;
   parameters[BAUM_I_FREE_LENGTH] = def->free_angle;
   if (isnan(def->free_angle)) {
-    parameters[BAUM_I_FREE_LENGTH] = baum_i_drawn_frame(mechanism, force->span.bodies[1]).angle -
-                                     baum_i_drawn_frame(mechanism, force->span.bodies[0]).angle;
+    parameters[BAUM_I_FREE_LENGTH] = baum_i_design_frame(mechanism, force->span.bodies[1]).angle -
+                                     baum_i_design_frame(mechanism, force->span.bodies[0]).angle;
   }
   return BAUM_OK;
 }

@@ -45,8 +45,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 {
   baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
   const baum_planar_translational_def *def = joint->element.def;
-  baum_i_frame a = baum_i_drawn_frame(mechanism, joint->span.bodies[0]);
-  baum_i_frame b = baum_i_drawn_frame(mechanism, joint->span.bodies[1]);
+  baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
+  baum_i_frame b = baum_i_design_frame(mechanism, joint->span.bodies[1]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   baum_i_axis_lower(def->axis, def->point, &a, numbers + BAUM_I_AXIS, numbers + BAUM_I_AXIS_NORMAL);
   numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;

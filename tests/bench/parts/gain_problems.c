@@ -137,7 +137,7 @@ static baum_status perturb(gain_problem *problem, int lot, int number, gain_star
   start->t = (number + 1 - fmod(lot * GOLDEN, 1.0)) * SIZE / GAIN_STARTS * problem->t[0];
   for (int i = 0; i < problem->nq; i++) {
     double scale = problem->scale[i];
-    start->q[i] = run->workspace->mechanism->drawn_q[i] + SIZE * scale * draw(&seed);
+    start->q[i] = run->workspace->mechanism->design_q[i] + SIZE * scale * draw(&seed);
     double v = baum_simulation_v(run)[i];
     start->v[i] = v + SIZE * scale * rate * draw(&seed);
   }

@@ -80,7 +80,7 @@ bool scene_make(scene_kind kind, int n, scene *out)
     return false;
   }
   out->v = out->q + nv;
-  return baum_workspace_drawn(out->workspace, out->q, out->v) == BAUM_OK;
+  return baum_workspace_design(out->workspace, out->q, out->v) == BAUM_OK;
 }
 
 void scene_clear(scene *out)

@@ -67,7 +67,7 @@ static bool make_common(common *c, scene *at)
   *c = (common){.at = at, .nv = w->mechanism->nv, .n = w->mechanism->nv + w->mechanism->nc};
   c->values = (baum_i_kkt_values){.mass = w->mass,
                                   .jacobian = w->jacobian,
-                                  .dropped = w->redundancy.count ? w->redundancy.dropped : NULL};
+                                  .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
   c->x = calloc((size_t)c->n + 1, sizeof *c->x);
   return c->x != NULL;
 }
@@ -81,10 +81,10 @@ static bool run_geometry(common *c)
   memcpy(c->x, w->force, (size_t)c->nv * sizeof *c->x);
   double *right = c->x + c->nv;
   for (int i = 0; i < c->n - c->nv; i++) {
-    bool dropped = c->values.dropped && c->values.dropped[i];
+    bool omitted = c->values.omitted && c->values.omitted[i];
     double r =
       w->gamma[i] - 2.0 * SOLVER_GAIN * w->phi_rate[i] - SOLVER_GAIN * SOLVER_GAIN * w->phi[i];
-    right[i] = dropped ? 0.0 : r;
+    right[i] = omitted ? 0.0 : r;
   }
   return true;
 }
@@ -230,7 +230,7 @@ static void fill_row(const dense_solver *s, const baum_i_row_block *block, int i
 {
   size_t n = (size_t)s->c.n;
   size_t row = (size_t)(s->c.nv + block->row + i);
-  if (s->c.values.dropped && s->c.values.dropped[block->row + i]) {
+  if (s->c.values.omitted && s->c.values.omitted[block->row + i]) {
     s->matrix[row * n + row] = 1.0;
     return;
   }

@@ -9,7 +9,7 @@
 
 /* One definition in the making. */
 typedef struct drawing {
-  drawn_mechanism *m;
+  design_mechanism *m;
   fuzz_bytes *b;
   const element_kind *kind;
   any_def *def;
@@ -64,7 +64,7 @@ static void draw_flag(const drawing *d, const element_field *f)
 }
 
 /* One there is, mostly. */
-static any_id draw_id_of(drawn_mechanism *m, fuzz_bytes *b, int family)
+static any_id draw_id_of(design_mechanism *m, fuzz_bytes *b, int family)
 {
   int roll = fuzz_byte(b);
   if (m->counts[family] > 0 && roll >= 64) {
@@ -90,17 +90,17 @@ static void draw_function(const drawing *d, const element_field *f)
 {
   unsigned char bytes[sizeof(void (*)(void))];
   if (strcmp(f->name, "user") == 0) {
-    drawn_user *user = NULL;
+    design_user *user = NULL;
     if (d->m->user_count < 3 * DRAWN_MOST) {
       user = &d->m->users[d->m->user_count++];
-      *user = (drawn_user){.size = 1};
+      *user = (design_user){.size = 1};
     }
     if (user && fuzz_below(d->b, 8) == 0) {
       user->calls = fuzz_byte(d->b);
       user->answer = fuzz_below(d->b, 3) - 1;
     }
     put(d, f, &user, sizeof user);
-  } else if (drawn_function(d->kind->name, f->name, bytes)) {
+  } else if (design_function(d->kind->name, f->name, bytes)) {
     put(d, f, bytes, sizeof bytes);
   }
 }
@@ -164,7 +164,7 @@ static int32_t integer_of(const drawing *d, const char *name)
   return value;
 }
 
-void drawn_definition(drawn_mechanism *m, fuzz_bytes *b, const element_kind *kind, any_def *def)
+void design_definition(design_mechanism *m, fuzz_bytes *b, const element_kind *kind, any_def *def)
 {
   drawing d = {.m = m, .b = b, .kind = kind, .def = def};
   int users = m->user_count;
@@ -184,7 +184,7 @@ void drawn_definition(drawn_mechanism *m, fuzz_bytes *b, const element_kind *kin
   }
 }
 
-int drawn_family(const element_kind *kind)
+int design_family(const element_kind *kind)
 {
   static const char *const families[] = {"body", "joint", "force"};
   int family = 0;
@@ -196,17 +196,17 @@ int drawn_family(const element_kind *kind)
 
 /* ---- mechanisms ---- */
 
-static void add_one(drawn_mechanism *m, fuzz_bytes *b)
+static void add_one(design_mechanism *m, fuzz_bytes *b)
 {
   int k = fuzz_below(b, ELEMENT_KINDS);
   const element_kind *kind = &element_kinds[k];
-  int family = drawn_family(kind);
+  int family = design_family(kind);
   any_def def;
   any_id id = {-7, 7};
   if (m->counts[family] == DRAWN_MOST) {
     return;
   }
-  drawn_definition(m, b, kind, &def);
+  design_definition(m, b, kind, &def);
   if (fuzz_status(kind->add(m->mechanism, &def, &id)) != BAUM_OK) {
     FUZZ_CHECK(id.index1 == -7 && id.tag == 7);
     return;
@@ -216,7 +216,7 @@ static void add_one(drawn_mechanism *m, fuzz_bytes *b)
 }
 
 /* A definition is read back, and set as it is or as another; what is refused changes nothing. */
-static void replace_one(drawn_mechanism *m, fuzz_bytes *b)
+static void replace_one(design_mechanism *m, fuzz_bytes *b)
 {
   int family = fuzz_below(b, 3);
   if (m->counts[family] == 0) {
@@ -233,24 +233,24 @@ static void replace_one(drawn_mechanism *m, fuzz_bytes *b)
   FUZZ_CHECK(kind->get(m->mechanism, id, &before, kind->size) == BAUM_OK);
   FUZZ_CHECK(kind->set(m->mechanism, id, &before) == BAUM_OK);
   FUZZ_CHECK(kind->get(m->mechanism, id, &before, kind->size) == BAUM_OK);
-  drawn_definition(m, b, kind, &def);
+  design_definition(m, b, kind, &def);
   if (fuzz_status(kind->set(m->mechanism, id, &def)) != BAUM_OK) {
     FUZZ_CHECK(kind->get(m->mechanism, id, &now, kind->size) == BAUM_OK);
     FUZZ_CHECK(memcmp(&before, &now, sizeof now) == 0);
   }
 }
 
-static void ask_for_wrong_element(drawn_mechanism *m, fuzz_bytes *b)
+static void ask_for_wrong_element(design_mechanism *m, fuzz_bytes *b)
 {
   const element_kind *kind = &element_kinds[fuzz_below(b, ELEMENT_KINDS)];
   any_def def;
   memset(&def, 0, sizeof def);
-  any_id id = draw_id_of(m, b, drawn_family(kind));
+  any_id id = draw_id_of(m, b, design_family(kind));
   (void)fuzz_status(kind->get(m->mechanism, id, &def, (size_t)fuzz_byte(b)));
 }
 
 /* From here on the elements are those of a copy. */
-static void go_on_with_a_copy(drawn_mechanism *m)
+static void go_on_with_a_copy(design_mechanism *m)
 {
   baum_mechanism *copy = NULL;
   FUZZ_CHECK(baum_mechanism_copy(m->mechanism, &copy) == BAUM_OK);
@@ -258,12 +258,12 @@ static void go_on_with_a_copy(drawn_mechanism *m)
   m->mechanism = copy;
 }
 
-static void call_another(drawn_mechanism *m, fuzz_bytes *b)
+static void call_another(design_mechanism *m, fuzz_bytes *b)
 {
   double x[3] = {fuzz_number(b), fuzz_number(b), fuzz_number(b)};
   switch (fuzz_below(b, 8)) {
   case 0: (void)fuzz_status(baum_mechanism_set_gravity(m->mechanism, x[0], x[1], x[2])); break;
-  case 1: (void)fuzz_status(baum_mechanism_set_scale(m->mechanism, x[0])); break;
+  case 1: (void)fuzz_status(baum_mechanism_set_characteristic_length(m->mechanism, x[0])); break;
   case 2: (void)fuzz_status(baum_mechanism_add_input(m->mechanism, "%", x[0], &m->input)); break;
   case 3: (void)fuzz_status(baum_mechanism_set_input(m->mechanism, m->input, x[0])); break;
   case 4: (void)fuzz_status(baum_mechanism_add_break_times(m->mechanism, x, 3)); break;
@@ -273,7 +273,7 @@ static void call_another(drawn_mechanism *m, fuzz_bytes *b)
   }
 }
 
-void drawn_mechanism_make(drawn_mechanism *m, fuzz_bytes *b)
+void design_mechanism_make(design_mechanism *m, fuzz_bytes *b)
 {
   enum { CALLS = 60 };
   memset(m, 0, sizeof *m);
@@ -287,7 +287,7 @@ void drawn_mechanism_make(drawn_mechanism *m, fuzz_bytes *b)
   }
 }
 
-void drawn_mechanism_destroy(drawn_mechanism *m)
+void design_mechanism_destroy(design_mechanism *m)
 {
   baum_mechanism_destroy(m->mechanism);
   m->mechanism = NULL;

@@ -10,7 +10,7 @@
 
 static int answer(void *user, double *out)
 {
-  drawn_user *u = user;
+  design_user *u = user;
   if (!u || u->calls == 0 || --u->calls > 0) {
     return 0;
   }
@@ -24,7 +24,7 @@ static int mass(double t, const double *q, double *out, void *user)
 {
   (void)t;
   (void)q;
-  const drawn_user *u = user;
+  const design_user *u = user;
   int size = u ? u->size : 1;
   for (int i = 0; i < size; i++) {
     out[i * size + i] = i == 0 ? 2.0 : 1.0;
@@ -160,7 +160,7 @@ static const row rows[] = {
   {NULL, "curve", (any_fn *)curve},
 };
 
-int drawn_function(const char *kind, const char *field, void *out)
+int design_function(const char *kind, const char *field, void *out)
 {
   for (size_t k = 0; k < sizeof rows / sizeof *rows; k++) {
     if (strcmp(rows[k].field, field) == 0 && (!rows[k].kind || strcmp(rows[k].kind, kind) == 0)) {

@@ -65,8 +65,8 @@ static void draw_field(fuzz_bytes *b, baum_simulation_options *o)
   }
 }
 
-void drawn_options(fuzz_bytes *b, int steps, double factors[DRAWN_ROOM],
-                   baum_simulation_options *out)
+void design_options(fuzz_bytes *b, int steps, double factors[DRAWN_ROOM],
+                    baum_simulation_options *out)
 {
   *out = baum_simulation_options_default();
   out->integrator = draw_integrator(b);

@@ -7,10 +7,10 @@
  *   p < NEAR            the run is inside; the last state before and the first one after are the ends of the interval
  *   sqrt(p) has a least value among three states, and its slopes would let it reach zero between them: the least p of
  *                       the motion through the three is looked for, for fixed steps may jump over a singular pose
- *   least p < SINGULAR  it has been a passage, unless J keeps its rank there: it is recorded, its branch decided
+ *   least p < SINGULAR  it has been a crossing, unless J keeps its rank there: it is recorded, its branch decided
  *                       (branch.c), and warned of; others are nothing but poses that are worse than usual
  */
-#include "simulate/passage.h"
+#include "simulate/crossing.h"
 
 #include <float.h>
 #include <math.h>
@@ -21,7 +21,7 @@
 #include "integrate/limit.h"
 #include "mechanism/definition.h"
 
-/* Least pivot of a passage: distances within a thirtieth of those of ordinary poses. */
+/* Least pivot of a crossing: distances within a thirtieth of those of ordinary poses. */
 static const double SINGULAR = 1e-3;
 
 /* Clear states are so far from each other that rounding and tolerances do not blow up in extrapolation [rad]. */
@@ -38,11 +38,11 @@ static void place_knots(baum_i_knot *knots, int count, int nv, double **next)
   }
 }
 
-baum_status baum_i_passages_create(baum_simulation *run)
+baum_status baum_i_crossings_create(baum_simulation *run)
 {
   int nv = run->workspace->mechanism->nv; /* nq = nv so far */
   size_t numbers = 2 * (size_t)nv * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 3);
-  baum_i_passages *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
+  baum_i_crossings *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
   if (!p) {
     return baum_i_fail_memory();
   }
@@ -53,16 +53,16 @@ baum_status baum_i_passages_create(baum_simulation *run)
   place_knots(&p->at, 1, nv, &next);
   place_knots(&p->other, 1, nv, &next);
   place_knots(&p->between, 1, nv, &next);
-  run->passages = p;
+  run->crossings = p;
   return BAUM_OK;
 }
 
-void baum_i_passages_destroy(baum_i_passages *passages)
+void baum_i_crossings_destroy(baum_i_crossings *crossings)
 {
-  baum_i_free(passages);
+  baum_i_free(crossings);
 }
 
-void baum_i_passages_forget(baum_i_passages *p)
+void baum_i_crossings_forget(baum_i_crossings *p)
 {
   if (!p) {
     return;
@@ -96,7 +96,7 @@ static baum_i_knot *make_last(baum_i_knot *knots, int most, int *count)
 
 static void keep_clear(baum_simulation *run, const baum_i_knot *state)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   int n = p->clear_count;
   double rate = baum_i_scaled_size(run->workspace->mechanism, state->v);
   bool close = n >= 2 && fabs(p->clear[n - 1].t - p->clear[n - 2].t) * rate < SPACING;
@@ -109,13 +109,13 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
 
 static void note(baum_simulation *run, const baum_i_state *state, double pivot, int joint)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   double since = p->recent_count > 0 ? state->t - p->recent[p->recent_count - 1].t : 0.0;
   if (p->recent_count > 0 && since == 0.0) {
     return;
   }
   if (since * run->problem.direction < 0.0) {
-    baum_i_passages_forget(p);
+    baum_i_crossings_forget(p);
   }
   p->usual = fmax(p->usual, pivot);
   baum_i_knot *last = make_last(p->recent, BAUM_I_RECENT, &p->recent_count);
@@ -127,16 +127,16 @@ static void note(baum_simulation *run, const baum_i_state *state, double pivot, 
   p->joint_noted = joint;
 }
 
-void baum_i_passages_note(baum_simulation *run, const baum_i_state *state)
+void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state)
 {
-  if (run->passages) {
+  if (run->crossings) {
     int joint = -1;
     double pivot = baum_i_smallest_pivot(run->workspace, &joint);
     note(run, state, pivot, joint);
   }
 }
 
-/* ---- passages ---- */
+/* ---- crossings ---- */
 
 static bool is_near(const baum_i_knot *state)
 {
@@ -144,7 +144,7 @@ static bool is_near(const baum_i_knot *state)
 }
 
 /* Could sqrt(p) have been zero between the last three? */
-static bool may_have_jumped(const baum_i_passages *p)
+static bool may_have_jumped(const baum_i_crossings *p)
 {
   const baum_i_knot *k = p->recent;
   if (p->recent_count < BAUM_I_RECENT || k[1].pivot > k[0].pivot || k[1].pivot > k[2].pivot) {
@@ -160,7 +160,7 @@ static bool may_have_jumped(const baum_i_passages *p)
 
 static void see_turn(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   if (p->recent_count < 2) {
@@ -174,11 +174,11 @@ static void see_turn(baum_simulation *run)
   p->present.largest_turn = fmax(p->present.largest_turn, size > 0.0 ? change / size : 0.0);
 }
 
-static void begin(baum_i_passages *p, double from)
+static void begin(baum_i_crossings *p, double from)
 {
   p->open = true;
   p->present =
-    (baum_i_passage){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
+    (baum_i_crossing){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
 }
 
 /* Small, or opened by the violation of the run. */
@@ -197,8 +197,8 @@ static bool keeps_its_rank(baum_simulation *run, double t, const double *q, doub
 /* Between the last three states. */
 static void search(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
-  baum_i_passage *present = &p->present;
+  baum_i_crossings *p = run->crossings;
+  baum_i_crossing *present = &p->present;
   double at = 0.0;
   int joint = -1;
   double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
@@ -214,9 +214,9 @@ static void search(baum_simulation *run)
 /* At the last state, which is near. */
 static void see_last(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
-  baum_i_passage *present = &p->present;
+  baum_i_crossing *present = &p->present;
   if (last->pivot < present->smallest && !keeps_its_rank(run, last->t, last->q, last->pivot)) {
     present->smallest = last->pivot;
     present->at = last->t;
@@ -237,7 +237,7 @@ static const char *const BRANCHES[] = {
 
 static void record(baum_simulation *run, double to)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   baum_near_singular entry = {.struct_size = sizeof entry, .begin = p->present.from, .end = to};
   baum_i_branch_decide(run, &p->present, &entry);
   char label[BAUM_I_LABEL_SIZE] = "no joint";
@@ -261,9 +261,9 @@ static void record(baum_simulation *run, double to)
   }
 }
 
-static void close_passage(baum_simulation *run)
+static void close_crossing(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   if (is_singular(run, p->present.smallest)) {
     record(run, p->recent[p->recent_count - 1].t);
   }
@@ -272,7 +272,7 @@ static void close_passage(baum_simulation *run)
 
 static void look_inside(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   see_turn(run);
   if (may_have_jumped(p)) {
     search(run);
@@ -280,14 +280,14 @@ static void look_inside(baum_simulation *run)
   if (is_near(&p->recent[p->recent_count - 1])) {
     see_last(run);
   } else {
-    close_passage(run);
+    close_crossing(run);
   }
 }
 
-/* Has a passage just been found between the last three states? */
+/* Has a crossing just been found between the last three states? */
 static bool has_jumped(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   if (is_near(&p->recent[p->recent_count - 1]) || !may_have_jumped(p)) {
     return false;
   }
@@ -297,10 +297,10 @@ static bool has_jumped(baum_simulation *run)
   return p->open;
 }
 
-/* A passage has neither begun nor been jumped over. */
+/* A crossing has neither begun nor been jumped over. */
 static void keep_last_but_one(baum_simulation *run)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   if (p->recent_count >= 2 && !is_near(last - 1)) {
     keep_clear(run, last - 1);
@@ -309,11 +309,11 @@ static void keep_last_but_one(baum_simulation *run)
 
 static void look_outside(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
   if (has_jumped(run)) {
     see_turn(run);
-    close_passage(run);
+    close_crossing(run);
     return;
   }
   keep_last_but_one(run);
@@ -329,7 +329,7 @@ static void look(baum_simulation *run)
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   int64_t near_singular = run->workspace->near_singular; /* of the motion, not of looks at it */
-  if (run->passages->open) {
+  if (run->crossings->open) {
     look_inside(run);
   } else {
     look_outside(run);
@@ -339,9 +339,9 @@ static void look(baum_simulation *run)
 }
 
 /* Most states have nothing to look for. */
-void baum_i_passages_look(baum_simulation *run)
+void baum_i_crossings_look(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   if (!p || !p->unseen) {
     return;
   }
@@ -353,13 +353,13 @@ void baum_i_passages_look(baum_simulation *run)
   }
 }
 
-void baum_i_passages_end(baum_simulation *run)
+void baum_i_crossings_end(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   if (p->open) {
-    close_passage(run);
+    close_crossing(run);
   }
-  baum_i_passages_forget(p);
+  baum_i_crossings_forget(p);
   p->unseen = false;
   p->usual = 0.0;
 }
@@ -377,14 +377,14 @@ static bool is_in_pose(const baum_simulation *run, double pivot)
 /* Of the usual one, of the last solution. */
 static double find_pivot(const baum_simulation *run)
 {
-  return baum_i_smallest_pivot(run->workspace, NULL) / run->passages->usual;
+  return baum_i_smallest_pivot(run->workspace, NULL) / run->crossings->usual;
 }
 
 /* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
  * step of order k errors of about (h w)^(k+1) / 100. */
 static bool is_beyond_rounding(const baum_simulation *run, double h)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   double rate = baum_i_scaled_size(run->workspace->mechanism, p->between.v);
   double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
   double pivot = find_pivot(run);
@@ -400,9 +400,9 @@ static bool stays_unprojected(const baum_simulation *run, baum_status status, do
   return status == BAUM_OK && is_beyond_rounding(run, h);
 }
 
-baum_status baum_i_passages_project(baum_simulation *run, double t)
+baum_status baum_i_crossings_project(baum_simulation *run, double t)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   size_t bytes = (size_t)run->workspace->mechanism->nv * sizeof(double);
   if (!p) {
     return baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
@@ -425,15 +425,15 @@ baum_status baum_i_passages_project(baum_simulation *run, double t)
 /* Of the present state, which has mostly just been noted. */
 static double find_present_pivot(const baum_simulation *run)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = p->recent_count > 0 ? &p->recent[p->recent_count - 1] : NULL;
   return last && last->t == run->state.t ? last->pivot : find_pivot(run);
 }
 
 /* Methods may read the workspace at the start of a step: it is left as it was. */
-baum_status baum_i_passages_accelerate(baum_simulation *run)
+baum_status baum_i_crossings_accelerate(baum_simulation *run)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   baum_workspace *w = run->workspace;
   const baum_i_state *state = &run->state;
   if (!p || !is_in_pose(run, find_present_pivot(run))) {
@@ -464,7 +464,7 @@ enum { INSIDE = 16 }; /* at most */
 /* Into how many pieces the step to `end` is to be cut. */
 static int count_pieces(const baum_simulation *run, const baum_i_state *end, double pivot)
 {
-  const baum_i_passages *p = run->passages;
+  const baum_i_crossings *p = run->crossings;
   if (p->recent_count == 0) {
     return 1;
   }
@@ -480,7 +480,7 @@ static int count_pieces(const baum_simulation *run, const baum_i_state *end, dou
 /* A state inside the last step, as the method has it. */
 static void look_between(baum_simulation *run, double t)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   baum_i_state between = {.t = t, .q = p->between.q, .v = p->between.v};
   baum_status status =
     run->integrator->interpolate(run->self, &run->problem, t, between.q, between.v);
@@ -488,15 +488,15 @@ static void look_between(baum_simulation *run, double t)
     status = baum_i_find_pivot(run->workspace, t, between.q, between.v);
   }
   if (status == BAUM_OK) {
-    baum_i_passages_note(run, &between);
-    baum_i_passages_look(run);
+    baum_i_crossings_note(run, &between);
+    baum_i_crossings_look(run);
   }
 }
 
 /* Everything here is about the motion as it was; what fails, fails again in the next step, where it is told. */
-void baum_i_passages_step(baum_simulation *run, const baum_i_state *end)
+void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
-  baum_i_passages *p = run->passages;
+  baum_i_crossings *p = run->crossings;
   baum_workspace *w = run->workspace;
   if (!p) {
     return;
@@ -537,7 +537,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   if (status != BAUM_OK) {
     return status;
   }
-  baum_near_singular entry = simulation->passages->kept[k];
+  baum_near_singular entry = simulation->crossings->kept[k];
   if (entry.joint.index1 > 0) { /* of a run that has been restored it may have another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);
   }

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "dynamics/survey.h"
+#include "dynamics/snapshot.h"
 
 #include "base/alloc.h"
 #include "base/message.h"
 #include "base/sized.h"
 
 static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
-                           const baum_i_survey_out *to)
+                           const baum_i_snapshot_out *to)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
@@ -27,7 +27,7 @@ static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
 
 /* The same of a frozen copy. */
 static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *look,
-                                const baum_i_survey_out *to)
+                                const baum_i_snapshot_out *to)
 {
   baum_mechanism *copy = NULL;
   baum_status status = baum_mechanism_copy(mechanism, &copy);
@@ -41,8 +41,8 @@ static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *lo
   return status;
 }
 
-baum_status baum_i_survey(const baum_mechanism *mechanism, baum_i_look *look,
-                          const baum_i_survey_out *to)
+baum_status baum_i_snapshot(const baum_mechanism *mechanism, baum_i_look *look,
+                            const baum_i_snapshot_out *to)
 {
   baum_status status = baum_i_check_sized(to->out, to->caller_size, to->call);
   if (status != BAUM_OK) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passages: how a run comes through poses that are close to singular. */
-#ifndef BAUM_I_SIMULATE_PASSAGE_H
-#define BAUM_I_SIMULATE_PASSAGE_H
+/* Crossings: how a run comes through poses that are close to singular. */
+#ifndef BAUM_I_SIMULATE_CROSSING_H
+#define BAUM_I_SIMULATE_CROSSING_H
 
 #include "simulate/hermite.h"
 #include "simulate/run.h"
@@ -12,16 +12,16 @@ enum {
 };
 
 /* One under way, or just found between two steps. */
-typedef struct baum_i_passage {
+typedef struct baum_i_crossing {
   double from;         /* [s] last clear state before */
   double at;           /* [s] of the smallest pivot */
   double smallest;     /* [-] of the usual one */
   bool gap;            /* no singular pose is on the way, as far as can be seen there */
   double largest_turn; /* [-] change of the velocity in a step, of its size */
   int joint;           /* of the smallest pivot, -1: none */
-} baum_i_passage;
+} baum_i_crossing;
 
-struct baum_i_passages {
+struct baum_i_crossings {
   int nv;
   double usual; /* largest pivot so far */
   int recent_count;
@@ -35,39 +35,39 @@ struct baum_i_passages {
   bool unseen;     /* the last recent state has not been looked at */
   int joint_noted; /* of its smallest pivot, where it is near; -1: none */
   bool open;
-  baum_i_passage present;
+  baum_i_crossing present;
   baum_near_singular kept[BAUM_I_PASSAGES];
 };
 
-baum_status baum_i_passages_create(baum_simulation *run);
-void baum_i_passages_destroy(baum_i_passages *passages); /* NULL is fine */
+baum_status baum_i_crossings_create(baum_simulation *run);
+void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is fine */
 
-/* From here on passages may be NULL: nothing is done.
+/* From here on crossings may be NULL: nothing is done.
  * What comes next is not the motion that was before. */
-void baum_i_passages_forget(baum_i_passages *passages);
+void baum_i_crossings_forget(baum_i_crossings *crossings);
 
 /* A state of the run, at which the last solution was made. Evaluates nothing. */
-void baum_i_passages_note(baum_simulation *run, const baum_i_state *state);
+void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state);
 
 /* Pivots to come are others, and compare with none before: what is under way ends. Not for NULL. */
-void baum_i_passages_end(baum_simulation *run);
+void baum_i_crossings_end(baum_simulation *run);
 
 /* Look at the state that has been noted last; may evaluate. What functions of the user answer is not told. */
-void baum_i_passages_look(baum_simulation *run);
+void baum_i_crossings_look(baum_simulation *run);
 
 /* Project the trial state, the end of a step of fixed length, onto the constraints at t; but so close to a singular pose
  * that rounding would move it by more than the step's error it stays. Statuses of baum_i_project(). */
-baum_status baum_i_passages_project(baum_simulation *run, double t);
+baum_status baum_i_crossings_project(baum_simulation *run, double t);
 
 /* A step of fixed length begins: in a singular pose run->acceleration is replaced by its limit. Statuses of an
  * evaluation at the present state, which is made again. */
-baum_status baum_i_passages_accelerate(baum_simulation *run);
+baum_status baum_i_crossings_accelerate(baum_simulation *run);
 
 /* A step of variable length that has just been taken. May evaluate; look at the end afterwards. */
-void baum_i_passages_step(baum_simulation *run, const baum_i_state *end);
+void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: what has become of the motion, from the clear states before to the last recent one, into *out. */
-void baum_i_branch_decide(baum_simulation *run, const baum_i_passage *passage,
+void baum_i_branch_decide(baum_simulation *run, const baum_i_crossing *crossing,
                           baum_near_singular *out);
 
 /* branch.c: least pivot, of the usual one, of the motion through `knots` from the first to the last; time and joint of it.
