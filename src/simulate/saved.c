@@ -221,7 +221,7 @@ static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots,
   }
 }
 
-static void list_crossings(baum_simulation *run, baum_i_saved *list)
+static void list_passages(baum_simulation *run, baum_i_saved *list)
 {
   baum_i_crossings *p = run->crossings;
   int joints = run->workspace->mechanism->joint_count;
@@ -232,13 +232,13 @@ static void list_crossings(baum_simulation *run, baum_i_saved *list)
   list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, p->nv);
   BAUM_I_SAVED_ADD_FLAG(list, "state not looked at", p->unseen);
   BAUM_I_SAVED_ADD_BOUNDED(list, "joint noted", p->joint_noted, -1, joints - 1);
-  BAUM_I_SAVED_ADD_FLAG(list, "crossing open", p->open);
-  BAUM_I_SAVED_ADD(list, "crossing from", p->present.from);
-  BAUM_I_SAVED_ADD(list, "crossing at", p->present.at);
-  BAUM_I_SAVED_ADD(list, "crossing smallest", p->present.smallest);
-  BAUM_I_SAVED_ADD_FLAG(list, "crossing gap", p->present.gap);
-  BAUM_I_SAVED_ADD(list, "crossing largest turn", p->present.largest_turn);
-  BAUM_I_SAVED_ADD_BOUNDED(list, "crossing joint", p->present.joint, -1, joints - 1);
+  BAUM_I_SAVED_ADD_FLAG(list, "passage open", p->open);
+  BAUM_I_SAVED_ADD(list, "passage from", p->present.from);
+  BAUM_I_SAVED_ADD(list, "passage at", p->present.at);
+  BAUM_I_SAVED_ADD(list, "passage smallest", p->present.smallest);
+  BAUM_I_SAVED_ADD_FLAG(list, "passage gap", p->present.gap);
+  BAUM_I_SAVED_ADD(list, "passage largest turn", p->present.largest_turn);
+  BAUM_I_SAVED_ADD_BOUNDED(list, "passage joint", p->present.joint, -1, joints - 1);
   baum_i_saved_add_some(list, "near-singular intervals", p->kept, sizeof *p->kept,
                         run->counters.near_singular_intervals, BAUM_I_PASSAGES);
 }
@@ -285,7 +285,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
     baum_i_companion_saved(run->companion, list);
   }
   if (run->crossings) {
-    list_crossings(run, list);
+    list_passages(run, list);
   }
   baum_i_saved_compare(list, "the number of events", run->events ? run->events->count : 0);
   if (run->events) {

@@ -117,8 +117,8 @@ static void a_drawing_without_length_cannot_be_frozen(void **state)
   assert_int_equal(add(scene.mechanism, &def), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(),
-                      "joint 1 \"rod\": length is not given and is 0 m in the drawn "
-                      "pose, must be > 0");
+                      "joint 1 \"rod\": length is not given and is 0 m in the design "
+                      "configuration, must be > 0");
   assert_false(baum_mechanism_is_frozen(scene.mechanism));
   baum_mechanism_destroy(scene.mechanism);
 }
