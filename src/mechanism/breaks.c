@@ -7,7 +7,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Where t belongs in the list. */
 static int place_of(const baum_mechanism *mechanism, double t)

@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* What an optional number is by default; NAN itself is a float. */
 #define BAUM_I_NOT_GIVEN ((double)NAN)
@@ -41,6 +41,18 @@ baum_status baum_i_set_joint(baum_mechanism *mechanism, const baum_i_joint_type 
                              baum_joint_id id, const void *def);
 baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type *type,
                              baum_force_id id, const void *def);
+
+/* Elements from checked definitions, for add and copy;
+ * NULL when out of memory, with the sentence. Free takes NULL. */
+void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *type,
+                      const void *def, int number);
+void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type *type,
+                       const void *def, int number);
+void *baum_i_force_new(const baum_mechanism *mechanism, const baum_i_force_type *type,
+                       const void *def, int number);
+void baum_i_body_free(baum_i_body *body);
+void baum_i_joint_free(baum_i_joint *joint);
+void baum_i_force_free(baum_i_force *force);
 
 /* FAMILY is body, joint or force; NAME as in baum_NAME_def; TYPE the type struct. */
 #define BAUM_I_DEFINE(FAMILY, NAME, TYPE)                                                        \

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 static bool is_one(int32_t k, int32_t count)
 {

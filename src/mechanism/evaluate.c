@@ -1,65 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Evaluation of a whole mechanism: one call per group. */
-#include <math.h>
 #include <string.h>
 
-#include "base/alloc.h"
-#include "base/hot.h"
-#include "base/message.h"
-#include "mechanism/planar/frames.h"
-
-/* ---- frames ---- */
-
-baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v)
-{
-  baum_i_frame frame = {.c = 1.0};
-  if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
-    return frame;
-  }
-  frame.x = q[0];
-  frame.y = q[1];
-  frame.vx = v ? v[0] : 0.0;
-  frame.vy = v ? v[1] : 0.0;
-  if (kind == BAUM_I_FRAME_BODY) {
-    frame.angle = q[2];
-    frame.c = cos(q[2]);
-    frame.s = sin(q[2]);
-    frame.w = v ? v[2] : 0.0;
-  }
-  return frame;
-}
-
-baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point)
-{
-  *point = (baum_i_point){.mechanism = mechanism,
-                          .parameters = mechanism->parameters,
-                          .inputs = baum_i_initial_inputs(mechanism),
-                          .kernel = BAUM_I_HOT_TABLE(baum_i_frames_kernel)};
-  point->frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->frames);
-  point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
-  if (!point->frames || !point->scratch) {
-    return baum_i_fail_memory();
-  }
-  for (int i = 0; i <= mechanism->body_count; i++) {
-    point->frames[i].c = 1.0;
-  }
-  return BAUM_OK;
-}
-
-void baum_i_point_release(baum_i_point *point)
-{
-  baum_i_free(point->frames);
-  baum_i_free(point->scratch);
-}
-
-void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
-{
-  point->t = t;
-  point->q = q;
-  point->v = v;
-  point->retry = false;
-  point->kernel->set(point->mechanism, q, v, point->frames);
-}
+#include "mechanism/mechanism.h"
 
 /* ---- joints ---- */
 

@@ -3,7 +3,7 @@
 #ifndef BAUM_I_MECHANISM_FINGERPRINT_H
 #define BAUM_I_MECHANISM_FINGERPRINT_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Functions of the user are not in it, nor names of elements. */
 typedef struct baum_i_fingerprint {

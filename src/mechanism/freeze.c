@@ -13,7 +13,6 @@
 #include "base/message.h"
 #include "mechanism/general/user_function.h"
 #include "mechanism/mechanism.h"
-#include "mechanism/planar/planar.h"
 
 /* ---- undo ---- */
 
@@ -292,47 +291,29 @@ static baum_status make_groups(baum_mechanism *mechanism)
 
 /* ---- length scale ---- */
 
-typedef struct box {
-  double low[2];
-  double high[2];
-} box;
-
-static void include_point(box *b, double x, double y)
+void baum_i_box_include(baum_i_box *box, double x, double y)
 {
-  b->low[0] = fmin(b->low[0], x);
-  b->low[1] = fmin(b->low[1], y);
-  b->high[0] = fmax(b->high[0], x);
-  b->high[1] = fmax(b->high[1], y);
-}
-
-static void include_marker(box *b, const baum_i_frame *f, const double s[2])
-{
-  if (isfinite(s[0]) && isfinite(s[1])) {
-    include_point(b, f->x + f->c * s[0] - f->s * s[1], f->y + f->s * s[0] + f->c * s[1]);
-  }
+  box->low[0] = fmin(box->low[0], x);
+  box->low[1] = fmin(box->low[1], y);
+  box->high[0] = fmax(box->high[0], x);
+  box->high[1] = fmax(box->high[1], y);
 }
 
 /* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1
  * when it has none, as with user coordinates only. */
 static double design_size(const baum_mechanism *mechanism)
 {
-  box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  baum_i_box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
   for (int i = 1; i <= mechanism->body_count; i++) {
     if (mechanism->bodies[i]->type->frame != BAUM_I_FRAME_NONE) {
       baum_i_frame f = baum_i_design_frame(mechanism, i);
-      include_point(&b, f.x, f.y);
+      baum_i_box_include(&b, f.x, f.y);
     }
   }
   for (int i = 0; i < mechanism->joint_count; i++) {
     const baum_i_joint *joint = mechanism->joints[i];
-    /* Not a driver's, whose definition has no points. */
-    if (joint->type->bodies == baum_i_planar_bodies) {
-      const baum_i_planar_head *head = joint->element.def;
-      baum_i_frame fa = baum_i_design_frame(mechanism, joint->span.bodies[0]);
-      baum_i_frame fb = baum_i_design_frame(mechanism, joint->span.bodies[1]);
-      include_marker(&b, &(baum_i_frame){.c = 1.0}, head->point);
-      include_marker(&b, &fa, head->point_a);
-      include_marker(&b, &fb, head->point_b);
+    if (joint->type->extent) {
+      joint->type->extent(mechanism, joint, &b);
     }
   }
   double diagonal = hypot(b.high[0] - b.low[0], b.high[1] - b.low[1]);

@@ -396,7 +396,7 @@ void check_coordinate_derivatives(test_point *p)
   check_matrix(p, "coordinate gamma_v", false, coordinate_gamma_of, &d, 1, full);
   memset(full, 0, sizeof full);
   double packed[36];
-  baum_i_planar_pack_square(p->mechanism, &joint->span, blocks.jtl_q, packed);
+  baum_i_columns_pack_square(p->mechanism, &joint->span, blocks.jtl_q, packed);
   spread_square(p, &joint->span, packed, full);
   check_matrix(p, "coordinate_qq", true, coordinate_gradient_of, &d, p->nv, full);
 }

@@ -265,10 +265,10 @@ static void packing_leaves_out_what_a_particle_does_not_have(void **state)
     six[i] = i;
   }
   double packed[25];
-  baum_i_planar_pack(p.mechanism, span, 2, six, packed);
+  baum_i_columns_pack(p.mechanism, span, 2, six, packed);
   const double rows[10] = {0, 1, 3, 4, 5, 6, 7, 9, 10, 11};
   assert_memory_equal(packed, rows, sizeof rows);
-  baum_i_planar_pack_square(p.mechanism, span, six, packed);
+  baum_i_columns_pack_square(p.mechanism, span, six, packed);
   const double square[25] = {0,  1,  3,  4,  5,  6,  7,  9,  10, 11, 18, 19, 21,
                              22, 23, 24, 25, 27, 28, 29, 30, 31, 33, 34, 35};
   assert_memory_equal(packed, square, sizeof square);
@@ -286,11 +286,11 @@ static void scattering_adds_what_gathering_takes(void **state)
     x[i] = 1.0 + i;
   }
   double six[6];
-  baum_i_planar_gather(&p.point, &joint->span, x, six);
+  baum_i_columns_gather(&p.point, &joint->span, x, six);
   /* Order of adding: link 3, ball 2, crank 3, bead 2. */
   const double want[6] = {4.0, 5.0, 0.0, 6.0, 7.0, 8.0};
   assert_memory_equal(six, want, sizeof six);
-  baum_i_planar_scatter(p.mechanism, &joint->span, six, x);
+  baum_i_columns_scatter(p.mechanism, &joint->span, six, x);
   for (int i = 0; i < p.nv; i++) {
     bool ours = i >= 3 && i < 8;
     ASSERT_NEAR(x[i], (ours ? 2.0 : 1.0) * (1.0 + i), 0.0, 0.0);

@@ -15,7 +15,7 @@
 
 #include <string.h>
 
-#include "mechanism/planar/planar.h"
+#include "mechanism/general/columns.h"
 
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6])
 {
@@ -117,7 +117,7 @@ void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *poin
   if (out->jacobian) {
     double wide[BAUM_I_COMPOSED_COLUMNS];
     baum_i_composed_gradient(x, g, wide);
-    baum_i_planar_pack(point->mechanism, &joint->span, 1, wide, out->jacobian + joint->jacobian);
+    baum_i_columns_pack(point->mechanism, &joint->span, 1, wide, out->jacobian + joint->jacobian);
   }
   if (out->gamma) {
     out->gamma[joint->row] = baum_i_composed_gamma(x, g);
@@ -128,7 +128,7 @@ static void put(const baum_i_joint *joint, const baum_i_point *point, const doub
                 double *blocks)
 {
   if (blocks) {
-    baum_i_planar_pack(point->mechanism, &joint->span, 1, wide, blocks + joint->jacobian);
+    baum_i_columns_pack(point->mechanism, &joint->span, 1, wide, blocks + joint->jacobian);
   }
 }
 
@@ -140,7 +140,7 @@ void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *p
   put(joint, point, wide->gamma_q, blocks->gamma_q);
   put(joint, point, wide->gamma_v, blocks->gamma_v);
   if (blocks->jtl_q) {
-    baum_i_planar_pack_square(point->mechanism, &joint->span, wide->jtl_q,
-                              blocks->jtl_q + joint->square);
+    baum_i_columns_pack_square(point->mechanism, &joint->span, wide->jtl_q,
+                               blocks->jtl_q + joint->square);
   }
 }

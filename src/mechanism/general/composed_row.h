@@ -8,7 +8,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 #define BAUM_I_MECHANISM_GENERAL_COMPOSED_ROW_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 enum { BAUM_I_COMPOSED_BODIES = 4, BAUM_I_COMPOSED_COLUMNS = 3 * BAUM_I_COMPOSED_BODIES };
 

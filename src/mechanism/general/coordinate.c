@@ -1,12 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks and drawn values of joints' coordinates. */
+/* Checks and design values of joints' coordinates. */
 #include "mechanism/general/coordinate.h"
 
-#include <string.h>
-
 #include "base/message.h"
-#include "mechanism/definition.h"
-#include "mechanism/planar/planar.h"
 
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     const char *label, const char *field, const char *purpose)
@@ -22,9 +18,9 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
                        field, baum_i_label(&joint->element, "joint", text),
                        joint->type->definition.kind, purpose);
   }
-  /* A pin may hold a particle, but then it has no angle. */
-  bool is_angle = strcmp(joint->type->coordinate_unit, "rad") == 0;
-  return is_angle ? baum_i_planar_check_angles(mechanism, joint->element.def, label) : BAUM_OK;
+  return joint->type->check_coordinate
+           ? joint->type->check_coordinate(mechanism, joint->element.def, label)
+           : BAUM_OK;
 }
 
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint)

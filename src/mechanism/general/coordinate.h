@@ -3,7 +3,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 #define BAUM_I_MECHANISM_GENERAL_COORDINATE_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Check that a joint named in a definition exists and has a coordinate: BAUM_OK, or
  * BAUM_ERR_ARGUMENT with the sentence; purpose ends it: "to drive". */

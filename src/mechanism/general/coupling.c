@@ -17,9 +17,9 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
+#include "mechanism/general/columns.h"
 #include "mechanism/general/composed_row.h"
 #include "mechanism/general/coordinate.h"
-#include "mechanism/planar/planar.h"
 
 /* Parameters. */
 enum { RATIO, OFFSET, PARAMETER_COUNT };
@@ -183,10 +183,9 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
 {
   set_inner(joint, point, 0, s);
   set_inner(joint, point, 1, s);
-  bool is_angle = strcmp(s->joints[0]->type->coordinate_unit, "rad") == 0;
   s->values[0] = s->x[0].c.value;
   s->values[1] = 0.0;
-  s->values[2] = is_angle ? 1.0 : point->mechanism->length;
+  s->values[2] = s->joints[0]->type->is_angle ? 1.0 : point->mechanism->length;
   baum_i_local at = place_at(point, s->values);
   baum_status status = law_at(joint, &at, s->f);
   s->g = (baum_i_outer){.value = s->x[1].c.value - s->f[VALUE],
@@ -249,7 +248,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
     return status;
   }
   double w_wide[BAUM_I_COMPOSED_COLUMNS] = {0.0};
-  baum_i_planar_gather(point, &joint->span, w, w_wide);
+  baum_i_columns_gather(point, &joint->span, w, w_wide);
   for (int i = 0; i < 2; i++) {
     double six[6];
     baum_i_composed_narrow(&s.x[i], w_wide, six);

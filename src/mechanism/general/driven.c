@@ -5,8 +5,8 @@
 #include <math.h>
 
 #include "base/message.h"
+#include "mechanism/general/columns.h"
 #include "mechanism/general/coordinate.h"
-#include "mechanism/planar/planar.h"
 
 static const baum_i_joint *driven_by(const baum_mechanism *mechanism, const void *def)
 {
@@ -77,10 +77,10 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
     if (!isfinite(s[i])) {
       char label[BAUM_I_LABEL_SIZE];
       point->retry = true;
-      return baum_i_fail(BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
-                         baum_i_label(&driver->element, "joint", label), source, s[i], names[i],
-                         driven_by(point->mechanism, driver->element.def)->type->coordinate_unit,
-                         per[i]);
+      return baum_i_fail(
+        BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
+        baum_i_label(&driver->element, "joint", label), source, s[i], names[i],
+        driven_by(point->mechanism, driver->element.def)->type->is_angle ? "rad" : "m", per[i]);
     }
   }
   return BAUM_OK;
@@ -105,8 +105,8 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
     out->phi[joint->row] = c.value - s[0];
   }
   if (out->jacobian) {
-    baum_i_planar_pack(point->mechanism, &joint->span, 1, c.gradient,
-                       out->jacobian + joint->jacobian);
+    baum_i_columns_pack(point->mechanism, &joint->span, 1, c.gradient,
+                        out->jacobian + joint->jacobian);
   }
   if (out->nu) {
     out->nu[joint->row] = s[1];
@@ -131,7 +131,7 @@ static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, 
                     double *rows_of_all)
 {
   if (rows_of_all) {
-    baum_i_planar_pack(mechanism, &joint->span, 1, six, rows_of_all + joint->jacobian);
+    baum_i_columns_pack(mechanism, &joint->span, 1, six, rows_of_all + joint->jacobian);
   }
 }
 
@@ -141,14 +141,14 @@ baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *poi
   const baum_mechanism *mechanism = point->mechanism;
   const baum_i_joint *driven = driven_by(mechanism, joint->element.def);
   double w_six[6];
-  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_columns_gather(point, &joint->span, w, w_six);
   baum_i_coordinate_blocks six;
   driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0, &six);
   put_row(joint, mechanism, six.jw_q, blocks->jw_q);
   put_row(joint, mechanism, six.gamma_q, blocks->gamma_q);
   put_row(joint, mechanism, six.gamma_v, blocks->gamma_v);
   if (blocks->jtl_q) {
-    baum_i_planar_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
+    baum_i_columns_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
   }
   return BAUM_OK;
 }

@@ -9,7 +9,7 @@
 
 #include <baum/planar.h>
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Parameters of a linear spring, in this order. */
 enum { BAUM_I_STIFFNESS, BAUM_I_DAMPING, BAUM_I_FREE_LENGTH, BAUM_I_SPRING_NUMBERS };

@@ -8,7 +8,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 #define BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Doubles of point->scratch that an element with nl local columns and that many rows may use. */
 int64_t baum_i_scratch_size(int nl, int rows);

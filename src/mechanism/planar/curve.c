@@ -152,7 +152,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
     return status;
   }
   double w_six[BAUM_I_PLANAR_COLUMNS];
-  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_columns_gather(point, &joint->span, w, w_six);
   for (int i = 0; i < 2; i++) {
     baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
   }
@@ -231,6 +231,7 @@ static const baum_i_joint_type type = {
   .scleronomic = true,
   .row_count = 1,
   .bodies = baum_i_planar_bodies,
+  .extent = baum_i_planar_extent,
   .lower = baum_i_planar_lower_points,
   .evaluate = evaluate,
   .linearize = linearize,

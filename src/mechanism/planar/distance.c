@@ -14,8 +14,8 @@
 
 #include "base/message.h"
 #include "mechanism/definition.h"
-#include "mechanism/general/separation.h"
 #include "mechanism/planar/planar_rows.h"
+#include "mechanism/planar/separation.h"
 
 /* Own numbers, after both points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
@@ -154,6 +154,7 @@ static const baum_i_joint_type type = {
   .scleronomic = true,
   .row_count = 1,
   .bodies = baum_i_planar_bodies,
+  .extent = baum_i_planar_extent,
   .lower = lower,
   .evaluate = evaluate,
   .linearize = linearize,

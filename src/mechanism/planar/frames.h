@@ -3,7 +3,7 @@
 #ifndef BAUM_I_MECHANISM_PLANAR_FRAMES_H
 #define BAUM_I_MECHANISM_PLANAR_FRAMES_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 struct baum_i_frames_kernel {
   /* frames (body_count + 1) of a mechanism at q, and v or NULL for rest. */

@@ -122,7 +122,7 @@ static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
       [3 * B + 2] = numbers[RADIUS_B],
       [3 * CARRIER + 2] = -(numbers[RADIUS_A] + numbers[RADIUS_B]),
     };
-    baum_i_planar_pack(point->mechanism, &joint->span, 1, nine, out->jacobian + joint->jacobian);
+    baum_i_columns_pack(point->mechanism, &joint->span, 1, nine, out->jacobian + joint->jacobian);
   }
   if (out->gamma) {
     out->gamma[joint->row] = 0.0;

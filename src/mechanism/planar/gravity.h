@@ -4,7 +4,7 @@
 #ifndef BAUM_I_MECHANISM_PLANAR_GRAVITY_H
 #define BAUM_I_MECHANISM_PLANAR_GRAVITY_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* Place of the mass among a body's parameters. */
 enum { BAUM_I_GRAVITY_MASS = 0 };

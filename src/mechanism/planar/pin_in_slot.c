@@ -80,11 +80,11 @@ static const baum_i_joint_type type = {
   .scleronomic = true,
   .row_count = 1,
   .bodies = baum_i_planar_bodies,
+  .extent = baum_i_planar_extent,
   .lower = lower,
   .evaluate = evaluate,
   .linearize = baum_i_axis_joint_linearize,
   .place = baum_i_planar_place,
-  .coordinate_unit = "m",
   .coordinate = baum_i_axis_joint_coordinate,
   .coordinate_linearize = baum_i_axis_joint_coordinate_linearize,
 };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What planar joints and forces share: checks of their common fields, points in body axes, packing.
+/* What planar joints and forces share: checks of their common fields, points in body axes.
  *
  * A point given in ground axes of the design configuration becomes s = A^T (point - r) on a body drawn at r.
  */
@@ -16,15 +16,10 @@ static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */
 
-/* Ground is of no type. */
-static baum_i_frame_kind frame_of(const baum_i_body *body)
-{
-  return body->type ? body->type->frame : BAUM_I_FRAME_GROUND;
-}
-
 static bool has_angle(const baum_i_body *body)
 {
-  return frame_of(body) == BAUM_I_FRAME_BODY || frame_of(body) == BAUM_I_FRAME_GROUND;
+  baum_i_frame_kind kind = baum_i_frame_of(body);
+  return kind == BAUM_I_FRAME_BODY || kind == BAUM_I_FRAME_GROUND;
 }
 
 static const char *body_label(const baum_i_body *body, char text[BAUM_I_LABEL_SIZE])
@@ -40,7 +35,7 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
     return status;
   }
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
-  if (frame_of(body) == BAUM_I_FRAME_NONE) {
+  if (baum_i_frame_of(body) == BAUM_I_FRAME_NONE) {
     char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no place in the plane", label,
                        field, body_label(body, text));
@@ -195,19 +190,6 @@ baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def
   return status;
 }
 
-baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body)
-{
-  const baum_i_body *drawn = mechanism->bodies[body];
-  baum_i_frame_kind kind = frame_of(drawn);
-  double q[3] = {0.0};
-  if (kind == BAUM_I_FRAME_PARTICLE || kind == BAUM_I_FRAME_BODY) {
-    double v[3];
-    bool held;
-    drawn->type->design(drawn->element.def, q, v, &held);
-  }
-  return baum_i_frame_at(kind, q, NULL);
-}
-
 /* A point in ground axes, design configuration, to a body's axes. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
                             const char *label, double s[2])
@@ -247,52 +229,24 @@ baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *de
   return status == BAUM_OK ? place_on(mechanism, b, head->point, label, s + 2) : status;
 }
 
-/* ---- packing: three columns per body to its nv ---- */
+/* ---- extent ---- */
 
-void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
-                          double *six)
+static void include_marker(baum_i_box *box, const baum_i_frame *f, const double s[2])
 {
-  for (int k = 0; k < span->body_count; k++) {
-    const baum_i_body *body = point->mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < 3; i++) {
-      six[3 * k + i] = x && i < body->nv ? x[body->v + i] : 0.0;
-    }
+  if (is_given(s)) {
+    baum_i_marker marker = baum_i_marker_on(f, s);
+    baum_i_box_include(box, marker.r[0], marker.r[1]);
   }
 }
 
-void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double *six, double *x)
+void baum_i_planar_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                          baum_i_box *box)
 {
-  for (int k = 0; k < span->body_count; k++) {
-    const baum_i_body *body = mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < body->nv; i++) {
-      x[body->v + i] += six[3 * k + i];
-    }
-  }
-}
-
-void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                            const double *six, double *packed)
-{
-  for (int row = 0; row < rows; row++) {
-    for (int k = 0; k < span->body_count; k++) {
-      int nv = mechanism->bodies[span->bodies[k]]->nv;
-      for (int i = 0; i < nv; i++) {
-        *packed++ = six[i];
-      }
-      six += 3;
-    }
-  }
-}
-
-void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double *six, double *packed)
-{
-  /* Three rows of each body, of which it has the first nv. */
-  ptrdiff_t rows_size = (ptrdiff_t)9 * span->body_count;
-  for (int k = 0; k < span->body_count; k++) {
-    int nv = mechanism->bodies[span->bodies[k]]->nv;
-    baum_i_planar_pack(mechanism, span, nv, six + rows_size * k, packed);
-    packed += (ptrdiff_t)nv * span->nl;
-  }
+  const baum_i_planar_head *head = joint->element.def;
+  baum_i_frame ground = baum_i_design_frame(mechanism, 0);
+  baum_i_frame fa = baum_i_design_frame(mechanism, joint->span.bodies[0]);
+  baum_i_frame fb = baum_i_design_frame(mechanism, joint->span.bodies[1]);
+  include_marker(box, &ground, head->point);
+  include_marker(box, &fa, head->point_a);
+  include_marker(box, &fb, head->point_b);
 }

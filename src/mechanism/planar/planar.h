@@ -1,23 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What planar joints and forces share: placing, markers, and packing of their two bodies' columns.
+/* What planar joints and forces share: placing and markers.
  *
  * A marker is a point fixed on a body. With the arm p = A s (s on the body, p in ground axes) and
  * p' = k x p = (-p_y, p_x):
  *   r = origin + p,   r' = v + w p',   r'' = a + alpha p' - w^2 p.
- * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b; packing leaves out what a
- * particle (angle) or ground (all) does not have.
+ * Kernels write over the six columns x_a y_a angle_a x_b y_b angle_b (general/columns.h).
  */
 #ifndef BAUM_I_MECHANISM_PLANAR_PLANAR_H
 #define BAUM_I_MECHANISM_PLANAR_PLANAR_H
 
-#include <string.h>
-
 #include <baum/planar.h>
 #include <baum/planar_joints.h>
 
-#include "base/hot.h"
 #include "base/pair.h"
-#include "mechanism/mechanism.h"
+#include "mechanism/general/columns.h"
 
 /* The fields that every planar joint and spring definition begins with. */
 typedef struct baum_i_planar_head {
@@ -102,78 +98,8 @@ bool baum_i_is_weld(const baum_i_joint *joint);
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
                                  const char *label, double s[4]);
 
-/* Drawn frame of a body, from its definition, at rest; valid before freeze. */
-baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
-
-/* What is said below of six columns holds for the three of a span of one body as well. */
-
-/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
- * absent, all for NULL. */
-void baum_i_planar_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
-                          double *six);
-
-/* The same as baum_i_planar_scatter(), whatever the bodies are. */
-void baum_i_planar_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double *six, double *x);
-
-BAUM_I_INLINE void baum_i_planar_add_three(const double *three, double *x)
-{
-  baum_i_store(x, baum_i_load(x) + (baum_i_pair){three[0], three[1]});
-  x[2] += three[2];
-}
-
-/* Add six numbers to the bodies' places in a vector over v. */
-BAUM_I_INLINE void baum_i_planar_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
-                                         const double *six, double *x)
-{
-  bool pair = span->body_count == 2;
-  if (pair && span->nl == 6) {
-    baum_i_planar_add_three(six, x + span->columns[0]);
-    baum_i_planar_add_three(six + 3, x + span->columns[3]);
-  } else if (pair && span->nl == 3) {
-    baum_i_planar_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
-  } else {
-    baum_i_planar_scatter_any(mechanism, span, six, x);
-  }
-}
-
-/* Three numbers of a span of one body. */
-BAUM_I_INLINE void baum_i_planar_scatter_one(const baum_mechanism *mechanism,
-                                             const baum_i_span *span, const double *three,
-                                             double *x)
-{
-  if (span->nl == 3) {
-    baum_i_planar_add_three(three, x + span->columns[0]);
-  } else {
-    baum_i_planar_scatter_any(mechanism, span, three, x);
-  }
-}
-
-/* The same as baum_i_planar_pack(), whatever the bodies are. */
-void baum_i_planar_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                            const double *six, double *packed);
-
-/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the ground. */
-BAUM_I_INLINE void baum_i_planar_pack(const baum_mechanism *mechanism, const baum_i_span *span,
-                                      int rows, const double *six, double *packed)
-{
-  bool pair = span->body_count == 2;
-  if (pair && span->nl == 6) {
-    memcpy(packed, six, (size_t)(6 * rows) * sizeof *six);
-  } else if (pair && span->nl == 3) {
-    bool first = span->bodies[1] == 0;
-    for (int row = 0; row < rows; row++, six += 6) {
-      for (int i = 0; i < 3; i++) {
-        *packed++ = first ? six[i] : six[3 + i];
-      }
-    }
-  } else {
-    baum_i_planar_pack_any(mechanism, span, rows, six, packed);
-  }
-}
-
-/* 6 x 6 to nl x nl. */
-void baum_i_planar_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                               const double *six, double *packed);
+/* Include the points of a joint's definition; for the `extent` function of types. */
+void baum_i_planar_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                          baum_i_box *box);
 
 #endif

@@ -185,7 +185,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     double torque = numbers[TORQUE] * set_force(element->element.def, point, frame, numbers, f);
     baum_i_pair arm = baum_i_arm_on(frame, numbers + POINT);
     const double three[3] = {f[0], f[1], arm[0] * f[1] - arm[1] * f[0] + torque};
-    baum_i_planar_scatter_one(point->mechanism, &element->span, three, out);
+    baum_i_columns_scatter_one(point->mechanism, &element->span, three, out);
   }
   return BAUM_OK;
 }
@@ -222,8 +222,8 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     load l = load_at(element, point);
     double three[9] = {0.0};
     set_force_q(&l, three);
-    baum_i_planar_pack_square(point->mechanism, &element->span, three,
-                              blocks->force_q + element->square);
+    baum_i_columns_pack_square(point->mechanism, &element->span, three,
+                               blocks->force_q + element->square);
   }
   return BAUM_OK;
 }

@@ -7,18 +7,18 @@ void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanis
 {
   const baum_i_span *span = &joint->span;
   if (blocks->jw_q) {
-    baum_i_planar_pack(mechanism, span, joint->rows, six->jw_q, blocks->jw_q + joint->jacobian);
+    baum_i_columns_pack(mechanism, span, joint->rows, six->jw_q, blocks->jw_q + joint->jacobian);
   }
   if (blocks->jtl_q) {
-    baum_i_planar_pack_square(mechanism, span, six->jtl_q, blocks->jtl_q + joint->square);
+    baum_i_columns_pack_square(mechanism, span, six->jtl_q, blocks->jtl_q + joint->square);
   }
   if (blocks->gamma_q) {
-    baum_i_planar_pack(mechanism, span, joint->rows, six->gamma_q,
-                       blocks->gamma_q + joint->jacobian);
+    baum_i_columns_pack(mechanism, span, joint->rows, six->gamma_q,
+                        blocks->gamma_q + joint->jacobian);
   }
   if (blocks->gamma_v) {
-    baum_i_planar_pack(mechanism, span, joint->rows, six->gamma_v,
-                       blocks->gamma_v + joint->jacobian);
+    baum_i_columns_pack(mechanism, span, joint->rows, six->gamma_v,
+                        blocks->gamma_v + joint->jacobian);
   }
 }
 

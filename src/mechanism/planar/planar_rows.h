@@ -101,8 +101,8 @@ BAUM_I_INLINE void baum_i_planar_put_jacobian(const baum_i_joint *joint, const b
 {
   double six[BAUM_I_PLANAR_ROWS * BAUM_I_PLANAR_COLUMNS];
   kernels->jacobian(pair, six);
-  baum_i_planar_pack(point->mechanism, &joint->span, kernels->rows, six,
-                     jacobian + joint->jacobian);
+  baum_i_columns_pack(point->mechanism, &joint->span, kernels->rows, six,
+                      jacobian + joint->jacobian);
 }
 
 /* Phi, J and gamma, which have much in common: found first, stored then. */
@@ -160,7 +160,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   static const double none[BAUM_I_PLANAR_ROWS] = {0.0};
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   double w_six[BAUM_I_PLANAR_COLUMNS];
-  baum_i_planar_gather(point, &joint->span, w, w_six);
+  baum_i_columns_gather(point, &joint->span, w, w_six);
   baum_i_planar_blocks six = {.jw_q = {0.0}};
   kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
   baum_i_planar_put(joint, point->mechanism, &six, blocks);

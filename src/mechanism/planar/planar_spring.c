@@ -16,8 +16,8 @@
 #include <math.h>
 
 #include "mechanism/definition.h"
-#include "mechanism/general/separation.h"
 #include "mechanism/general/spring_law.h"
+#include "mechanism/planar/separation.h"
 
 /* Parameters; s_a and s_b come first. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
@@ -165,7 +165,7 @@ static baum_status add_one(const baum_i_force *element, baum_i_point *point, dou
   baum_i_pair pull = t.value * e;
   const double six[6] = {pull[0],  pull[1],  baum_i_dot(baum_i_turned(p), pull),
                          -pull[0], -pull[1], -baum_i_dot(baum_i_turned(s), pull)};
-  baum_i_planar_scatter(point->mechanism, &element->span, six, out);
+  baum_i_columns_scatter(point->mechanism, &element->span, six, out);
   return status;
 }
 
@@ -218,11 +218,11 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     double v[6];
     baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
     set_force_q(&s, &t, v, six);
-    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
   }
   if (blocks->force_v) {
     set_force_v(&s, &t, six);
-    baum_i_planar_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
   }
   return status;
 }

@@ -98,7 +98,7 @@ static void put_square(const baum_i_force *force, const baum_mechanism *mechanis
     six[6 * 2 + 5] = factor;
     six[6 * 5 + 2] = factor;
     six[6 * 5 + 5] = -factor;
-    baum_i_planar_pack_square(mechanism, &force->span, six, squares + force->square);
+    baum_i_columns_pack_square(mechanism, &force->span, six, squares + force->square);
   }
 }
 
@@ -112,7 +112,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     baum_i_tension t;
     status = torque_at(element, point, &t);
     const double six[6] = {0.0, 0.0, t.value, 0.0, 0.0, -t.value};
-    baum_i_planar_scatter(point->mechanism, &element->span, six, out);
+    baum_i_columns_scatter(point->mechanism, &element->span, six, out);
   }
   return status;
 }

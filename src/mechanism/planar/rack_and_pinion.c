@@ -117,6 +117,7 @@ static const baum_i_joint_type type = {
   .scleronomic = true,
   .row_count = 1,
   .bodies = baum_i_planar_bodies,
+  .extent = baum_i_planar_extent,
   .lower = lower,
   .evaluate = evaluate,
   .linearize = linearize,

@@ -8,8 +8,8 @@
  *   F_q  = G^T d                                                             (6)
  *   F_qq = G^T G + diag(0 0 d . p_a 0 0 -d . p_b)                            (6 x 6), symmetric
  */
-#ifndef BAUM_I_MECHANISM_GENERAL_SEPARATION_H
-#define BAUM_I_MECHANISM_GENERAL_SEPARATION_H
+#ifndef BAUM_I_MECHANISM_PLANAR_SEPARATION_H
+#define BAUM_I_MECHANISM_PLANAR_SEPARATION_H
 
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* F_qq = G^T G + diag(0 0 d . p_a 0 0 -d . p_b), see separation.h. */
-#include "mechanism/general/separation.h"
+#include "mechanism/planar/separation.h"
 
 #include <math.h>
 

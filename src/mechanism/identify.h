@@ -1,0 +1,52 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Who is who in a mechanism: ids, owners of rows and columns, labels for messages, and the checks of
+ * ids and stages. */
+#ifndef BAUM_I_MECHANISM_IDENTIFY_H
+#define BAUM_I_MECHANISM_IDENTIFY_H
+
+#include "mechanism/model.h"
+
+/* Index of an id's element, or -1: none, foreign or out of range. Ground gives 0 for bodies. */
+int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
+int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
+int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* from 0 */
+int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
+
+/* Check an id used in a definition. The sentence says whether it is none, or of another
+ * mechanism. */
+baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
+                              const char *field);
+baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
+                               const char *field);
+baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
+                               const char *field);
+
+baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
+                               const char *field);
+/* An id and the value it shall have. */
+baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
+                                     const char *call, double value);
+
+/* Initial inputs (input_count); NULL while there are none. */
+const double *baum_i_initial_inputs(const baum_mechanism *mechanism);
+
+/* Check that a call got a mechanism that is not yet frozen: BAUM_OK, BAUM_ERR_ARGUMENT (NULL),
+ * BAUM_ERR_STATE. */
+baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call);
+
+/* Check that a call got a frozen mechanism: BAUM_OK, BAUM_ERR_ARGUMENT (NULL), BAUM_ERR_STATE. */
+baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call);
+
+/* Joint that owns a row, and body that owns a velocity; frozen only. */
+int baum_i_row_joint(const baum_mechanism *mechanism, int row);
+const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
+baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
+
+/* `joint 2 "B"` into text; returns text. Number from 1. */
+enum { BAUM_I_LABEL_SIZE = 128 };
+const char *baum_i_label(const baum_i_element *element, const char *family,
+                         char text[BAUM_I_LABEL_SIZE]);
+const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
+                               char text[BAUM_I_LABEL_SIZE]);
+
+#endif

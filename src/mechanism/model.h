@@ -1,0 +1,388 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The types of a mechanism: elements (bodies, joints, forces), their types, the point where they
+ * are evaluated, and the frozen structure. What is done to the whole is in mechanism.h.
+ *
+ * An element type is one const struct of functions; adding a joint is one file with such a struct
+ * and its four public functions (definition.h). Functions work on groups: all elements of
+ * one type in one call. Structure and numbers are apart: after freeze the structure is constant,
+ * and every mass, length and stiffness lives in one parameter array.
+ *
+ * Body 0 is ground. A body id's index1 is the index here; BAUM_GROUND's is -1.
+ */
+#ifndef BAUM_I_MECHANISM_MODEL_H
+#define BAUM_I_MECHANISM_MODEL_H
+
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <baum/mechanism.h>
+
+#include "base/digest.h"
+
+/* ---- elements ---- */
+
+/* How a definition struct is filled, checked and owned. */
+typedef struct baum_i_definition {
+  const char *kind;     /* "planar body", for messages */
+  size_t size;          /* of the struct */
+  const void *defaults; /* one with the defaults; its struct_size is `size` */
+  /* Where the fields of former versions ended that had padding in which a later field lies;
+   * 0 ends the list. NULL: none. */
+  const size_t *former;
+  /* Check every field; the sentence starts with label, such as: joint 2 "B".
+   * NULL members and ids too. */
+  baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
+  /* Replace what the copy points to (not its name) by own copies: BAUM_OK or BAUM_ERR_MEMORY, then
+   * nothing is owned. NULL when there is nothing. */
+  baum_status (*own)(void *def);
+  void (*release)(void *def); /* free what own() made. NULL likewise. */
+  /* The name of a field that a new definition may not change, but does, beside bodies and size; or
+   * NULL. NULL when there is none. */
+  const char *(*tied)(const void *present, const void *next);
+  /* What tells this one from others beside its bodies and the numbers of lower(): flags, arrays, inputs. NULL when
+   * there is nothing. */
+  void (*digest)(const void *def, baum_i_digest *sum);
+} baum_i_definition;
+
+/* Every definition struct begins with these two. */
+typedef struct baum_i_def_head {
+  size_t struct_size;
+  const char *name;
+} baum_i_def_head;
+
+/* What all elements have; first member of each. */
+typedef struct baum_i_element {
+  const baum_i_definition *definition;
+  void *def;     /* own copy; its name points to `name` or is NULL */
+  char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */
+  int index;     /* in its family; bodies from 1 */
+  int parameter; /* start of its numbers in the parameter array; set at freeze */
+} baum_i_element;
+
+/* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its
+ * bodies one after the other, ground left out. Set at freeze but for bodies and body_count. */
+typedef struct baum_i_span {
+  int body_count;
+  int *bodies;  /* (body_count) indices, 0 = ground */
+  int nl;       /* number of local columns */
+  int *columns; /* (nl) columns in v (and, all bodies having nq = nv so far, in q) */
+} baum_i_span;
+
+/* Where a body's frame comes from. */
+typedef enum baum_i_frame_kind {
+  BAUM_I_FRAME_NONE,     /* user coordinates: no place in the plane */
+  BAUM_I_FRAME_PARTICLE, /* x, y */
+  BAUM_I_FRAME_BODY,     /* x, y, angle */
+  BAUM_I_FRAME_GROUND
+} baum_i_frame_kind;
+
+typedef struct baum_i_body_type baum_i_body_type;
+typedef struct baum_i_joint_type baum_i_joint_type;
+typedef struct baum_i_force_type baum_i_force_type;
+
+typedef struct baum_i_body {
+  baum_i_element element;
+  const baum_i_body_type *type;
+  baum_i_span span; /* itself; columns set at freeze */
+  int q;            /* first position */
+  int v;            /* first velocity */
+  int nv;           /* number of both */
+  int mass;         /* start of its nv x nv values in the mass blocks */
+} baum_i_body;
+
+typedef struct baum_i_joint {
+  baum_i_element element;
+  const baum_i_joint_type *type;
+  baum_i_span span;
+  int row;
+  int rows;
+  int jacobian; /* start of its rows x nl values */
+  int square;   /* start of its nl x nl values, for second derivatives */
+} baum_i_joint;
+
+typedef struct baum_i_force {
+  baum_i_element element;
+  const baum_i_force_type *type;
+  baum_i_span span;
+  int square; /* start of its nl x nl values */
+} baum_i_force;
+
+typedef struct baum_i_body_group {
+  const baum_i_body_type *type;
+  int count;
+  const baum_i_body **bodies; /* (count) */
+} baum_i_body_group;
+
+typedef struct baum_i_joint_group {
+  const baum_i_joint_type *type;
+  int count;
+  const baum_i_joint **joints; /* (count) */
+} baum_i_joint_group;
+
+typedef struct baum_i_force_group {
+  const baum_i_force_type *type;
+  int count;
+  const baum_i_force **forces; /* (count) */
+} baum_i_force_group;
+
+/* ---- a point in state space ---- */
+
+/* Place of a body's axes: every planar element reads this instead of q. One cache line. */
+typedef struct baum_i_frame {
+  double x, y;   /* origin */
+  double vx, vy; /* velocities; zero at position level */
+  double c, s;   /* cos, sin of the angle */
+  double w;      /* angular velocity; zero at position level */
+  double angle;  /* continuous */
+} baum_i_frame;
+
+/* Where a body's frame comes from. */
+typedef struct baum_i_body_place {
+  int32_t q;    /* first position */
+  int32_t kind; /* baum_i_frame_kind */
+} baum_i_body_place;
+
+typedef struct baum_i_frames_kernel baum_i_frames_kernel;
+
+baum_i_frame_kind baum_i_frame_of(const baum_i_body *body);
+
+/* Frame of a body at its q, and its v or NULL for rest; those without a place are at the origin. */
+baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v);
+
+/* Where functions are evaluated. Belongs to a workspace; one thread at a time. */
+typedef struct baum_i_point {
+  const baum_mechanism *mechanism;
+  const double *parameters; /* of the mechanism, or a caller's own copy */
+  double t;
+  const double *q;
+  const double *v;      /* NULL at position level */
+  baum_i_frame *frames; /* (body_count + 1), ground first */
+  const baum_i_frames_kernel *kernel;
+  const double *inputs; /* (input_count) present values; NULL while there are none */
+  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
+  bool retry;           /* set when the last failure may vanish with a smaller step */
+  bool asking;          /* within a function of the user, who may not ask anything of this point */
+} baum_i_point;
+
+/* Of a body as it is drawn, from its definition, at rest; valid before freeze. */
+baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
+
+/* Memory of a point, with the mechanism's own numbers and initial inputs. BAUM_OK or
+ * BAUM_ERR_MEMORY; then, too, what there is has to be released. */
+baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
+void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
+
+/* Set t, q (and v, may be NULL) and the frames. q and v are referred to, not copied. */
+void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v);
+
+/* ---- types ---- */
+
+/* The smallest box around points in ground axes. */
+typedef struct baum_i_box {
+  double low[2];
+  double high[2];
+} baum_i_box;
+
+void baum_i_box_include(baum_i_box *box, double x, double y);
+
+/* What is wanted of all constraint rows; NULL members are not. Rows of nu whose joint is
+ * scleronomic are left as they are: they hold zeros. */
+typedef struct baum_i_rows {
+  double *phi;      /* (nc) */
+  double *jacobian; /* (jacobian_size) */
+  double *nu;       /* (nc) */
+  double *gamma;    /* (nc); needs velocities */
+} baum_i_rows;
+
+/* Blocks of second derivatives of a joint, row-major over its local columns; each starts at the
+ * joint's `jacobian` (rows x nl) or `square` (nl x nl) in the array given. NULL where not wanted.
+ * Set, not added. */
+typedef struct baum_i_joint_blocks {
+  double *jw_q;    /* (J w)_q, rows x nl */
+  double *jtl_q;   /* (J^T lambda)_q, nl x nl */
+  double *gamma_q; /* rows x nl */
+  double *gamma_v; /* rows x nl */
+  double *nu_q;    /* rows x nl */
+} baum_i_joint_blocks;
+
+/* Blocks of a body, nv x nv at its `mass`. Set, not added. */
+typedef struct baum_i_body_blocks {
+  double *ma_q; /* (M a)_q */
+  double *force_q;
+  double *force_v;
+} baum_i_body_blocks;
+
+/* Blocks of a force, nl x nl at its `square`. Set, not added. */
+typedef struct baum_i_force_blocks {
+  double *force_q;
+  double *force_v;
+} baum_i_force_blocks;
+
+/* Powers [W] by class, for the energy account of a run. */
+typedef enum baum_i_power {
+  BAUM_I_POWER_LOADS,
+  BAUM_I_POWER_SPRINGS,
+  BAUM_I_POWER_DAMPERS,
+  BAUM_I_POWER_USER_FORCES,
+  BAUM_I_POWER_BODIES,
+  BAUM_I_POWERS
+} baum_i_power;
+
+struct baum_i_body_type {
+  baum_i_definition definition;
+  baum_i_frame_kind frame;
+  int parameter_count;
+  bool scleronomic;             /* mass and force of the type never depend on t */
+  bool constant_force;          /* force of the type depends on parameters only */
+  int nv;                       /* of all of the type; 0: size() tells */
+  int (*size)(const void *def); /* of one; or NULL */
+  bool (*constant_mass)(const void *def);
+  /* Numbers of this body; NULL: none. */
+  void (*lower)(const baum_i_body *body, double *parameters);
+  /* Start pose, and given velocities or NaN. */
+  void (*design)(const void *def, double *q, double *v, bool *held);
+  /* (nv) relevant change of each coordinate. */
+  void (*scale)(const void *def, double length, double *scale);
+  /* Sets its blocks. */
+  baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
+  /* Adds to (nv). */
+  baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
+  /* Adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum);
+  /* One body. a (nv); blocks arrive zeroed. NULL: they stay so. */
+  baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
+                           const baum_i_body_blocks *blocks);
+  /* Adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and M' = 0. */
+  baum_status (*power)(const baum_i_body_group *group, baum_i_point *point,
+                       double power[BAUM_I_POWERS]);
+  /* Compare given derivatives with differences; NULL: nothing given. */
+  baum_status (*check)(const baum_i_body *body, baum_i_point *point);
+};
+
+/* A joint's coordinate for drivers and channels:
+ * over its six columns x_a y_a angle_a x_b y_b angle_b. */
+typedef struct baum_i_coordinate {
+  double value;
+  double rate;
+  double gradient[6];
+  double gamma; /* so that gradient a = (coordinate)'' + gamma */
+} baum_i_coordinate;
+
+/* Second derivatives of a coordinate: for w and a multiplier l, as in baum_i_joint_blocks. */
+typedef struct baum_i_coordinate_blocks {
+  double jw_q[6];
+  double jtl_q[36];
+  double gamma_q[6];
+  double gamma_v[6];
+} baum_i_coordinate_blocks;
+
+struct baum_i_joint_type {
+  baum_i_definition definition;
+  int parameter_count;
+  bool planar;      /* two planar bodies: reaction is force and moment */
+  bool scleronomic; /* Phi never depends on t */
+  bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
+  bool drives;      /* one row: the coordinate of another joint minus a function of time */
+  /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
+   * NULL: there is no law. */
+  void (*replace_law)(double *parameters, double t0, const double s[3]);
+  int row_count;                /* of all of the type; 0: rows() tells */
+  int (*rows)(const void *def); /* of one; or NULL */
+  /* Fills body_count; and bodies if not NULL. */
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+  /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
+   * sentence. */
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                       double *parameters);
+  /* Sets its rows and blocks of what is wanted. */
+  baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
+                          const baum_i_rows *rows);
+  /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
+  baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                           const double *lambda, const baum_i_joint_blocks *blocks);
+  /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
+  void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+  /* Include its points in the design configuration; NULL: it has none. */
+  void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
+  /* Only joints with a coordinate, else NULL. */
+  bool is_angle; /* [rad], else [m] */
+  /* Whether this one has it, of a checked definition; NULL: all have. */
+  baum_status (*check_coordinate)(const baum_mechanism *mechanism, const void *def,
+                                  const char *label);
+  void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
+  void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
+                               const double w[6], double lambda, baum_i_coordinate_blocks *out);
+  baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
+  /* Relative error of derivatives by differences; NULL: none are taken. */
+  double (*noise)(const void *def);
+};
+
+struct baum_i_force_type {
+  baum_i_definition definition;
+  int parameter_count;
+  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
+  baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
+                       double *parameters);
+  /* Adds to (nv). */
+  baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
+  /* Adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
+  /* One force. Blocks arrive zeroed. */
+  baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
+                           const baum_i_force_blocks *blocks);
+  /* Adds g^T v without what comes of the potential, by class; or with it, and power_is_whole. */
+  baum_status (*power)(const baum_i_force_group *group, baum_i_point *point,
+                       double power[BAUM_I_POWERS]);
+  bool power_is_whole;
+  baum_status (*check)(const baum_i_force *force, baum_i_point *point);
+};
+
+/* ---- the mechanism ---- */
+
+struct baum_mechanism {
+  atomic_int references;
+  uint32_t tag; /* shared by copies */
+  bool frozen;
+  double gravity[3];
+  double given_length; /* NaN: not set */
+
+  int body_count;       /* without ground */
+  baum_i_body **bodies; /* (body_count + 1), [0] is ground */
+  int joint_count;
+  baum_i_joint **joints;
+  int force_count;
+  baum_i_force **forces;
+  int input_count;
+  char **input_names;
+  double *inputs; /* (input_count) initial values */
+  int break_count;
+  double *breaks; /* (break_count) [s] rising */
+
+  /* Set at freeze. */
+  int nq, nv, nc;
+  int mass_size;     /* values in all mass blocks */
+  int jacobian_size; /* values in all row blocks */
+  int joint_square_size;
+  int force_square_size;
+  int scratch_size;
+  int parameter_count;
+  bool constant_mass;
+  double length;             /* scale L */
+  baum_i_body_place *places; /* (body_count + 1) */
+  bool all_planar;           /* every body has the three coordinates of a planar body */
+  double *parameters;
+  double *design_q; /* (nq) */
+  double *design_v; /* (nv) NaN where free */
+  bool *held;       /* (nq) */
+  double *scale;    /* (nv) relevant change of each coordinate */
+  int body_group_count;
+  baum_i_body_group *body_groups;
+  int joint_group_count;
+  baum_i_joint_group *joint_groups;
+  int force_group_count;
+  baum_i_force_group *force_groups;
+};
+
+#endif
