@@ -28,7 +28,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "integrate/rk_pose.h"
+#include "integrate/rk_crossing.h"
 #include "integrate/step_control.h"
 
 /* An evaluation that failed in a try, for which a smaller step was taken. */
@@ -54,7 +54,7 @@ typedef struct adaptive_run {
   bool unfinished; /* a start or step that failed must be begun anew */
   int64_t rejected;
   int64_t forced;
-  baum_i_rk_pose pose;
+  baum_i_rk_crossing crossing;
   failure last;
 } adaptive_run;
 
@@ -186,7 +186,7 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
     remember(run, status);
     return fail_with_evaluation(run, 0.0);
   }
-  baum_i_rk_pose_begin(&run->pose, &run->rk, problem, run->t);
+  baum_i_rk_crossing_begin(&run->crossing, &run->rk, problem, run->t);
   baum_i_step_control_begin(&run->control, run->pair->error_order, first_step(run, problem));
   run->unfinished = false;
   return BAUM_OK;
@@ -207,7 +207,7 @@ static void go_on(adaptive_run *run, const baum_i_problem *problem)
   memcpy(rk->start, run->end, bytes);
   memcpy(rk->rates, baum_i_rk_rate(rk, rk->table->stages), bytes);
   run->has_step = false;
-  baum_i_rk_pose_go_on(&run->pose, rk, problem, run->control.step);
+  baum_i_rk_crossing_go_on(&run->crossing, rk, problem, run->control.step);
 }
 
 static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
@@ -325,7 +325,7 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
 /* Error that is accepted, in units of the tolerance. */
 static double largest_error(const adaptive_run *run, const baum_i_problem *problem, bool forced)
 {
-  return fmax(1.0, baum_i_rk_pose_error(&run->pose, run->h, forced) / problem->rtol);
+  return fmax(1.0, baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol);
 }
 
 /* The error counts where evaluations have not failed. */
@@ -334,25 +334,25 @@ static void refuse(adaptive_run *run, const baum_i_problem *problem, baum_status
 {
   double known = status == BAUM_OK ? error : (double)INFINITY;
   baum_i_step_control_refuse(&run->control, fabs(run->h), known);
-  baum_i_rk_pose_refuse(&run->pose, &run->rk, problem, run->h);
+  baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
   run->rejected++;
 }
 
 /* Tries until one is accepted. */
 static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
-  baum_i_rk_pose_look(&run->pose, &run->rk, problem, run->t);
-  for (int k = 0; k < MOST_TRIES && !baum_i_rk_pose_is_held(&run->pose); k++) {
+  baum_i_rk_crossing_look(&run->crossing, &run->rk, problem, run->t);
+  for (int k = 0; k < MOST_TRIES && !baum_i_rk_crossing_is_held(&run->crossing); k++) {
     double error = 0.0;
     bool forced = false;
-    double length = baum_i_rk_pose_length(&run->pose, run->control.step, &forced);
+    double length = baum_i_rk_crossing_length(&run->crossing, run->control.step, &forced);
     baum_status status = choose_end(run, problem, length);
     if (status != BAUM_OK) {
       return status;
     }
     double most = largest_error(run, problem, forced);
     status = try_step(run, problem, most, &error);
-    if (status == BAUM_OK && error <= most && baum_i_rk_pose_may_end(&run->pose, problem)) {
+    if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
       run->forced += error > 1.0;
       accept(run, fmin(error, 1.0), length, state);
       return BAUM_OK;
@@ -364,7 +364,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
       }
     }
     if (forced || status != BAUM_OK) {
-      run->pose.least = 0.0; /* for another reason, perhaps */
+      run->crossing.least = 0.0; /* for another reason, perhaps */
     }
     refuse(run, problem, status, error > most ? error : (double)INFINITY);
   }
@@ -492,7 +492,7 @@ baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_p
     return status;
   }
   run->pair = pair;
-  baum_i_rk_pose_open(&run->pose, &pair->table);
+  baum_i_rk_crossing_open(&run->crossing, &pair->table);
   run->end = more;
   run->weights = run->end + run->rk.size;
   run->dense = run->weights + run->rk.size;

@@ -451,22 +451,6 @@ static int node_count(const baum_simulation *run)
   return order > 4 ? 3 : 2;
 }
 
-baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out)
-{
-  const baum_workspace *w = run->workspace;
-  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, out);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_redundancy *mine = &(*out)->redundancy;
-  mine->rank = w->redundancy.rank;
-  mine->rank_at_start = w->redundancy.rank_at_start;
-  mine->count = w->redundancy.count;
-  memcpy(mine->omitted, w->redundancy.omitted, (size_t)w->mechanism->nc);
-  (*out)->blocks_only = w->blocks_only;
-  return baum_i_use_blocks(*out);
-}
-
 static baum_status make_memory(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;

@@ -8,7 +8,6 @@
  * inside the last, and this copy is projected if the formulation says so.
  */
 #include <math.h>
-#include <string.h>
 
 #include "mechanism/definition.h"
 #include "simulate/account.h"
@@ -22,68 +21,6 @@
 static const double SAME_TIME = 1e-9;
 
 /* ---- one step of fixed length, on the trial state ---- */
-
-static baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  for (int i = 0; i < m->nv; i++) {
-    if (!isfinite(state->q[i]) || !isfinite(state->v[i])) {
-      return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                         "t = %.9g s: the step to %.9g s gives values that are not finite; the run "
-                         "blows up: take a smaller step, or gains that are stable",
-                         run->state.t, state->t);
-    }
-  }
-  return BAUM_OK;
-}
-
-/* What a function of the user answers knows nothing of the run. */
-static baum_status explain_callback(const baum_simulation *run, baum_status status)
-{
-  if (status == BAUM_ERR_CALLBACK) {
-    baum_i_sentence reason;
-    baum_i_message_keep(&reason);
-    bool retry = run->workspace->point.retry;
-    (void)baum_i_fail(status, "t = %.9g s: %.600s%s%s%s", run->state.t, reason.text,
-                      retry ? "; " : "", retry ? run->integrator->name : "",
-                      retry ? " cannot take a smaller step" : "");
-  }
-  return status;
-}
-
-baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe)
-{
-  baum_i_state *trial = &run->trial;
-  const baum_i_state *state = &run->state;
-  baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
-  if (status != BAUM_OK) {
-    return baum_i_run_explain_failure(run, explain_callback(run, status), state);
-  }
-  if (observe) {
-    baum_i_crossings_note(run, state);
-    baum_i_run_observe(run, state->t, true);
-    baum_i_companion_follow(run, state);
-  }
-  memcpy(run->acceleration, run->workspace->a,
-         (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
-  baum_i_run_copy(run, state, trial);
-  status = baum_i_crossings_accelerate(run);
-  if (status == BAUM_OK) {
-    status =
-      run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
-  }
-  trial->t = t_next;
-  if (status == BAUM_OK) {
-    status = check_finite(run, trial);
-  }
-  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_crossings_project(run, t_next);
-  }
-  if (status == BAUM_OK && run->account) {
-    baum_i_account_step(run);
-  }
-  return baum_i_run_explain_failure(run, explain_callback(run, status), state);
-}
 
 static void keep_trial(baum_simulation *run)
 {
@@ -231,17 +168,7 @@ static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
 static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
-  baum_i_run_copy(run, &run->ahead, &run->trial);
-  if (run->events) {
-    run->events->from = run->ahead.t;
-  }
-  run->problem.stop = baum_i_run_next_break(run).near;
-  run->problem.stops = isfinite(run->problem.stop);
-  baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
-  status = baum_i_run_explain_failure(run, status, &run->ahead);
-  if (status == BAUM_OK) {
-    status = check_finite(run, &run->trial);
-  }
+  baum_status status = baum_i_run_try_own_step(run);
   if (status == BAUM_OK) {
     baum_i_crossings_step(run, &run->trial);
   }
@@ -264,20 +191,6 @@ static baum_status internal_step(baum_simulation *run)
 static void catch_up(baum_simulation *run)
 {
   baum_i_run_copy(run, &run->ahead, &run->state);
-}
-
-baum_status baum_i_run_inside(baum_simulation *run, double t)
-{
-  baum_status status =
-    run->integrator->interpolate(run->self, &run->problem, t, run->trial.q, run->trial.v);
-  if (status == BAUM_OK) {
-    run->trial.t = t;
-    status = check_finite(run, &run->trial);
-  }
-  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
-  }
-  return status;
 }
 
 /* Look at the last step, as far as t or its end; the run stands where an event stops it. */

@@ -2,15 +2,12 @@
 /* Declared breaks, of the mechanism and of scheduled inputs. At its time b a function has the value that it has
  * afterwards. So steps forward end a few roundings before b, where everything has its value from before, and the next
  * begins at b; backward in time they end at b and begin before it. In between nothing moves. Methods that carry their
- * past along begin anew there.
+ * past along restart there (restart.c).
  */
 #include "simulate/breaks.h"
 
 #include <float.h>
 #include <math.h>
-
-#include "simulate/account.h"
-#include "simulate/schedule.h"
 
 /* Of the largest time that the method reckons with: stages must not round to b. */
 static const double ROUNDINGS = 16.0;
@@ -85,27 +82,4 @@ bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next)
 {
   double left = run->problem.direction * (next.near - end_of_last_step(run));
   return isfinite(next.near) && left <= gap(run, next.near);
-}
-
-/* Kinematics have solved for the pose on the far side, whose velocities may be others. */
-static baum_status take_pose(baum_simulation *run)
-{
-  baum_i_state *state = &run->state;
-  return run->integrator->interpolate(run->self, &run->problem, state->t, state->q, state->v);
-}
-
-baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
-{
-  double before = run->state.t;
-  baum_i_run_end_before_change(run);
-  run->state.t = next.far;
-  baum_i_schedule_move(run, before, next.far);
-  baum_status status = baum_i_run_begin_anew(run);
-  if (status != BAUM_OK) {
-    run->state.t = before;
-    baum_i_schedule_move(run, next.far, before);
-    return status;
-  }
-  run->grid = (baum_i_grid){.origin = next.far};
-  return run->integrator->without_freedom ? take_pose(run) : BAUM_OK;
 }

@@ -17,8 +17,8 @@ baum_i_break baum_i_run_next_break(const baum_simulation *run);
 /* Does the last step end at its near side? */
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
 
-/* From the present state, which is at the near side, to the far one: methods that carry their past along begin anew, as
- * the grid does. As baum_i_run_begin_anew(). */
+/* restart.c: from the present state, which is at the near side, to the far one: methods that carry their past along
+ * restart, as the grid does. As baum_i_run_restart(). */
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crossings: how a run comes through poses that are close to singular. */
+/* Crossings: what a run has come through close to singular poses. It only watches; singular_step.h steps. */
 #ifndef BAUM_I_SIMULATE_CROSSING_H
 #define BAUM_I_SIMULATE_CROSSING_H
 
@@ -54,14 +54,6 @@ void baum_i_crossings_end(baum_simulation *run);
 
 /* Look at the state that has been noted last; may evaluate. What functions of the user answer is not told. */
 void baum_i_crossings_look(baum_simulation *run);
-
-/* Project the trial state, the end of a step of fixed length, onto the constraints at t; but so close to a singular pose
- * that rounding would move it by more than the step's error it stays. Statuses of baum_i_project(). */
-baum_status baum_i_crossings_project(baum_simulation *run, double t);
-
-/* A step of fixed length begins: in a singular pose run->acceleration is replaced by its limit. Statuses of an
- * evaluation at the present state, which is made again. */
-baum_status baum_i_crossings_accelerate(baum_simulation *run);
 
 /* A step of variable length that has just been taken. May evaluate; look at the end afterwards. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);

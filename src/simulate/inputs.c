@@ -1,60 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run from outside: inputs, and drivers with a law given by the run.
- *
- * Both change the right side of the equations abruptly. A fixed-step method begins every step from
- * the state alone and takes the change as it is; a variable-step method carries its past along and
- * begins anew from the present state, which may be behind the end of its last step.
- */
+/* What acts on a run from outside: inputs and their schedules, and drivers with a law given by the run. Both change the
+ * right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
 
+#include <baum/breaks.h>
+
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "simulate/account.h"
-#include "simulate/companion.h"
-#include "simulate/events.h"
 #include "simulate/schedule.h"
-
-static baum_status restart(baum_simulation *run)
-{
-  if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    return BAUM_OK;
-  }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  baum_i_run_copy(run, &run->state, &run->ahead);
-  if (run->account) {
-    baum_i_account_go_on(run);
-  }
-  baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
-  run->counters.restarts += status == BAUM_OK;
-  return baum_i_message_settle(status, &kept);
-}
-
-baum_status baum_i_run_begin_anew(baum_simulation *run)
-{
-  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = restart(run);
-  }
-  if (status == BAUM_OK) {
-    run->origin = run->state.t;
-    baum_i_companion_restart(run);
-  }
-  if (status == BAUM_OK && run->events) {
-    baum_i_events_go_on(run);
-  }
-  return status;
-}
-
-void baum_i_run_end_before_change(baum_simulation *run)
-{
-  if (run->account) {
-    baum_i_account_read(run, &run->state);
-  }
-  baum_i_companion_settle(run);
-}
 
 /* ---- inputs ---- */
 
@@ -78,7 +33,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   if (value != before) {
     baum_i_run_end_before_change(simulation);
     *present = value;
-    status = baum_i_run_begin_anew(simulation);
+    status = baum_i_run_restart(simulation);
   }
   if (status != BAUM_OK) {
     *present = before;
@@ -91,6 +46,139 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
 double baum_simulation_input(const baum_simulation *simulation, baum_input_id input)
 {
   return simulation ? baum_workspace_input(simulation->workspace, input) : (double)NAN;
+}
+
+/* ---- a schedule of an input ---- */
+
+/* What an input is given: values from times on, and `before` the first. */
+typedef struct given {
+  int64_t input;
+  const double *times;  /* (count) */
+  const double *values; /* (count) */
+  int count;
+  double before;
+} given;
+
+/* Jumps of other inputs that are not after t, from the k-th on. Returns the next. */
+static int take_others(const baum_i_schedule *old, int k, double t, int64_t input,
+                       baum_i_schedule *out)
+{
+  assert(out->jumps);
+  for (; k < old->count && old->jumps[k].t <= t; k++) {
+    if (old->jumps[k].input != input) {
+      out->jumps[out->count++] = old->jumps[k];
+    }
+  }
+  return k;
+}
+
+/* Both in order of time. A value that is the one before is no jump. */
+static void merge(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
+{
+  assert(out->jumps && g->times && g->values);
+  double before = g->before;
+  int next = 0;
+  for (int k = 0; k < g->count; k++) {
+    next = take_others(old, next, g->times[k], g->input, out);
+    if (g->values[k] != before) {
+      out->jumps[out->count++] =
+        (baum_i_jump){.t = g->times[k], .before = before, .after = g->values[k], .input = g->input};
+      before = g->values[k];
+    }
+  }
+  (void)take_others(old, next, (double)INFINITY, g->input, out);
+}
+
+/* The run takes a list that is made, and begins anew: the end of its last step may be behind a jump. */
+static baum_status begin_with(baum_simulation *run, const baum_i_schedule *made, int64_t input)
+{
+  double *present = &run->workspace->inputs[input];
+  double before = *present;
+  baum_i_schedule old = run->schedule;
+  baum_i_run_end_before_change(run);
+  run->schedule = *made;
+  baum_i_schedule_move(run, -(double)INFINITY, run->state.t);
+  baum_status status = baum_i_run_restart(run);
+  baum_i_free(status == BAUM_OK ? old.jumps : made->jumps);
+  if (status != BAUM_OK) {
+    run->schedule = old;
+    *present = before;
+  }
+  return status;
+}
+
+static baum_status replace(baum_simulation *run, const given *g)
+{
+  baum_i_schedule made = {.jumps = NULL};
+  baum_status status = baum_i_schedule_reserve(&made, run->schedule.count + g->count);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  merge(&run->schedule, g, &made);
+  return begin_with(run, &made, g->input);
+}
+
+static const char *const CALL = "baum_simulation_schedule_input";
+
+static baum_status check_entry(const baum_mechanism *m, const given *g, int k)
+{
+  assert(g->times && g->values);
+  const char *name = m->input_names[g->input];
+  int number = (int)g->input + 1;
+  double t = g->times[k];
+  if (!isfinite(t) || !isfinite(g->values[k])) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: input %d \"%.80s\": %s[%d] is %g%s, must be finite",
+                       CALL, number, name, isfinite(t) ? "values" : "times", k,
+                       isfinite(t) ? g->values[k] : t, isfinite(t) ? "" : " s");
+  }
+  if (k > 0 && t <= g->times[k - 1]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: input %d \"%.80s\": times[%d] is %.9g s, must be above times[%d], "
+                       "which is %.9g s",
+                       CALL, number, name, k, t, k - 1, g->times[k - 1]);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check(const baum_simulation *run, baum_input_id input, const double *times,
+                         const double *values, int32_t count)
+{
+  if (!run) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", CALL);
+  }
+  baum_status status = baum_i_check_input(run->workspace->mechanism, input, CALL, "input");
+  if (status == BAUM_OK && (count < 0 || (count > 0 && (!times || !values)))) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", CALL,
+                         count < 0 ? "count is negative" : "times or values are NULL");
+  }
+  return status == BAUM_OK ? baum_i_run_may_be_changed(run, CALL) : status;
+}
+
+baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,
+                                           const double *times, const double *values, int32_t count)
+{
+  baum_status status = check(simulation, input, times, values, count);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  int index = baum_i_input_index(simulation->workspace->mechanism, input);
+  given g = {.input = index,
+             .times = times,
+             .values = values,
+             .count = count,
+             .before = simulation->workspace->inputs[index]};
+  for (int k = 0; k < count && status == BAUM_OK; k++) {
+    status = check_entry(simulation->workspace->mechanism, &g, k);
+  }
+  if (status != BAUM_OK) {
+    return status;
+  }
+  if (count == 0) {
+    baum_i_schedule_end(simulation, index);
+    return BAUM_OK;
+  }
+  status = replace(simulation, &g);
+  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
 }
 
 /* ---- drivers ---- */
@@ -146,7 +234,7 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
   memcpy(before, numbers, size);
   baum_i_run_end_before_change(run);
   joint->type->replace_law(numbers, run->state.t, law);
-  baum_status status = baum_i_run_begin_anew(run);
+  baum_status status = baum_i_run_restart(run);
   if (status != BAUM_OK) {
     memcpy(numbers, before, size);
     return status;

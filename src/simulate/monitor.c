@@ -2,22 +2,10 @@
 /* What a run watches: violation and its joint, predicted violation, near-singular poses,
  * warnings, counters. */
 #include <math.h>
-#include <stdarg.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "base/sized.h"
-#include "base/text.h"
 #include "simulate/account.h"
 #include "simulate/crossing.h"
-
-/* ---- the sentence of the run ---- */
-
-baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
-{
-  memcpy(run->message, baum_message(), sizeof run->message);
-  return status;
-}
 
 /* ---- what is observed at every step ---- */
 

@@ -74,7 +74,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   tell_others(run);
   settle(run);
   baum_i_crossings_end(run);
-  baum_status status = baum_i_run_begin_anew(run);
+  baum_status status = baum_i_run_restart(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
     run->integrator->forget(run->self); /* pivots of other rows */
   }

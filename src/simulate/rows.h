@@ -6,7 +6,7 @@
 #include "simulate/run.h"
 
 /* At the present state, where the next step begins: leave out others where those that are kept have become poor; then
- * methods begin anew. Statuses of baum_i_run_begin_anew(). Nothing for kinematics. */
+ * methods begin anew. Statuses of baum_i_run_restart(). Nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
 /* Likewise for a state that comes from outside of the motion, with which all begins anew in any case. */

@@ -73,6 +73,7 @@ struct baum_simulation {
   baum_i_state state;       /* reported */
   baum_i_state ahead;       /* variable step: end of the last internal step */
   baum_i_state trial;       /* a step under way, or a sample beside the motion */
+  baum_i_state spare;       /* of a step near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
@@ -99,6 +100,32 @@ struct baum_simulation {
   double paced_at; /* [s] of a call: where its pace has last been looked at */
 };
 
+/* ---- run.c ---- */
+
+/* Time, positions and velocities from one state to another. */
+void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
+
+/* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
+baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
+
+enum { BAUM_I_NO_JOINT = -1 };
+
+/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first one keeps its text. */
+void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
+                     const char *format, ...) BAUM_I_PRINTF(5, 6);
+
+/* Is it of a kind that doubts the motion? */
+bool baum_i_doubts_motion(baum_warning_code code);
+
+/* Does the run have a warning of this kind? */
+bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code);
+
+/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
+baum_status baum_i_run_finish(baum_simulation *run);
+
+/* Remember the sentence of a failure in the run and return its status. */
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
+
 /* ---- start.c ---- */
 
 /* Bring a state onto the constraints as the option `start` says, into trial;
@@ -114,15 +141,6 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
 /* Make the trial state, just measured, the present one: grid and energy begin anew. */
 void baum_i_run_accept(baum_simulation *run, double energy);
-
-/* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
-baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
-
-/* What acts on the mechanism is about to change at the present state. */
-void baum_i_run_end_before_change(baum_simulation *run);
-
-/* Time, positions and velocities from one state to another. */
-void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
 /* ---- choose_gains.c, pilot.c ---- */
 
@@ -140,23 +158,6 @@ double baum_i_run_pilot(baum_simulation *run, double swing);
 /* Gains, and what they ask of the step, into the problem. */
 baum_status baum_i_run_choose_gains(baum_simulation *run);
 
-/* ---- warnings.c ---- */
-
-enum { BAUM_I_NO_JOINT = -1 };
-
-/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first one keeps its text. */
-void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
-                     const char *format, ...) BAUM_I_PRINTF(5, 6);
-
-/* Is it of a kind that doubts the motion? */
-bool baum_i_doubts_motion(baum_warning_code code);
-
-/* Does the run have a warning of this kind? */
-bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code);
-
-/* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
-baum_status baum_i_run_finish(baum_simulation *run);
-
 /* ---- monitor.c ---- */
 
 /* Violation, gamma and near-singular poses from the workspace's last velocity stage,
@@ -166,14 +167,6 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 /* The violation of the present state is the user's own, and no reason to doubt the motion. */
 void baum_i_run_excuse_violation(baum_simulation *run);
 
-/* Remember the sentence of a failure in the run and return its status. */
-baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
-
-/* failure.c: add to the sentence of a step that failed which joint and body to look at, at the last good state, and what
- * may help. Returns the status. */
-baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
-                                       const baum_i_state *at);
-
 /* Relative error of derivatives that user constraints do not give; 0: they give all. */
 double baum_i_difference_noise(const baum_mechanism *mechanism);
 
@@ -182,6 +175,15 @@ void baum_i_run_count(baum_simulation *run);
 
 /* Let the counters go on from what has been written into run->counters. */
 void baum_i_run_count_from_here(baum_simulation *run);
+
+/* ---- restart.c ---- */
+
+/* What acts on the mechanism is about to change at the present state. */
+void baum_i_run_end_before_change(baum_simulation *run);
+
+/* The equations change at the present state: methods that carry their past along begin anew from it, which may be
+ * behind the end of their last step. A method that fails here begins anew at its next step, and from the same state. */
+baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
@@ -199,23 +201,29 @@ baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *ca
 /* [s] of wall time. */
 double baum_i_seconds_since(const struct timespec *then);
 
-/* ---- advance.c ---- */
+/* ---- one_step.c ---- */
 
 /* Fixed step: a step to t_next from the present state, on the trial state. */
 baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe);
+
+/* Variable step: one of the method's own length from `ahead`, on the trial state. */
+baum_status baum_i_run_try_own_step(baum_simulation *run);
 
 /* Variable step: the state inside the last step, projected if the formulation says so, into trial. */
 baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* The equations change at the present state: methods that carry their past along begin anew from it, which may be
- * behind the end of their last step. A method that fails here begins anew at its next step, and from the same state. */
-baum_status baum_i_run_begin_anew(baum_simulation *run);
-
 /* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK or
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
+
+/* ---- failure.c ---- */
+
+/* Add to the sentence of a step that failed which joint and body to look at, at the last good state, and what
+ * may help. Returns the status. */
+baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
+                                       const baum_i_state *at);
 
 /* ---- output.c ---- */
 

@@ -19,13 +19,13 @@ static baum_status make_states(baum_simulation *run)
   const baum_mechanism *m = run->workspace->mechanism;
   size_t nq = (size_t)m->nq;
   size_t nv = (size_t)m->nv;
-  run->memory = baum_i_alloc(3 * (nq + nv) + nv, sizeof(double));
+  run->memory = baum_i_alloc(4 * (nq + nv) + nv, sizeof(double));
   if (!run->memory) {
     return baum_i_fail_memory();
   }
   double *next = run->memory;
-  baum_i_state *states[3] = {&run->state, &run->ahead, &run->trial};
-  for (int k = 0; k < 3; k++) {
+  baum_i_state *states[4] = {&run->state, &run->ahead, &run->trial, &run->spare};
+  for (int k = 0; k < 4; k++) {
     states[k]->q = next;
     states[k]->v = next + nq;
     next += nq + nv;

@@ -236,14 +236,6 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
   return status == BAUM_OK && run->options.start == BAUM_START_EXACT ? check_exact(run) : status;
 }
 
-void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  to->t = from->t;
-  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
-  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
-}
-
 baum_status baum_i_run_measure(baum_simulation *run, double *energy)
 {
   baum_workspace *w = run->workspace;

@@ -5,12 +5,12 @@
  * it are poor, and errors there grow however small a step is. So the pose is passed between two stages, and where no step
  * of a sensible length is good enough, one goes over it.
  */
-#ifndef BAUM_I_INTEGRATE_RK_POSE_H
-#define BAUM_I_INTEGRATE_RK_POSE_H
+#ifndef BAUM_I_INTEGRATE_RK_CROSSING_H
+#define BAUM_I_INTEGRATE_RK_CROSSING_H
 
 #include "integrate/rk.h"
 
-typedef struct baum_i_rk_pose {
+typedef struct baum_i_rk_crossing {
   double gap;       /* middle of the widest gap between stages, of the step */
   double ahead;     /* [s] from the start of the step to a singular pose; INFINITY: none is near */
   double over;      /* [s] a step over a pose */
@@ -19,36 +19,36 @@ typedef struct baum_i_rk_pose {
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
   int held;         /* steps in a row that were held up near a pose */
-} baum_i_rk_pose;
+} baum_i_rk_crossing;
 
-void baum_i_rk_pose_open(baum_i_rk_pose *pose, const baum_i_rk_table *table);
+void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
 
 /* At t, where the first rate has just been evaluated. */
-void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                          double t);
+void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                              const baum_i_problem *problem, double t);
 
 /* Before a step from t: ahead and least. */
-void baum_i_rk_pose_look(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                         double t);
+void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                             const baum_i_problem *problem, double t);
 
 /* [s] What becomes of a step of this length. forced: that step is below least. */
-double baum_i_rk_pose_length(const baum_i_rk_pose *pose, double length, bool *forced);
+double baum_i_rk_crossing_length(const baum_i_rk_crossing *crossing, double length, bool *forced);
 
 /* Error of the scales that a step by h may have, whatever the tolerance. */
-double baum_i_rk_pose_error(const baum_i_rk_pose *pose, double h, bool forced);
+double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
 /* At the end of a step, evaluated just now. false: it ends in a pose and must not. */
-bool baum_i_rk_pose_may_end(baum_i_rk_pose *pose, const baum_i_problem *problem);
+bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
 
 /* After a step was accepted: its end is the start of the next, of length `next`. */
-void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                          double next);
+void baum_i_rk_crossing_go_on(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                              const baum_i_problem *problem, double next);
 
 /* A try by h was refused. */
-void baum_i_rk_pose_refuse(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                           double h);
+void baum_i_rk_crossing_refuse(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                               const baum_i_problem *problem, double h);
 
 /* Is there no way on? */
-bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose);
+bool baum_i_rk_crossing_is_held(const baum_i_rk_crossing *crossing);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "integrate/rk_pose.h"
+#include "integrate/rk_crossing.h"
 
 #include <math.h>
 #include <string.h>
@@ -39,15 +39,15 @@ static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
 }
 
 /* Of the last evaluation. */
-static double see_pivot(baum_i_rk_pose *pose, const baum_i_problem *problem)
+static double see_pivot(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
-  pose->usual = fmax(pose->usual, pivot);
-  return pivot / pose->usual;
+  crossing->usual = fmax(crossing->usual, pivot);
+  return pivot / crossing->usual;
 }
 
 /* Stages are in no order. */
-void baum_i_rk_pose_open(baum_i_rk_pose *pose, const baum_i_rk_table *table)
+void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table)
 {
   double width = 0.0;
   for (int i = 0; i < table->stages; i++) {
@@ -57,15 +57,15 @@ void baum_i_rk_pose_open(baum_i_rk_pose *pose, const baum_i_rk_table *table)
     }
     if (next - table->c[i] > width) {
       width = next - table->c[i];
-      pose->gap = 0.5 * (next + table->c[i]);
+      crossing->gap = 0.5 * (next + table->c[i]);
     }
   }
 }
 
 /* A start in a singular pose has no pivots to compare with but those ahead. A pose that is not quite on the way does for
  * that. */
-static void look_further(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                         double t)
+static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                         const baum_i_problem *problem, double t)
 {
   const double *v = rk->start + rk->nv;
   const double *a = baum_i_rk_rate(rk, 0) + rk->nv;
@@ -74,7 +74,7 @@ static void look_further(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i
     rk->point[i] = rk->start[i] + dt * (v[i] + 0.5 * dt * a[i]);
   }
   if (baum_i_problem_motion(problem, t, rk->point, v) == BAUM_OK) {
-    (void)see_pivot(pose, problem);
+    (void)see_pivot(crossing, problem);
   }
 }
 
@@ -88,96 +88,96 @@ static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, doubl
   }
 }
 
-void baum_i_rk_pose_begin(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                          double t)
+void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                              const baum_i_problem *problem, double t)
 {
   double pivot = baum_i_smallest_pivot(problem->workspace, NULL);
-  pose->usual = pivot; /* no step before counts */
-  pose->held = 0;
+  crossing->usual = pivot; /* no step before counts */
+  crossing->held = 0;
   if (pivot < PIVOT_OF_START) {
-    look_further(pose, rk, problem, t);
+    look_further(crossing, rk, problem, t);
   }
-  pose->pivot = pose->usual > 0.0 ? pivot / pose->usual : 0.0;
-  if (pose->pivot < BAUM_I_PIVOT_IN_POSE) {
+  crossing->pivot = crossing->usual > 0.0 ? pivot / crossing->usual : 0.0;
+  if (crossing->pivot < BAUM_I_PIVOT_IN_POSE) {
     take_limit(rk, problem, t);
   }
 }
 
 /* Where the root of the pivot, which falls in a straight line, would be zero. */
-static double find_ahead(const baum_i_rk_pose *pose, const baum_i_rk *rk,
+static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
-  if (!(pose->pivot < PIVOT_AHEAD && pose->pivot > 0.0)) {
+  if (!(crossing->pivot < PIVOT_AHEAD && crossing->pivot > 0.0)) {
     return (double)INFINITY;
   }
   const double one = 1.0;
   double dt = problem->direction * LOOK / find_rate(rk, problem);
   baum_i_rk_combine(rk, 1, &one, dt, rk->point);
   baum_status status = baum_i_problem_motion(problem, t + dt, rk->point, rk->point + rk->nv);
-  double now = sqrt(pose->pivot);
-  double then = sqrt(baum_i_smallest_pivot(problem->workspace, NULL) / pose->usual);
+  double now = sqrt(crossing->pivot);
+  double then = sqrt(baum_i_smallest_pivot(problem->workspace, NULL) / crossing->usual);
   return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;
 }
 
-void baum_i_rk_pose_look(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                         double t)
+void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                             const baum_i_problem *problem, double t)
 {
-  pose->ahead = find_ahead(pose, rk, problem, t);
-  pose->over = STEP_OVER / find_rate(rk, problem);
-  pose->least = 0.0;
-  if (pose->pivot < BAUM_I_PIVOT_IN_POSE) {
-    pose->least = pose->over; /* whatever begins here */
-  } else if (pose->pivot < BAUM_I_NEAR_PIVOT) {
-    pose->least = SHORT / find_rate(rk, problem);
+  crossing->ahead = find_ahead(crossing, rk, problem, t);
+  crossing->over = STEP_OVER / find_rate(rk, problem);
+  crossing->least = 0.0;
+  if (crossing->pivot < BAUM_I_PIVOT_IN_POSE) {
+    crossing->least = crossing->over; /* whatever begins here */
+  } else if (crossing->pivot < BAUM_I_NEAR_PIVOT) {
+    crossing->least = SHORT / find_rate(rk, problem);
   }
 }
 
 /* The pose is passed between two stages, from as far as the length allows. Not before a step so short that the next one
  * could not grow to the length, nor from so close that stages are no further away than it is. */
-double baum_i_rk_pose_length(const baum_i_rk_pose *pose, double length, bool *forced)
+double baum_i_rk_crossing_length(const baum_i_rk_crossing *crossing, double length, bool *forced)
 {
-  double over = pose->ahead / pose->gap;
-  double before = pose->ahead - pose->gap * length;
-  *forced = length < pose->least;
+  double over = crossing->ahead / crossing->gap;
+  double before = crossing->ahead - crossing->gap * length;
+  *forced = length < crossing->least;
   if (*forced) {
-    return pose->over;
+    return crossing->over;
   }
   if (length >= over) {
-    return fmax(over, pose->least);
+    return fmax(over, crossing->least);
   }
   return fmin(fmax(before, 0.2 * length), length);
 }
 
-double baum_i_rk_pose_error(const baum_i_rk_pose *pose, double h, bool forced)
+double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced)
 {
   if (forced) {
     return LARGEST_FORCED;
   }
-  return fabs(h) > pose->ahead ? fmin(ROUNDING / pose->pivot, LARGEST_FORCED) : 0.0;
+  return fabs(h) > crossing->ahead ? fmin(ROUNDING / crossing->pivot, LARGEST_FORCED) : 0.0;
 }
 
 /* One that began where no pose was looked for must not. */
-bool baum_i_rk_pose_may_end(baum_i_rk_pose *pose, const baum_i_problem *problem)
+bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem)
 {
-  pose->pivot_end = see_pivot(pose, problem);
-  return pose->pivot < PIVOT_AHEAD || pose->pivot_end >= PIVOT_POOR;
+  crossing->pivot_end = see_pivot(crossing, problem);
+  return crossing->pivot < PIVOT_AHEAD || crossing->pivot_end >= PIVOT_POOR;
 }
 
-void baum_i_rk_pose_go_on(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                          double next)
+void baum_i_rk_crossing_go_on(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                              const baum_i_problem *problem, double next)
 {
   bool tiny = next * find_rate(rk, problem) < TINY;
-  pose->held = tiny && pose->pivot_end < BAUM_I_NEAR_PIVOT ? pose->held + 1 : 0;
-  pose->pivot = pose->pivot_end;
+  crossing->held = tiny && crossing->pivot_end < BAUM_I_NEAR_PIVOT ? crossing->held + 1 : 0;
+  crossing->pivot = crossing->pivot_end;
 }
 
-void baum_i_rk_pose_refuse(baum_i_rk_pose *pose, const baum_i_rk *rk, const baum_i_problem *problem,
-                           double h)
+void baum_i_rk_crossing_refuse(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                               const baum_i_problem *problem, double h)
 {
-  pose->held += pose->pivot < BAUM_I_NEAR_PIVOT && fabs(h) * find_rate(rk, problem) < TINY;
+  crossing->held += crossing->pivot < BAUM_I_NEAR_PIVOT && fabs(h) * find_rate(rk, problem) < TINY;
 }
 
-bool baum_i_rk_pose_is_held(const baum_i_rk_pose *pose)
+bool baum_i_rk_crossing_is_held(const baum_i_rk_crossing *crossing)
 {
-  return pose->held >= HELD;
+  return crossing->held >= HELD;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Warnings of a run: one entry per kind. */
+/* What every part of a run uses: copy a state, make a workspace like the run's, warn (one entry per kind), fail, finish. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -8,6 +8,32 @@
 #include "base/sized.h"
 #include "base/text.h"
 #include "simulate/run.h"
+
+void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  to->t = from->t;
+  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
+  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
+}
+
+baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out)
+{
+  const baum_workspace *w = run->workspace;
+  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, out);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_redundancy *mine = &(*out)->redundancy;
+  mine->rank = w->redundancy.rank;
+  mine->rank_at_start = w->redundancy.rank_at_start;
+  mine->count = w->redundancy.count;
+  memcpy(mine->omitted, w->redundancy.omitted, (size_t)w->mechanism->nc);
+  (*out)->blocks_only = w->blocks_only;
+  return baum_i_use_blocks(*out);
+}
+
+/* ---- names of warnings ---- */
 
 static const struct {
   baum_warning_code code;
@@ -87,6 +113,12 @@ void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int
 }
 
 /* ---- tell ---- */
+
+baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
+{
+  memcpy(run->message, baum_message(), sizeof run->message);
+  return status;
+}
 
 baum_status baum_i_run_finish(baum_simulation *run)
 {

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What acts on a run changes abruptly: an input, the law of a driver, the rows that are left out, a function at a break.
+ *
+ * A fixed-step method begins every step from the state alone and takes the change as it is; a variable-step method carries
+ * its past along and begins anew from the present state, which may be behind the end of its last step.
+ */
+#include "simulate/account.h"
+#include "simulate/breaks.h"
+#include "simulate/companion.h"
+#include "simulate/events.h"
+#include "simulate/schedule.h"
+
+static baum_status restart_method(baum_simulation *run)
+{
+  if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
+    return BAUM_OK;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_i_run_copy(run, &run->state, &run->ahead);
+  if (run->account) {
+    baum_i_account_go_on(run);
+  }
+  baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
+  run->counters.restarts += status == BAUM_OK;
+  return baum_i_message_settle(status, &kept);
+}
+
+baum_status baum_i_run_restart(baum_simulation *run)
+{
+  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
+  if (status == BAUM_OK) {
+    status = restart_method(run);
+  }
+  if (status == BAUM_OK) {
+    run->origin = run->state.t;
+    baum_i_companion_restart(run);
+  }
+  if (status == BAUM_OK && run->events) {
+    baum_i_events_go_on(run);
+  }
+  return status;
+}
+
+void baum_i_run_end_before_change(baum_simulation *run)
+{
+  if (run->account) {
+    baum_i_account_read(run, &run->state);
+  }
+  baum_i_companion_settle(run);
+}
+
+/* Kinematics have solved for the pose on the far side, whose velocities may be others. */
+static baum_status take_pose(baum_simulation *run)
+{
+  baum_i_state *state = &run->state;
+  return run->integrator->interpolate(run->self, &run->problem, state->t, state->q, state->v);
+}
+
+baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
+{
+  double before = run->state.t;
+  baum_i_run_end_before_change(run);
+  run->state.t = next.far;
+  baum_i_schedule_move(run, before, next.far);
+  baum_status status = baum_i_run_restart(run);
+  if (status != BAUM_OK) {
+    run->state.t = before;
+    baum_i_schedule_move(run, next.far, before);
+    return status;
+  }
+  run->grid = (baum_i_grid){.origin = next.far};
+  return run->integrator->without_freedom ? take_pose(run) : BAUM_OK;
+}

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "simulate/singular_step.h"
+
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#include "integrate/limit.h"
+#include "simulate/crossing.h"
+
+/* Of the last solution. Where blocks have refused, the pivot is that of another solver, and larger. */
+static bool is_in_pose(const baum_simulation *run, double pivot)
+{
+  const baum_workspace *w = run->workspace;
+  bool refused = w->path && !w->solved_by;
+  return pivot < (refused ? BAUM_I_NEAR_PIVOT : BAUM_I_PIVOT_IN_POSE);
+}
+
+/* Of the usual one, of the last solution. */
+static double find_pivot(const baum_simulation *run)
+{
+  return baum_i_smallest_pivot(run->workspace, NULL) / run->crossings->usual;
+}
+
+/* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
+ * step of order k errors of about (h w)^(k+1) / 100. */
+static bool is_beyond_rounding(const baum_simulation *run, double h)
+{
+  double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);
+  double error = 0.01 * pow(rate * fabs(h), run->integrator->order + 1);
+  double pivot = find_pivot(run);
+  return pivot < 1e-4 && pivot * error < DBL_EPSILON;
+}
+
+/* Where the projection is beyond rounding, it may not converge either. */
+static bool stays_unprojected(const baum_simulation *run, baum_status status, double h)
+{
+  if (status == BAUM_ERR_CONVERGENCE) {
+    return is_in_pose(run, find_pivot(run));
+  }
+  return status == BAUM_OK && is_beyond_rounding(run, h);
+}
+
+baum_status baum_i_run_project(baum_simulation *run, double t)
+{
+  baum_i_state *trial = &run->trial;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_i_run_copy(run, trial, &run->spare);
+  baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
+  if (run->crossings && stays_unprojected(run, status, t - run->state.t)) {
+    baum_i_run_copy(run, &run->spare, trial);
+    status = baum_i_message_settle(BAUM_OK, &kept);
+  }
+  return status;
+}
+
+/* Of the present state, which has mostly just been noted. */
+static double find_present_pivot(const baum_simulation *run)
+{
+  const baum_i_crossings *p = run->crossings;
+  const baum_i_knot *last = p->recent_count > 0 ? &p->recent[p->recent_count - 1] : NULL;
+  return last && last->t == run->state.t ? last->pivot : find_pivot(run);
+}
+
+/* Methods may read the workspace at the start of a step: it is left as it was. */
+baum_status baum_i_run_limit_acceleration(baum_simulation *run)
+{
+  baum_workspace *w = run->workspace;
+  const baum_i_state *state = &run->state;
+  if (!run->crossings || !is_in_pose(run, find_present_pivot(run))) {
+    return BAUM_OK;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  int64_t near_singular = w->near_singular;
+  if (baum_i_limit_acceleration(&run->problem, state, run->trial.q, run->spare.v)) {
+    memcpy(run->acceleration, run->spare.v, (size_t)w->mechanism->nv * sizeof *run->spare.v);
+  }
+  baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
+  w->near_singular = near_singular;
+  return status == BAUM_OK ? baum_i_message_settle(BAUM_OK, &kept) : status;
+}
