@@ -5,12 +5,9 @@
 
 #include "integrate/integrator.h"
 
-/* The x of (I - gamma df/dy) x = r at y = (q, v), as a run of baum_cvode_bdf() solves it; all (nq + nv). As an acceleration,
- * and BAUM_ERR_SINGULAR without a sentence. */
+/* The x of (I - gamma df/dy) x = r at y = (q, v), as a run of baum_cvode_bdf() solves it; all (nq +
+ * nv). As an acceleration, and BAUM_ERR_SINGULAR without a message. */
 baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, double gamma,
                                       const double *r, double *x);
-
-/* The sentence of a flag, as of a step of 0.001 s from t = 0 that no evaluation failed in. */
-baum_status baum_i_cvode_explain_flag(int flag);
 
 #endif

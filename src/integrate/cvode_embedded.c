@@ -1,22 +1,25 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi): constraints are springs and dampers of rates
- * alpha and beta, however smooth the motion is. Their part of df/dy is known,
+/* With gains, a = ... - M^-1 J^T (J M^-1 J^T)^-1 (2 alpha Phi' + beta^2 Phi): constraints are
+ * springs and dampers of rates alpha and beta, however smooth the motion is. Their part of df/dy is
+ * known,
  *
  *   df/dy = [ 0           I          ] + rest,     P = M^-1 J^T (J M^-1 J^T)^-1 J
  *           [ -beta^2 P   -2 alpha P ]
  *
- * and P P = P gives the inverse: (I - gamma df/dy) (dq, dv) = (r_q, r_v) without the rest has the solution
+ * and P P = P gives the inverse: (I - gamma df/dy) (dq, dv) = (r_q, r_v) without the rest has the
+ * solution
  *
- *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,     s = 2 alpha gamma + (beta gamma)^2
+ *   dv = r_v - P (s r_v + gamma beta^2 r_q) / (1 + s),   dq = r_q + gamma dv,
+ *   s = 2 alpha gamma + (beta gamma)^2
  *
- * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors that the evaluation before has left.
- * Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i gamma)^2 is one of each row, and with Q = M^-1 J^T (J M^-1 J^T)^-1,
- * for which J Q = I, likewise
+ * because (I + s P)^-1 = I - s / (1 + s) P. P costs a substitution with the factors that the
+ * evaluation before has left. Where rows have gains of their own, s = 2 alpha_i gamma + (beta_i
+ * gamma)^2 is one of each row, and with Q = M^-1 J^T (J M^-1 J^T)^-1, for which J Q = I, likewise
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
- * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff ones remain what
- * BDF is for.
+ * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff
+ * ones remain what BDF is for.
  */
 #include "integrate/integrator.h"
 
@@ -54,9 +57,10 @@ static double weigh(const baum_i_problem *problem, double gamma, double factor, 
 static baum_status solve_alike(const baum_i_problem *problem, double gamma, const double *r,
                                double *work, double *normal)
 {
-  int n = problem->workspace->mechanism->nv;
-  for (int i = 0; i < n; i++) {
-    work[i] = weigh(problem, gamma, 1.0, r[n + i], r[i]);
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *r_v = r + mechanism->nq;
+  for (int i = 0; i < mechanism->nv; i++) {
+    work[i] = weigh(problem, gamma, 1.0, r_v[i], r[i]);
   }
   return baum_i_normal_part(problem->workspace, work, normal);
 }
@@ -73,7 +77,7 @@ static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, co
     return status;
   }
   memset(rows_v, 0, 2 * (size_t)nc * sizeof *rows_v);
-  baum_i_jacobian_times(&w->structure, w->jacobian, r + w->mechanism->nv, rows_v);
+  baum_i_jacobian_times(&w->structure, w->jacobian, r + w->mechanism->nq, rows_v);
   baum_i_jacobian_times(&w->structure, w->jacobian, r, rows_q);
   for (int i = 0; i < nc; i++) {
     rows_v[i] = weigh(problem, gamma, w->row_gains[i], rows_v[i], rows_q[i]);
@@ -88,17 +92,18 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)tolerance;
   baum_i_cvode_embedded *embedded = solver->content;
   const baum_i_problem *problem = embedded->sundials->problem;
-  int n = problem->workspace->mechanism->nv;
+  int nq = problem->workspace->mechanism->nq;
+  int nv = problem->workspace->mechanism->nv;
   const double *r = N_VGetArrayPointer(b);
   double *d = N_VGetArrayPointer(x);
   double *normal = N_VGetArrayPointer(embedded->normal);
   double gamma = 0.0;
-  (void)CVodeGetCurrentGamma(embedded->cvode, &gamma);
+  (void)CVodeGetCurrentGamma(embedded->sundials->memory, &gamma);
   baum_status status = problem->workspace->row_gains ? solve_by_rows(problem, gamma, r, normal)
                                                      : solve_alike(problem, gamma, r, d, normal);
-  for (int i = 0; i < n && status == BAUM_OK; i++) {
-    d[n + i] = r[n + i] - normal[i];
-    d[i] = r[i] + gamma * d[n + i];
+  for (int i = 0; i < nv && status == BAUM_OK; i++) {
+    d[nq + i] = r[nq + i] - normal[i];
+    d[i] = r[i] + gamma * d[nq + i];
   }
   return answer(embedded->sundials, status);
 }
@@ -109,13 +114,12 @@ static SUNLinearSolver_Type tell_type(SUNLinearSolver solver)
   return SUNLINEARSOLVER_MATRIX_EMBEDDED;
 }
 
-int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundials *sundials,
-                                 void *cvode, N_Vector y)
+int baum_i_cvode_embedded_attach(baum_i_cvode_embedded *embedded, baum_i_sundials *sundials)
 {
+  void *cvode = sundials->memory;
   embedded->sundials = sundials;
-  embedded->cvode = cvode;
   embedded->normal = baum_i_sundials_vector(sundials);
-  embedded->newton = SUNNonlinSol_Newton(y, sundials->context);
+  embedded->newton = SUNNonlinSol_Newton(sundials->y, sundials->context);
   embedded->solver = baum_i_sundials_front(sundials, embedded, NULL, solve);
   if (!embedded->newton || !embedded->solver) {
     return CV_MEM_FAIL;

@@ -7,7 +7,8 @@
  *
  *   F = (q' - v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
  *
- * whose last two parts vanish for v' = a(t, q, v). Differentiated along that, with da = (da/dq) dq + (da/dv) dv,
+ * whose last two parts vanish for v' = a(t, q, v). Differentiated along that, with da = (da/dq) dq
+ * + (da/dv) dv,
  *
  *   F_q dq + F_v dv + F_lambda dlambda = - (0, M da, J da) in these parts
  *
@@ -15,8 +16,9 @@
  *
  *   (dF/dy + c dF/dy') (dq, dv, dlambda) = (c dq - dv, M (c dv - da), J (c dv - da)).
  *
- * With the right side c (r_q, M r_v, J r_v) this says dq - gamma dv = r_q and dv - gamma da = r_v, which is what is wanted;
- * dlambda is not. The matrix has the derivatives of all forces and rows, and is as sparse as the mechanism.
+ * With the right side c (r_q, M r_v, J r_v) this says dq - gamma dv = r_q and dv - gamma da = r_v,
+ * which is what is wanted; dlambda is not. The matrix has the derivatives of all forces and rows,
+ * and is as sparse as the mechanism.
  */
 #include "integrate/integrator.h"
 
@@ -44,17 +46,13 @@ baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, cons
   const baum_mechanism *m = w->mechanism;
   baum_dae dae = {.index = BAUM_RESIDUAL_INDEX1};
   baum_i_problem_gains(problem, &dae.alpha, &dae.beta);
-  baum_status status = baum_i_problem_acceleration(problem, t, y, y + m->nq);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  size_t nv = (size_t)m->nv;
+  BAUM_I_TRY(baum_i_problem_acceleration(problem, t, y, y + m->nq));
   newton->c = 1.0 / gamma;
-  memcpy(newton->y, y, 2 * nv * sizeof *y);
-  memcpy(newton->y + 2 * nv, w->lambda, (size_t)m->nc * sizeof *y);
-  memcpy(newton->dy, y + m->nq, nv * sizeof *y);
-  memcpy(newton->dy + nv, w->a, nv * sizeof *y);
-  status = baum_i_sundials_klu_fill(&newton->klu, &dae, newton->c, t, newton->y, newton->dy);
+  baum_i_sundials_pack(m, y, y + m->nq, newton->y);
+  memcpy(newton->y + m->nq + m->nv, w->lambda, (size_t)m->nc * sizeof *y);
+  baum_i_sundials_pack_rate(w, y, newton->dy);
+  baum_status status =
+    baum_i_sundials_klu_fill(&newton->klu, &dae, newton->c, t, newton->y, newton->dy);
   memcpy(newton->mass, w->mass, (size_t)m->mass_size * sizeof *y);
   memcpy(newton->jacobian, w->jacobian, (size_t)m->jacobian_size * sizeof *y);
   return status;
@@ -74,16 +72,16 @@ static void make_right_side(const baum_i_cvode_newton *newton, const double *r, 
 {
   const baum_workspace *w = workspace_of(newton);
   const baum_mechanism *m = w->mechanism;
-  double *forces = right + m->nv;
+  double *forces = right + m->nq;
   double *rows = forces + m->nv;
-  memcpy(right, r, (size_t)m->nv * sizeof *r);
+  memcpy(right, r, (size_t)m->nq * sizeof *r);
   memset(forces, 0, (size_t)(m->nv + m->nc) * sizeof *r);
-  baum_i_mass_times(&w->structure, newton->mass, r + m->nv, forces);
-  baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nv, rows);
+  baum_i_mass_times(&w->structure, newton->mass, r + m->nq, forces);
+  baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nq, rows);
   for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
     rows[i] = w->redundancy.omitted[i] ? 0.0 : rows[i];
   }
-  for (int i = 0; i < 2 * m->nv + m->nc; i++) {
+  for (int i = 0; i < m->nq + m->nv + m->nc; i++) {
     right[i] *= newton->c;
   }
 }
@@ -93,10 +91,11 @@ static void solve_immobile(const baum_i_cvode_newton *newton, const double *r, d
 {
   const baum_workspace *w = workspace_of(newton);
   const baum_i_immobile *immobile = w->immobile;
+  int nq = w->mechanism->nq;
   for (int k = 0; immobile && immobile->rests && k < immobile->count; k++) {
     int i = immobile->velocity[k];
-    x[w->mechanism->nv + i] = r[w->mechanism->nv + i];
-    x[i] = r[i] + r[w->mechanism->nv + i] / newton->c;
+    x[nq + i] = r[nq + i];
+    x[i] = r[i] + r[nq + i] / newton->c;
   }
 }
 
@@ -107,10 +106,11 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)tolerance;
   baum_i_cvode_newton *newton = solver->content;
   baum_i_sundials_klu *klu = &newton->klu;
-  size_t nv = (size_t)workspace_of(newton)->mechanism->nv;
+  const baum_mechanism *m = workspace_of(newton)->mechanism;
   make_right_side(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(klu->right));
   int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
-  memcpy(N_VGetArrayPointer(x), N_VGetArrayPointer(klu->solution), 2 * nv * sizeof(double));
+  memcpy(N_VGetArrayPointer(x), N_VGetArrayPointer(klu->solution),
+         (size_t)(m->nq + m->nv) * sizeof(double));
   solve_immobile(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
   return failed;
 }
@@ -119,10 +119,7 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
 
 baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundials *sundials)
 {
-  baum_status status = baum_i_sundials_klu_open(&newton->klu, sundials, BAUM_RESIDUAL_INDEX1);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_sundials_klu_open(&newton->klu, sundials, BAUM_RESIDUAL_INDEX1));
   const baum_mechanism *m = workspace_of(newton)->mechanism;
   size_t n = (size_t)baum_i_residual_size(m, BAUM_RESIDUAL_INDEX1);
   size_t count = 2 * n + (size_t)m->mass_size + (size_t)m->jacobian_size;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF with the true Jacobian. Only files of CVODE include it, and only when the build has
- * SUNDIALS. */
+/* The linear systems of CVODE BDF with the true Jacobian. Only files of CVODE include it, and only
+ * when the build has SUNDIALS. */
 #ifndef BAUM_I_INTEGRATE_CVODE_NEWTON_H
 #define BAUM_I_INTEGRATE_CVODE_NEWTON_H
 

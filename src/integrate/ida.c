@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IDA of SUNDIALS (P. Brown, A. Hindmarsh, L. Petzold, 1994; A. Hindmarsh et al., ACM TOMS 31, 2005): BDF of
- * orders 1 to 5, in fixed-leading-coefficient form, for
+/* IDA of SUNDIALS (P. Brown, A. Hindmarsh, L. Petzold, 1994; A. Hindmarsh et al., ACM TOMS 31,
+ * 2005): BDF of orders 1 to 5, in fixed-leading-coefficient form, for
  *
  *   F(t, y, y') = 0,  y = (q, v, lambda)             (nq + nv + nc)
  *   q' - N v,  M v' + J^T lambda - g,                and
@@ -10,12 +10,13 @@
  *   GGL       Phi' and Phi, with y = (q, v, lambda, mu) and q' - N (v - W^-1 J^T mu)
  *
  * What it takes to make this work, all measured:
- * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities too; at index 1
- *   lambda is put in by tolerance_lambda, elsewhere its estimate does not fall with the step as it should. Newton's
- *   iteration is judged by sizes of its own (ida_newton.c): left out there too, multipliers run away.
- * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the equations but not small;
- *   v' and lambda come from one solution of (5) or (7). IDA's own search for a consistent start can succeed with wrong
- *   accelerations.
+ * - Multipliers are left out of the error test (their errors do not add up), at index 3 velocities
+ *   too; at index 1 lambda is put in by tolerance_lambda, elsewhere its estimate does not fall with
+ *   the step as it should. Newton's iteration is judged by sizes of its own (ida_newton.c): left
+ *   out there too, multipliers run away.
+ * - The start is consistent: q and v are given, and projected where Phi or Phi' is among the
+ *   equations but not small; v' and lambda come from one solution of (5) or (7). IDA's own search
+ *   for a consistent start can succeed with wrong accelerations.
  * - The first step is given. IDA's own is too large for index 3.
  * - The Jacobian is exact and sparse; leaving out lambda's part makes iterations fail.
  * - KLU keeps its pivots (sundials_klu.h).
@@ -33,57 +34,28 @@
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
 
-#include "base/alloc.h"
 #include "integrate/ida_newton.h"
-#include "integrate/sundials_common.h"
+#include "integrate/sundials_driver.h"
 #include "integrate/sundials_klu.h"
 
 /* Memory of a run. */
 typedef struct ida_run {
   baum_i_sundials sundials;
-  void *ida;
-  bool stops; /* a stop time is set */
-  N_Vector y; /* end of the last step */
-  N_Vector dy;
-  N_Vector inside;        /* interpolated */
+  N_Vector dy;            /* at the end of the last step */
   N_Vector tested;        /* 1 where the error test looks, else 0 */
-  bool differences;       /* a dense matrix by differences */
   SUNMatrix dense;        /* of differences */
   SUNLinearSolver solver; /* what IDA calls: dense, or a front before klu */
   baum_i_sundials_klu klu;
   double linearized; /* [1/s] c of the present matrix */
   baum_i_ida_newton newton;
   baum_dae dae;
-  baum_i_statistics before; /* up to the last restart */
 } ida_run;
-
-static const baum_i_sundials_flag FLAGS[] = {
-  {IDA_TOO_MUCH_ACC, BAUM_ERR_STEP,
-   "rtol and atol ask for more digits than double precision has; raise rtol"},
-  {IDA_ERR_FAIL, BAUM_ERR_STEP,
-   "the error stays above the tolerance however small the step; a force may jump here, the "
-   "position may be near singular, or rtol is too small"},
-  {IDA_CONV_FAIL, BAUM_ERR_CONVERGENCE,
-   "the iteration does not converge however small the step; the position may be near singular, "
-   "or rtol is too small, for index 3 above all"},
-  {IDA_LSETUP_FAIL, BAUM_ERR_SINGULAR,
-   "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
-  {IDA_LSOLVE_FAIL, BAUM_ERR_SINGULAR,
-   "the matrix of Newton's iteration cannot be solved with; take rk8, or a smaller rtol"},
-  {IDA_NLS_FAIL, BAUM_ERR_CONVERGENCE, "the iteration failed; take rk8, or a smaller rtol"},
-  {IDA_ILL_INPUT, BAUM_ERR_NOT_FINITE,
-   "the state or its tolerances are not finite; the motion grows without bound, or rtol and atol "
-   "are too small"},
-  {IDA_MEM_FAIL, BAUM_ERR_MEMORY, "out of memory"},
-  {0, BAUM_OK, NULL},
-};
 
 /* At a start, of the tolerance. */
 static const double LARGEST_VIOLATION = 0.01;
 
 /* ---- callbacks ---- */
 
-/* IDA's time is that since the last start. */
 static int evaluate(sunrealtype tau, N_Vector y, N_Vector dy, N_Vector residual, void *user)
 {
   ida_run *run = user;
@@ -115,17 +87,15 @@ static int linearize(sunrealtype tau, sunrealtype c, N_Vector y, N_Vector dy, N_
   return baum_i_sundials_answer(&run->sundials, status);
 }
 
+/* Weights must be > 0, also of multipliers that are not tested. */
 static int weigh(N_Vector y, N_Vector weights, void *user)
 {
   ida_run *run = user;
-  const baum_i_problem *problem = run->sundials.problem;
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  const double *v = N_VGetArrayPointer(y) + mechanism->nq;
-  double *w = N_VGetArrayPointer(weights);
-  N_VConst(1.0, weights); /* those of multipliers are used nowhere, but must be > 0 */
-  baum_i_sundials_weights(problem, v, w);
-  /* and of lambda where it is tested */
-  baum_i_ida_newton_begin_step(&run->newton, v + mechanism->nv, w);
+  const baum_mechanism *mechanism = run->sundials.problem->workspace->mechanism;
+  const double *multipliers = N_VGetArrayPointer(y) + mechanism->nq + mechanism->nv;
+  N_VConst(1.0, weights);
+  (void)baum_i_sundials_weigh(y, weights, user);
+  baum_i_ida_newton_begin_step(&run->newton, multipliers, N_VGetArrayPointer(weights));
   return 0;
 }
 
@@ -145,7 +115,7 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)tolerance;
   ida_run *run = solver->content;
   double c = run->linearized;
-  (void)IDAGetCurrentCj(run->ida, &c);
+  (void)IDAGetCurrentCj(run->sundials.memory, &c);
   double ratio = c / run->linearized;
   baum_i_ida_newton_scale_right(&run->newton, ratio, b);
   int failed = baum_i_sundials_klu_solve(&run->klu, x, b);
@@ -153,7 +123,7 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   return failed;
 }
 
-/* ---- in and out ---- */
+/* ---- start ---- */
 
 static baum_residual residual_of(baum_formulation formulation)
 {
@@ -169,56 +139,9 @@ static baum_residual residual_of(baum_formulation formulation)
   }
 }
 
-static void begin(ida_run *run, const baum_i_problem *problem, double t)
+static int size_of(const baum_i_problem *problem)
 {
-  baum_i_sundials_begin(&run->sundials, problem, t);
-  run->sundials.origin = t;
-  run->dae.index = residual_of(problem->formulation);
-  run->newton.sundials = &run->sundials;
-  run->newton.index = run->dae.index;
-  baum_i_problem_gains(problem, &run->dae.alpha, &run->dae.beta);
-}
-
-static baum_status fail(const ida_run *run, int flag)
-{
-  double step = 0.0;
-  (void)IDAGetCurrentStep(run->ida, &step);
-  return baum_i_sundials_fail(&run->sundials, FLAGS, flag, step);
-}
-
-static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
-                               double *v)
-{
-  ida_run *run = self;
-  /* IDA refuses times before its last step, but extrapolates beyond. */
-  double end = 0.0;
-  double last = 0.0;
-  (void)IDAGetCurrentTime(run->ida, &end);
-  (void)IDAGetLastStep(run->ida, &last);
-  double tau = baum_i_sundials_inside(&run->sundials, t, end, last);
-  if (isnan(tau) || IDAGetDky(run->ida, tau, 0, run->inside) != IDA_SUCCESS) {
-    return baum_i_sundials_fail_outside(&run->sundials, t);
-  }
-  baum_i_sundials_unload(problem, run->inside, q, v);
-  return BAUM_OK;
-}
-
-/* ---- statistics and restart ---- */
-
-static void count(const void *self, baum_i_statistics *out)
-{
-  const ida_run *run = self;
-  long rejected[2] = {0, 0};
-  long setups = 0;
-  long iterations = 0;
-  (void)IDAGetNumErrTestFails(run->ida, &rejected[0]);
-  (void)IDAGetNumStepSolveFails(run->ida, &rejected[1]);
-  (void)IDAGetNumLinSolvSetups(run->ida, &setups);
-  (void)IDAGetNumNonlinSolvIters(run->ida, &iterations);
-  out->rejected = run->before.rejected + rejected[0] + rejected[1];
-  out->factorizations = run->before.factorizations + setups;
-  out->full_factorizations = run->klu.full_factorizations;
-  out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
+  return baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
 }
 
 /* rtol with the smaller of the factors of what is tested. */
@@ -245,8 +168,9 @@ static double violation_of(ida_run *run, const baum_i_problem *problem)
   return largest;
 }
 
-/* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first step, and its error
- * estimate with it, at any length of the step. So it jumps here; Phi of index 2 stays. */
+/* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first
+ * step, and its error estimate with it, at any length of the step. So it jumps here; Phi of index 2
+ * stays. */
 static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, double t, double *q,
                                    double *v)
 {
@@ -264,35 +188,22 @@ static baum_status make_consistent(ida_run *run, const baum_i_problem *problem, 
 }
 
 /* y and y' that fulfil F = 0; mu and all derivatives of multipliers are 0. */
-static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_i_state *state)
+static baum_status complete_start(baum_i_sundials *sundials, double t)
 {
+  ida_run *run = (ida_run *)sundials;
+  const baum_i_problem *problem = sundials->problem;
   baum_workspace *workspace = problem->workspace;
-  size_t nq = (size_t)workspace->mechanism->nq;
-  size_t nv = (size_t)workspace->mechanism->nv;
-  size_t nc = (size_t)workspace->mechanism->nc;
-  double *y = N_VGetArrayPointer(run->y);
-  double *dy = N_VGetArrayPointer(run->dy);
-  N_VConst(0.0, run->y);
+  const baum_mechanism *mechanism = workspace->mechanism;
+  double *q = N_VGetArrayPointer(sundials->y);
+  double *v = q + mechanism->nq;
+  baum_i_problem_gains(problem, &run->dae.alpha, &run->dae.beta);
+  BAUM_I_TRY(make_consistent(run, problem, t, q, v));
+  BAUM_I_TRY(baum_i_problem_acceleration(problem, t, q, v));
+  memcpy(v + mechanism->nv, workspace->lambda, (size_t)mechanism->nc * sizeof *v);
   N_VConst(0.0, run->dy);
-  memcpy(y, state->q, nq * sizeof *y);
-  memcpy(y + nq, state->v, nv * sizeof *y);
-  baum_status status = make_consistent(run, problem, state->t, y, y + nq);
-  if (status == BAUM_OK) {
-    status = baum_i_problem_acceleration(problem, state->t, y, y + nq);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  memcpy(y + nq + nv, workspace->lambda, nc * sizeof *y);
-  memcpy(dy, y + nq, nq * sizeof *dy);
-  memcpy(dy + nq, workspace->a, nv * sizeof *dy);
-  status = baum_i_need_jacobian(workspace);
-  if (status == BAUM_OK) {
-    status = baum_i_evaluate_mass(workspace);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  baum_i_sundials_pack_rate(workspace, q, N_VGetArrayPointer(run->dy));
+  BAUM_I_TRY(baum_i_need_jacobian(workspace));
+  BAUM_I_TRY(baum_i_evaluate_mass(workspace));
   if (!workspace->metric_ready) {
     baum_i_choose_metric(workspace);
   }
@@ -300,112 +211,54 @@ static baum_status load(ida_run *run, const baum_i_problem *problem, const baum_
   return BAUM_OK;
 }
 
-/* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. All but index 3 test velocities
- * too, whose derivatives are larger: a fifth of that h passes. At index 3 a smaller step would drown the
- * velocities, differences of q over h, in rounding. After a load(). */
+/* The first step is of order 1 with an error of h^2 |q''| / 2, where |q''| <= rate^2 scale. All but
+ * index 3 test velocities too, whose derivatives are larger: a fifth of that h passes. At index 3 a
+ * smaller step would drown the velocities, differences of q over h, in rounding. */
 static int give_first_step(ida_run *run)
 {
   const baum_i_problem *problem = run->sundials.problem;
   const baum_mechanism *mechanism = problem->workspace->mechanism;
-  const double *v = N_VGetArrayPointer(run->y) + mechanism->nq;
+  const double *v = N_VGetArrayPointer(run->sundials.y) + mechanism->nq;
   const double *a = N_VGetArrayPointer(run->dy) + mechanism->nq;
   double rate = fmax(problem->rate, baum_i_state_rate(mechanism, v, a));
   double factor = run->dae.index == BAUM_RESIDUAL_INDEX3 ? sqrt(2.0) : 0.3;
   double step = factor * sqrt(tightest(run, problem)) / rate;
-  return IDASetInitStep(run->ida, problem->direction * step);
+  return IDASetInitStep(run->sundials.memory, problem->direction * step);
 }
 
-static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
+static int restart(baum_i_sundials *sundials)
 {
-  ida_run *run = self;
-  baum_i_statistics present;
-  count(run, &present);
-  run->before = present;
-  begin(run, problem, state->t);
-  run->sundials.unfinished = true;
-  baum_status status = load(run, problem, state);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  int flag = IDAReInit(run->ida, 0.0, run->y, run->dy);
-  if (flag == IDA_SUCCESS) {
-    flag = give_first_step(run);
-  }
-  run->sundials.unfinished = flag != IDA_SUCCESS;
-  return flag == IDA_SUCCESS ? BAUM_OK : fail(run, flag);
+  ida_run *run = (ida_run *)sundials;
+  int flag = IDAReInit(sundials->memory, 0.0, sundials->y, run->dy);
+  return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-static void forget(void *self)
+/* ---- what else the driver asks for ---- */
+
+static baum_status open_run(baum_i_sundials *sundials)
 {
-  ida_run *run = self;
-  run->sundials.unfinished = true;
-  run->klu.forgotten = true;
+  ida_run *run = (ida_run *)sundials;
+  N_Vector *const vectors[] = {&run->dy, &run->tested, &run->newton.displacement,
+                               &run->newton.inertia};
+  for (size_t k = 0; k < sizeof vectors / sizeof *vectors; k++) {
+    *vectors[k] = baum_i_sundials_vector(sundials);
+  }
+  run->dae.index = residual_of(sundials->problem->formulation);
+  run->newton.index = run->dae.index;
+  run->newton.sundials = sundials;
+  return BAUM_OK;
 }
 
-/* ---- one step ---- */
-
-/* SUNDIALS 6.4 cannot take a stop back, only put it off. */
-static void give_stop(ida_run *run, const baum_i_problem *problem)
+static baum_status open_with_klu(baum_i_sundials *sundials)
 {
-  if (problem->stops || run->stops) {
-    double stop =
-      problem->stops ? problem->stop - run->sundials.origin : problem->direction * (double)INFINITY;
-    (void)IDASetStopTime(run->ida, stop); /* fails only where the stop is behind */
-    run->stops = problem->stops;
-  }
+  ida_run *run = (ida_run *)sundials;
+  BAUM_I_TRY(open_run(sundials));
+  return baum_i_sundials_klu_open(&run->klu, sundials, run->dae.index);
 }
 
-static baum_status advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+static int init(baum_i_sundials *sundials)
 {
-  ida_run *run = self;
-  baum_status status = run->sundials.unfinished ? restart(self, problem, state) : BAUM_OK;
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_sundials_begin_step(&run->sundials, problem, state->t);
-  double before = 0.0;
-  double tau = 0.0;
-  (void)IDAGetCurrentTime(run->ida, &before);
-  double target = baum_i_sundials_target(problem, before);
-  give_stop(run, problem);
-  int flag = IDASolve(run->ida, target, &tau, run->y, run->dy, IDA_ONE_STEP);
-  if (flag < 0) {
-    return fail(run, flag);
-  }
-  double t = run->sundials.origin + tau;
-  status = baum_i_sundials_check_progress(&run->sundials, before, tau);
-  if (status == BAUM_OK) {
-    run->sundials.unfinished = false;
-    state->t = t;
-    baum_i_sundials_unload(problem, run->y, state->q, state->v);
-  }
-  return status;
-}
-
-/* ---- life ---- */
-
-static void destroy(void *self)
-{
-  ida_run *run = self;
-  if (!run) {
-    return;
-  }
-  IDAFree(&run->ida);
-  baum_i_ida_newton_close(&run->newton);
-  (void)SUNLinSolFree(run->solver);
-  SUNMatDestroy(run->dense);
-  baum_i_sundials_klu_close(&run->klu);
-  baum_i_sundials_close(&run->sundials);
-  baum_i_free(run);
-}
-
-static void take_vectors(ida_run *run)
-{
-  N_Vector *const all[] = {
-    &run->y, &run->dy, &run->inside, &run->tested, &run->newton.displacement, &run->newton.inertia};
-  for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
-    *all[k] = baum_i_sundials_vector(&run->sundials);
-  }
+  return IDAInit(sundials->memory, evaluate, 0.0, sundials->y, ((ida_run *)sundials)->dy);
 }
 
 static int choose_tested(ida_run *run)
@@ -416,130 +269,109 @@ static int choose_tested(ida_run *run)
   int tested = index3 ? mechanism->nq : mechanism->nq + mechanism->nv;
   tested += multipliers ? mechanism->nc : 0;
   double *id = N_VGetArrayPointer(run->tested);
-  int n = baum_i_residual_size(mechanism, run->dae.index);
-  for (int i = 0; i < n; i++) {
+  for (int i = 0; i < N_VGetLength(run->tested); i++) {
     id[i] = i < tested ? 1.0 : 0.0;
   }
-  int flag = IDASetId(run->ida, run->tested);
-  return flag == IDA_SUCCESS ? IDASetSuppressAlg(run->ida, SUNTRUE) : flag;
+  int flag = IDASetId(run->sundials.memory, run->tested);
+  return flag == IDA_SUCCESS ? IDASetSuppressAlg(run->sundials.memory, SUNTRUE) : flag;
 }
 
-static int attach_dense(ida_run *run)
+static int attach_newton(ida_run *run)
 {
-  sunindextype n = N_VGetLength(run->y);
-  run->dense = SUNDenseMatrix(n, n, run->sundials.context);
-  if (run->dense) {
-    run->solver = SUNLinSol_Dense(run->y, run->dense, run->sundials.context);
-  }
-  bool attached =
-    run->solver && IDASetLinearSolver(run->ida, run->solver, run->dense) == IDALS_SUCCESS;
-  return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
-}
-
-static int attach_klu(ida_run *run)
-{
-  run->solver = baum_i_sundials_front(&run->sundials, run, factor, solve);
-  /* These have flags of their own; only memory can be wrong. Scaling is ours. */
-  bool attached = run->solver &&
-                  IDASetLinearSolver(run->ida, run->solver, run->klu.matrix) == IDALS_SUCCESS &&
-                  IDASetLinearSolutionScaling(run->ida, SUNFALSE) == IDALS_SUCCESS &&
-                  IDASetJacFn(run->ida, linearize) == IDALS_SUCCESS;
-  return attached ? IDA_SUCCESS : IDA_MEM_FAIL;
-}
-
-static int start_ida(ida_run *run)
-{
-  run->ida = IDACreate(run->sundials.context);
-  if (!run->ida) {
-    return IDA_MEM_FAIL;
-  }
-  int flag = BAUM_I_SUNDIALS_SILENCE(IDASetErrHandlerFn, run->ida, &run->sundials);
+  int flag = choose_tested(run);
   if (flag == IDA_SUCCESS) {
-    flag = IDASetUserData(run->ida, run);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = IDAInit(run->ida, evaluate, 0.0, run->y, run->dy);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = IDAWFtolerances(run->ida, weigh);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = choose_tested(run);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = run->differences ? attach_dense(run) : attach_klu(run);
-  }
-  if (flag == IDA_SUCCESS) {
-    flag = baum_i_ida_newton_attach(&run->newton, run->ida, run->y);
-  }
-  double max_step = run->sundials.problem->max_step;
-  if (flag == IDA_SUCCESS && isfinite(max_step)) {
-    flag = IDASetMaxStep(run->ida, max_step);
+    flag = baum_i_ida_newton_attach(&run->newton);
   }
   return flag == IDA_SUCCESS ? give_first_step(run) : flag;
 }
 
-static baum_status set_up(ida_run *run, const baum_i_problem *problem, const baum_i_state *start,
-                          bool differences)
+/* The calls with linear solvers have flags of their own; only memory can be wrong. Scaling is ours.
+ * */
+static int attach_klu(baum_i_sundials *sundials)
 {
-  int n = baum_i_residual_size(problem->workspace->mechanism, residual_of(problem->formulation));
-  run->differences = differences;
-  baum_status status = baum_i_sundials_open(&run->sundials, "ida", n);
-  begin(run, problem, start->t);
-  if (status == BAUM_OK) {
-    take_vectors(run);
-    status = load(run, problem, start);
-  }
-  if (status == BAUM_OK && !differences) {
-    status = baum_i_sundials_klu_open(&run->klu, &run->sundials, run->dae.index);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  int flag = start_ida(run);
-  run->sundials.unfinished = flag != IDA_SUCCESS;
-  return flag == IDA_SUCCESS ? BAUM_OK : baum_i_sundials_fail(&run->sundials, FLAGS, flag, 0.0);
+  ida_run *run = (ida_run *)sundials;
+  void *ida = sundials->memory;
+  run->solver = baum_i_sundials_front(sundials, run, factor, solve);
+  bool attached = run->solver &&
+                  IDASetLinearSolver(ida, run->solver, run->klu.matrix) == IDALS_SUCCESS &&
+                  IDASetLinearSolutionScaling(ida, SUNFALSE) == IDALS_SUCCESS &&
+                  IDASetJacFn(ida, linearize) == IDALS_SUCCESS;
+  return attached ? attach_newton(run) : IDA_MEM_FAIL;
 }
 
-static baum_status create_run(const baum_i_problem *problem, const baum_i_state *start,
-                              bool differences, void **out)
+static int attach_dense(baum_i_sundials *sundials)
 {
-  *out = NULL;
-  ida_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
+  ida_run *run = (ida_run *)sundials;
+  sunindextype n = N_VGetLength(sundials->y);
+  run->dense = SUNDenseMatrix(n, n, sundials->context);
+  if (run->dense) {
+    run->solver = SUNLinSol_Dense(sundials->y, run->dense, sundials->context);
   }
-  baum_status status = set_up(run, problem, start, differences);
-  if (status != BAUM_OK) {
-    destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
+  bool attached =
+    run->solver && IDASetLinearSolver(sundials->memory, run->solver, run->dense) == IDALS_SUCCESS;
+  return attached ? attach_newton(run) : IDA_MEM_FAIL;
 }
+
+static int step(baum_i_sundials *sundials, double target, double *tau)
+{
+  N_Vector dy = ((ida_run *)sundials)->dy;
+  return IDASolve(sundials->memory, target, tau, sundials->y, dy, IDA_ONE_STEP);
+}
+
+static void close_run(baum_i_sundials *sundials)
+{
+  ida_run *run = (ida_run *)sundials;
+  baum_i_ida_newton_close(&run->newton);
+  (void)SUNLinSolFree(run->solver);
+  SUNMatDestroy(run->dense);
+  baum_i_sundials_klu_close(&run->klu);
+}
+
+static const baum_i_sundials_package PACKAGE = {
+  .kind = BAUM_I_SUNDIALS_IDA,
+  BAUM_I_SUNDIALS_CALLS(IDA),
+  .run_size = sizeof(ida_run),
+  .size = size_of,
+  .complete_start = complete_start,
+  .init = init,
+  .weigh = weigh,
+  .restart = restart,
+  .step = step,
+  .close = close_run,
+};
 
 static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
 {
-  return create_run(problem, start, false, out);
+  static const baum_i_sundials_method METHOD = {
+    .name = "ida",
+    .package = &PACKAGE,
+    .open = open_with_klu,
+    .create = IDACreate,
+    .attach = attach_klu,
+  };
+  return baum_i_sundials_create(&METHOD, problem, start, out);
 }
+
+/* ---- for tests ---- */
 
 baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
                                                const baum_i_state *start, void **out)
 {
-  return create_run(problem, start, true, out);
+  static const baum_i_sundials_method METHOD = {
+    .name = "ida",
+    .package = &PACKAGE,
+    .open = open_run,
+    .create = IDACreate,
+    .attach = attach_dense,
+  };
+  return baum_i_sundials_create(&METHOD, problem, start, out);
 }
 
 const double *baum_i_ida_multipliers(const void *run)
 {
-  const ida_run *self = run;
-  const baum_mechanism *mechanism = self->sundials.problem->workspace->mechanism;
-  return N_VGetArrayPointer(self->y) + mechanism->nq + mechanism->nv;
-}
-
-baum_status baum_i_ida_explain_flag(int flag)
-{
-  const baum_i_sundials sundials = {.integrator = "ida"};
-  return baum_i_sundials_fail(&sundials, FLAGS, flag, 1e-3);
+  const baum_i_sundials *sundials = run;
+  const baum_mechanism *mechanism = sundials->problem->workspace->mechanism;
+  return N_VGetArrayPointer(sundials->y) + mechanism->nq + mechanism->nv;
 }
 
 /* ---- the integrator ---- */
@@ -558,12 +390,7 @@ static const baum_integrator IDA = {
   .tests_multipliers = true,
   .solves_residuals = true,
   .create = create,
-  .destroy = destroy,
-  .advance = advance,
-  .interpolate = interpolate,
-  .restart = restart,
-  .forget = forget,
-  .statistics = count,
+  BAUM_I_SUNDIALS_OPERATIONS,
 };
 
 const baum_integrator *baum_ida(void)

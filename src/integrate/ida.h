@@ -12,7 +12,4 @@ baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
 /* Its own multipliers at the end of the last step (nc), which nobody is told. */
 const double *baum_i_ida_multipliers(const void *run);
 
-/* The sentence of a flag, as of a step of 0.001 s from t = 0 that no evaluation failed in. */
-baum_status baum_i_ida_explain_flag(int flag);
-
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's iteration of IDA on y = (q, v, lambda), for GGL (q, v, lambda, mu), with y' = c y + ... and c = O(1/h).
+/* Newton's iteration of IDA on y = (q, v, lambda), for GGL (q, v, lambda, mu), with y' = c y + ...
+ * and c = O(1/h).
  *
  * Convergence. A correction d is as large as the root of the sum of squares of
  *
@@ -16,9 +17,10 @@
  *
  *   tolerance_lambda rtol max(largest |lambda_i| n_i, largest M_jj s_j^2 / T^2)
  *
- * with the energy that inertia has at 1/T, so that multipliers may vanish; row i may err by that over n_i. And where
- * that is tighter than q and v are held, so is the iteration of q and v: what it leaves of them is noise in lambda,
- * which no shorter step makes less (40 times the steps without).
+ * with the energy that inertia has at 1/T, so that multipliers may vanish; row i may err by that
+ * over n_i. And where that is tighter than q and v are held, so is the iteration of q and v: what
+ * it leaves of them is noise in lambda, which no shorter step makes less (40 times the steps
+ * without).
  *
  * At index 3, v is a difference of q over h with rounding c eps s, and the tolerance of v is at
  * least |c| tolerance_q / 10. The iteration ends with a first correction below IDA's bound (0.33),
@@ -36,8 +38,8 @@
  *
  *   A(c) = R^-1 A(c0) C^-1,  R = diag(r, 1, r^(k - 1) at index k),  C = diag(r^-2, r^-1, 1)
  *
- * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a compromise for stiff equations; of
- * the multipliers it leaves (1 - r) / (1 + r) in each iteration.
+ * and for mu R = r^2, C = r^-1, so that x = C A(c0)^-1 R b. IDA's own factor 2 / (1 + r) is a
+ * compromise for stiff equations; of the multipliers it leaves (1 - r) / (1 + r) in each iteration.
  */
 #include "integrate/integrator.h"
 
@@ -119,6 +121,7 @@ void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multi
 {
   const baum_workspace *w = workspace_of(newton);
   const double *inertia = N_VGetArrayPointer(newton->inertia);
+  int nq = w->mechanism->nq;
   int nv = w->mechanism->nv;
   bool ggl = newton->index == BAUM_RESIDUAL_GGL;
   newton->momentum_q = newton->momentum_v = newton->action_q = 0.0;
@@ -126,11 +129,11 @@ void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multi
   newton->action = ggl ? largest_of(newton, multipliers + w->mechanism->nc) : 0.0;
   for (int j = 0; j < nv; j++) {
     newton->momentum_q = fmax(newton->momentum_q, inertia[j] / weights[j]);
-    newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[nv + j]);
+    newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[nq + j]);
     double metric = ggl ? w->metric[j] * w->mechanism->scale[j] : 0.0;
     newton->action_q = fmax(newton->action_q, metric / weights[j]);
   }
-  weigh_multipliers(newton, weights + (size_t)2 * (size_t)nv);
+  weigh_multipliers(newton, weights + nq + nv);
 }
 
 static bool is_index3(const baum_i_ida_newton *newton)
@@ -141,15 +144,16 @@ static bool is_index3(const baum_i_ida_newton *newton)
 static double size_of_motion(const baum_i_ida_newton *newton, double c, const double *d,
                              const double *weights)
 {
-  int n = workspace_of(newton)->mechanism->nv;
+  int nq = workspace_of(newton)->mechanism->nq;
+  int nv = workspace_of(newton)->mechanism->nv;
   double least = is_index3(newton) ? INDEX3_VELOCITY_TOLERANCE * c : 0.0;
   double sum = 0.0;
-  for (int i = 0; i < n; i++) {
+  for (int i = 0; i < nv; i++) {
     double position = d[i] * weights[i];
-    double velocity = d[n + i] / fmax(1.0 / weights[n + i], least / weights[i]);
+    double velocity = d[nq + i] / fmax(1.0 / weights[nq + i], least / weights[i]);
     sum += position * position + velocity * velocity;
   }
-  return sqrt(sum / (2.0 * n));
+  return sqrt(sum / (nq + nv));
 }
 
 static double size_of_lambda(const baum_i_ida_newton *newton, double c, const double *d)
@@ -177,7 +181,7 @@ static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, su
   const double *d = N_VGetArrayPointer(correction);
   double c = 0.0;
   int before = 0;
-  (void)IDAGetCurrentCj(newton->ida, &c);
+  (void)IDAGetCurrentCj(newton->sundials->memory, &c);
   (void)SUNNonlinSolGetCurIter(solver, &before);
   double motion = size_of_motion(newton, fabs(c), d, N_VGetArrayPointer(weights)) / newton->share;
   const double *multipliers = d + mechanism->nq + mechanism->nv;
@@ -195,10 +199,10 @@ static int test(SUNNonlinearSolver solver, N_Vector sum, N_Vector correction, su
   return rate / (1.0 - rate) * size <= tolerance ? 0 : SUN_NLS_CONTINUE;
 }
 
-int baum_i_ida_newton_attach(baum_i_ida_newton *newton, void *ida, N_Vector y)
+int baum_i_ida_newton_attach(baum_i_ida_newton *newton)
 {
-  newton->ida = ida;
-  newton->solver = SUNNonlinSol_Newton(y, newton->sundials->context);
+  void *ida = newton->sundials->memory;
+  newton->solver = SUNNonlinSol_Newton(newton->sundials->y, newton->sundials->context);
   int flag = newton->solver ? IDASetNonlinearSolver(ida, newton->solver) : IDA_MEM_FAIL;
   if (flag == IDA_SUCCESS) {
     /* After the above, which sets IDA's own. */
@@ -226,7 +230,7 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
   const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
   double *b = N_VGetArrayPointer(right);
   double *rows = b + mechanism->nq + mechanism->nv;
-  scale(b, mechanism->nv, ratio);
+  scale(b, mechanism->nq, ratio);
   switch (newton->index) {
   case BAUM_RESIDUAL_INDEX2: scale(rows, mechanism->nc, ratio); break;
   case BAUM_RESIDUAL_INDEX3: scale(rows, mechanism->nc, ratio * ratio); break;
@@ -242,13 +246,13 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
 void baum_i_ida_newton_scale_solution(const baum_i_ida_newton *newton, double ratio,
                                       N_Vector solution)
 {
-  int n = workspace_of(newton)->mechanism->nv;
-  int nc = workspace_of(newton)->mechanism->nc;
+  const baum_mechanism *mechanism = workspace_of(newton)->mechanism;
   double *x = N_VGetArrayPointer(solution);
-  scale(x, n, 1.0 / (ratio * ratio));
-  scale(x + n, n, 1.0 / ratio);
+  double *v = x + mechanism->nq;
+  scale(x, mechanism->nq, 1.0 / (ratio * ratio));
+  scale(v, mechanism->nv, 1.0 / ratio);
   if (newton->index == BAUM_RESIDUAL_GGL) {
-    scale(x + 2 * n + nc, nc, 1.0 / ratio);
+    scale(v + mechanism->nv + mechanism->nc, mechanism->nc, 1.0 / ratio);
   }
 }
 

@@ -10,7 +10,6 @@
 
 typedef struct baum_i_ida_newton {
   const baum_i_sundials *sundials;
-  void *ida;
   baum_residual index;
   SUNNonlinearSolver solver;
   N_Vector displacement; /* (nc) [Phi] of each row */
@@ -27,15 +26,16 @@ typedef struct baum_i_ida_newton {
 
 /* Make IDA judge as said here. Beforehand set sundials, index, displacement and inertia; `newton`
  * lives as long as IDA and is closed after it. Returns a flag of IDA. */
-int baum_i_ida_newton_attach(baum_i_ida_newton *newton, void *ida, N_Vector y);
+int baum_i_ida_newton_attach(baum_i_ida_newton *newton);
 void baum_i_ida_newton_close(baum_i_ida_newton *newton);
 
 /* Sizes of rows and bodies at the point of the workspace, with M and J there: at a start and with
  * each matrix. */
 void baum_i_ida_newton_measure(baum_i_ida_newton *newton);
 
-/* Sizes of the multipliers (lambda, for GGL mu behind them) at the start of a step; weights (nq + nv), 1 / tolerance,
- * are read, and where lambda is tested those of lambda (nc) written behind them. */
+/* Sizes of the multipliers (lambda, for GGL mu behind them) at the start of a step; weights (nq +
+ * nv), 1 / tolerance, are read, and where lambda is tested those of lambda (nc) written behind
+ * them. */
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights);
 

@@ -1,13 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What runs of CVODE and IDA have in common: context, complaints, failing evaluations, weights. */
+/* What every part of a run of CVODE or IDA knows: context, vectors, failing evaluations, unknowns.
+ * */
 #include "integrate/integrator.h"
 
 #if BAUM_HAVE_SUNDIALS
 
 #include "integrate/sundials_common.h"
 
-#include <float.h>
-#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -15,7 +14,7 @@
 
 /* ---- 6.4 and 7 ---- */
 
-static void keep_complaint(baum_i_sundials *sundials, const char *text)
+void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text)
 {
   (void)snprintf(sundials->complaint, sizeof sundials->complaint, "%s", text ? text : "");
 }
@@ -30,7 +29,7 @@ static void handle_error(int line, const char *function, const char *file, const
   (void)file;
   (void)flag;
   (void)context;
-  keep_complaint(user, text);
+  baum_i_sundials_complain(user, text);
 }
 
 static int create_context(baum_i_sundials *sundials)
@@ -45,15 +44,6 @@ static int create_context(baum_i_sundials *sundials)
 
 #else
 
-void baum_i_sundials_handle_error(int flag, const char *module, const char *function, char *text,
-                                  void *user)
-{
-  (void)flag;
-  (void)module;
-  (void)function;
-  keep_complaint(user, text);
-}
-
 static int create_context(baum_i_sundials *sundials)
 {
   return SUNContext_Create(NULL, &sundials->context);
@@ -63,9 +53,10 @@ static int create_context(baum_i_sundials *sundials)
 
 /* ---- vectors ----
  *
- * SUNDIALS 6.4 clones vectors without looking whether there was memory, and after a failure at start frees those it has
- * twice. So all are made beforehand, where a failure is a status; cloning takes the next, destroying does nothing,
- * closing frees them. Each one's numbers are preceded by a pointer to its stock. */
+ * SUNDIALS 6.4 clones vectors without looking whether there was memory, and after a failure at
+ * start frees those it has twice. So all are made beforehand, where a failure is a status; cloning
+ * takes the next, destroying does nothing, closing frees them. Each one's numbers are preceded by a
+ * pointer to its stock. */
 
 enum { PREFIX = 1 };
 
@@ -129,9 +120,8 @@ N_Vector baum_i_sundials_vector(baum_i_sundials *sundials)
 
 /* ---- life ---- */
 
-baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator, int n)
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n)
 {
-  sundials->integrator = integrator;
   return create_context(sundials) == 0 ? make_vectors(sundials, n) : baum_i_fail_memory();
 }
 
@@ -150,26 +140,6 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 
 /* ---- evaluations ---- */
 
-void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t)
-{
-  sundials->problem = problem;
-  sundials->t = t;
-  sundials->unfinished = true;
-  sundials->stopped = false;
-  sundials->evaluation = BAUM_OK;
-  sundials->complaint[0] = '\0';
-}
-
-/* Steps that shrink towards a place where evaluations fail end with one in which none does: what failed nearly no time
- * ago is still the reason. */
-void baum_i_sundials_begin_step(baum_i_sundials *sundials, const baum_i_problem *problem, double t)
-{
-  bool near = fabs(t - sundials->evaluated_at) * problem->rate <= 1e-6;
-  baum_status evaluation = near ? sundials->evaluation : BAUM_OK;
-  baum_i_sundials_begin(sundials, problem, t);
-  sundials->evaluation = evaluation;
-}
-
 /* The flag `retry` says something after these two failures only. */
 static bool may_retry(const baum_i_sundials *sundials, baum_status status)
 {
@@ -184,99 +154,44 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   }
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
-  (void)snprintf(sundials->sentence, sizeof sundials->sentence, "%s", baum_message());
+  (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
   sundials->stopped = !may_retry(sundials, status);
   return sundials->stopped ? -1 : 1;
 }
 
-/* step: 0 where none was tried. */
-static baum_status fail_with_evaluation(const baum_i_sundials *sundials, double step)
+/* ---- unknowns ---- */
+
+void baum_i_sundials_pack(const baum_mechanism *mechanism, const double *q, const double *v,
+                          double *y)
 {
-  return baum_i_fail_in_step(sundials->evaluation, sundials->sentence, sundials->integrator,
-                             sundials->t, step);
+  memcpy(y, q, (size_t)mechanism->nq * sizeof *y);
+  memcpy(y + mechanism->nq, v, (size_t)mechanism->nv * sizeof *y);
 }
 
-baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
-                                 int flag, double step)
+void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, double *q, double *v)
 {
-  if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials, step);
-  }
-  while (flags->flag != 0 && flags->flag != flag) {
-    flags++;
-  }
-  if (flags->flag == 0) {
-    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)",
-                       sundials->t, sundials->integrator, flag, step, sundials->complaint);
-  }
-  return baum_i_fail(flags->status, "t = %.9g s: %s: %s (step %.3g s. %s)", sundials->t,
-                     sundials->integrator, flags->meaning, step,
-                     sundials->origin == 0.0 ? sundials->complaint : "");
-}
-
-/* First steps may be lost in the rounding of a late t as long as that is fine beside the motion. */
-static bool has_moved(const baum_i_sundials *sundials, double before, double after)
-{
-  double rounding = DBL_EPSILON * fabs(sundials->t) * sundials->problem->rate;
-  bool shows = sundials->origin + after != sundials->t;
-  return shows || (after != before && rounding <= 1e-4);
-}
-
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double before,
-                                           double after)
-{
-  if (has_moved(sundials, before, after)) {
-    return BAUM_OK;
-  }
-  if (sundials->evaluation != BAUM_OK) {
-    return fail_with_evaluation(sundials, after - before);
-  }
-  return baum_i_fail(BAUM_ERR_STEP,
-                     "t = %.9g s: %s: the step became too small to change the time (%.3g s); the "
-                     "motion may be singular here, or rtol = %g is too small",
-                     sundials->t, sundials->integrator, fabs(after - before),
-                     sundials->problem->rtol);
-}
-
-double baum_i_sundials_inside(const baum_i_sundials *sundials, double t, double end, double last)
-{
-  double tau = t - sundials->origin;
-  double beyond = (tau - end) * sundials->problem->direction;
-  double before = -beyond - fabs(last);
-  if (fmax(beyond, before) > 100.0 * DBL_EPSILON * fmax(fabs(t), fabs(end))) {
-    return (double)NAN;
-  }
-  return beyond > 0.0 ? end : (before > 0.0 ? end - last : tau);
-}
-
-baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t)
-{
-  return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
-                     sundials->integrator);
-}
-
-/* ---- numbers ---- */
-
-double baum_i_sundials_target(const baum_i_problem *problem, double t)
-{
-  return t + problem->direction * 10.0 / problem->rate;
-}
-
-void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights)
-{
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  baum_i_problem_tolerances(problem, v, weights, weights + mechanism->nq);
-  for (int i = 0; i < mechanism->nq + mechanism->nv; i++) {
-    weights[i] = 1.0 / weights[i];
-  }
-}
-
-void baum_i_sundials_unload(const baum_i_problem *problem, N_Vector from, double *q, double *v)
-{
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  const double *y = N_VGetArrayPointer(from);
   memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
   memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
+}
+
+/* N is the identity so far. */
+void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy)
+{
+  const baum_mechanism *mechanism = workspace->mechanism;
+  baum_i_sundials_pack(mechanism, y + mechanism->nq, workspace->a, dy);
+}
+
+int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run)
+{
+  const baum_i_problem *problem = ((const baum_i_sundials *)run)->problem;
+  const baum_mechanism *mechanism = problem->workspace->mechanism;
+  const double *v = N_VGetArrayPointer(y) + mechanism->nq;
+  double *w = N_VGetArrayPointer(weights);
+  baum_i_problem_tolerances(problem, v, w, w + mechanism->nq);
+  for (int i = 0; i < mechanism->nq + mechanism->nv; i++) {
+    w[i] = 1.0 / w[i];
+  }
+  return 0;
 }
 
 const char *baum_i_sundials_version(void)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What runs of CVODE and IDA have in common, and the differences between SUNDIALS 6.4 and 7. Only cvode.c, ida.c
- * and sundials_common.c include it, and only when the build has SUNDIALS.
+/* What every part of a run of CVODE or IDA knows: its vectors, its equations, the order of its
+ * unknowns. Only files of CVODE and IDA include it, and only when the build has SUNDIALS.
  *
  * SUNDIALS never prints: each run has a context of its own, and its complaints are kept here.
  */
@@ -19,81 +19,54 @@ enum { BAUM_I_SUNDIALS_COMPLAINT_SIZE = 256, BAUM_I_SUNDIALS_VECTORS = 40 };
 
 /* First member of a run. */
 typedef struct baum_i_sundials {
-  const char *integrator; /* name in messages */
+  const struct baum_i_sundials_method *method;
   SUNContext context;
   N_Vector vectors[BAUM_I_SUNDIALS_VECTORS]; /* all that a run needs, made at once */
   int taken;                                 /* of them */
   double *numbers;                           /* their memory */
+  void *memory;                              /* of CVODE or IDA */
+  N_Vector y;                                /* end of the last step */
+  N_Vector inside;                           /* interpolated */
   const baum_i_problem *problem;             /* of the call under way */
-  bool unfinished;        /* since begin: a start or step that failed must be begun anew */
+  bool unfinished;        /* since begin: a start or step that failed needs a restart */
+  bool stops;             /* a stop time is set */
   bool stopped;           /* an evaluation of this call failed for good */
   baum_status evaluation; /* the last failing one here and now, or BAUM_OK */
   double origin;          /* [s] SUNDIALS is told t - origin: a late start costs no digits */
   double t;               /* start of the step under way */
   double evaluated_at;    /* start of the step in which that evaluation failed */
-  char sentence[BAUM_I_MESSAGE_SIZE];             /* of that evaluation */
+  char message[BAUM_I_MESSAGE_SIZE];              /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
+  bool pivots_forgotten;                          /* KLU must choose them anew */
+  int64_t full_factorizations;                    /* times KLU chose pivots */
+  baum_i_statistics before;                       /* up to the last restart */
 } baum_i_sundials;
 
-/* What a flag of CVODE or IDA means. */
-typedef struct baum_i_sundials_flag {
-  int flag;
-  baum_status status;
-  const char *meaning; /* and advice; begins in lower case */
-} baum_i_sundials_flag;
-
-/* Context with a silent error handler and vectors of length n; close it after everything made with it. Closing
- * accepts zeroes. */
-baum_status baum_i_sundials_open(baum_i_sundials *sundials, const char *integrator, int n);
+/* Context with a silent error handler and vectors of length n; close it after everything made with
+ * it. Closing accepts zeroes. */
+baum_status baum_i_sundials_open(baum_i_sundials *sundials, int n);
 void baum_i_sundials_close(baum_i_sundials *sundials);
 
-/* One of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for our own few. */
+/* One of the vectors; what SUNDIALS clones from it comes from the same stock. Never fails for our
+ * own few. */
 N_Vector baum_i_sundials_vector(baum_i_sundials *sundials);
 
-/* Before a start at t; before a step from t. Clear `unfinished` after success. */
-void baum_i_sundials_begin(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
-void baum_i_sundials_begin_step(baum_i_sundials *sundials, const baum_i_problem *problem, double t);
+/* Keeps what SUNDIALS complains of. */
+void baum_i_sundials_complain(baum_i_sundials *sundials, const char *text);
 
 /* What a callback answers: 0, +1 where a smaller step may help, else -1. Remembers a failure. */
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status);
 
-/* From a flag to a status with its sentence; a remembered evaluation comes first. flags end with flag 0. */
-baum_status baum_i_sundials_fail(const baum_i_sundials *sundials, const baum_i_sundials_flag *flags,
-                                 int flag, double step);
+/* ---- y = (q, v) and y' = (N v, v'), the first nq + nv unknowns of every method ---- */
 
-/* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
-baum_status baum_i_sundials_check_progress(const baum_i_sundials *sundials, double before,
-                                           double after);
+void baum_i_sundials_pack(const baum_mechanism *mechanism, const double *q, const double *v,
+                          double *y);
+void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, double *q, double *v);
 
-/* The time of SUNDIALS that is t, put into its last step, which ends at `end`, where it is off by the rounding of t; NaN
- * where it is outside. */
-double baum_i_sundials_inside(const baum_i_sundials *sundials, double t, double end, double last);
+/* y' at y, of which workspace->a is the acceleration. */
+void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
-/* For a time that is not inside the last step. */
-baum_status baum_i_sundials_fail_outside(const baum_i_sundials *sundials, double t);
-
-/* A target beyond the first step, in problem->direction: CVODE and IDA take the direction from it, and its distance
- * bounds the first step to a tenth of 10 T. */
-double baum_i_sundials_target(const baum_i_problem *problem, double t);
-
-/* Weights of q and v in error norms, 1 / tolerance; one after the other. */
-void baum_i_sundials_weights(const baum_i_problem *problem, const double *v, double *weights);
-
-/* q and v, the first of a vector's numbers. */
-void baum_i_sundials_unload(const baum_i_problem *problem, N_Vector from, double *q, double *v);
-
-/* ---- 6.4 and 7 ---- */
-
-#if SUNDIALS_VERSION_MAJOR >= 7
-/* The context's handler serves all. */
-#define BAUM_I_SUNDIALS_SILENCE(set_handler, memory, sundials) 0
-#else
-/* Each integrator has its own. */
-#define BAUM_I_SUNDIALS_SILENCE(set_handler, memory, sundials) \
-  set_handler(memory, baum_i_sundials_handle_error, sundials)
-
-void baum_i_sundials_handle_error(int flag, const char *module, const char *function, char *text,
-                                  void *user);
-#endif
+/* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
+int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run);
 
 #endif

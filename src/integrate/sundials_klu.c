@@ -98,8 +98,8 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
 static int choose_pivots(baum_i_sundials_klu *klu)
 {
   klu->fresh = true;
-  klu->forgotten = false;
-  klu->full_factorizations++;
+  klu->sundials->pivots_forgotten = false;
+  klu->sundials->full_factorizations++;
   (void)SUNLinSol_KLUReInit(klu->solver, klu->matrix, 0, SUNKLU_REINIT_PARTIAL);
   if (SUNLinSolSetup_KLU(klu->solver, klu->matrix) == 0) {
     return 0;
@@ -112,7 +112,7 @@ int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu)
 {
   sun_klu_numeric *numeric = SUNLinSol_KLUGetNumeric(klu->solver);
   klu->fresh = false;
-  if (!numeric || klu->forgotten) {
+  if (!numeric || klu->sundials->pivots_forgotten) {
     return choose_pivots(klu);
   }
   /* KLU's name for the index type depends on its release. */
@@ -148,8 +148,8 @@ static void form_residual(const baum_i_sundials_klu *klu, const double *x, const
   }
 }
 
-/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for Newton's iteration.
- * NaN is not accurate. */
+/* Rows scaled by their largest entry are fulfilled to six digits of what they add up: plenty for
+ * Newton's iteration. NaN is not accurate. */
 static bool is_accurate(const baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
 {
   sunindextype n = SUNSparseMatrix_Columns(klu->matrix);

@@ -2,8 +2,9 @@
 /* The matrix dF/dy + c dF/dy' of a residual form, factored by KLU: what Newton's iterations of
  * IDA and CVODE BDF solve with. Only their files include it, and only when the build has SUNDIALS.
  *
- * KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition, is always poor
- * here, as c = O(1/h) and 1 stand side by side, and would choose pivots anew, and allocate, in every step.
+ * KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition,
+ * is always poor here, as c = O(1/h) and 1 stand side by side, and would choose pivots anew, and
+ * allocate, in every step.
  */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_KLU_H
 #define BAUM_I_INTEGRATE_SUNDIALS_KLU_H
@@ -18,19 +19,17 @@ typedef struct baum_i_sundials_klu {
   baum_i_residual_matrix *form; /* where the numbers come from */
   SUNMatrix matrix;             /* (n x n) as the form has it */
   SUNLinearSolver solver;
-  double *numbers;             /* behind all below */
-  double *defect;              /* (n) b - A x */
-  double *size;                /* (n) |b| + |A| |x| */
-  double *entry;               /* (n) largest of each row of A */
-  N_Vector right;              /* (n) for the caller */
-  N_Vector solution;           /* (n) likewise */
-  bool forgotten;              /* pivots are to be chosen anew */
-  bool fresh;                  /* pivots were chosen at the present matrix */
-  int64_t full_factorizations; /* times pivots were chosen */
+  double *numbers;   /* behind all below */
+  double *defect;    /* (n) b - A x */
+  double *size;      /* (n) |b| + |A| |x| */
+  double *entry;     /* (n) largest of each row of A */
+  N_Vector right;    /* (n) for the caller */
+  N_Vector solution; /* (n) likewise */
+  bool fresh;        /* pivots were chosen at the present matrix */
 } baum_i_sundials_klu;
 
-/* After baum_i_sundials_begin(). BAUM_OK or BAUM_ERR_MEMORY. Close it before the run of SUNDIALS is closed, but after what
- * calls it, in any case; closing accepts zeroes. */
+/* Where sundials->problem is set. BAUM_OK or BAUM_ERR_MEMORY. Close it before the run of SUNDIALS
+ * is closed, but after what calls it, in any case; closing accepts zeroes. */
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index);
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
@@ -39,11 +38,13 @@ void baum_i_sundials_klu_close(baum_i_sundials_klu *klu);
 baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy);
 
-/* Answers of a linear solver: 0, > 0 where another matrix may help, < 0. x and b are two vectors. */
+/* Answers of a linear solver: 0, > 0 where another matrix may help, < 0. x and b are two vectors.
+ * */
 int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu);
 int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
 
-/* A linear solver of SUNDIALS that calls these with `content`; free it with SUNLinSolFree(). NULL: no memory. */
+/* A linear solver of SUNDIALS that calls these with `content`; free it with SUNLinSolFree(). NULL:
+ * no memory. */
 SUNLinearSolver baum_i_sundials_front(const baum_i_sundials *sundials, void *content,
                                       int (*factor)(SUNLinearSolver, SUNMatrix),
                                       int (*solve)(SUNLinearSolver, SUNMatrix, N_Vector, N_Vector,

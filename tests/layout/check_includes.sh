@@ -15,7 +15,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (header ~ /^(SuiteSparseQR_C|cholmod)\.h$/) return file == "src/linear/qr.c"
     if (header ~ /^SuiteSparse_config\.h$/) return file ~ /^src\/linear\/(klu|qr)\.c$/
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
-      return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|klu))\.[ch]$/
+      return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|driver|klu))\.[ch]$/
     if (header == "pthread.h") return file == "src/study/threads.h"
     if (header ~ /^(fcntl|unistd|sys\/stat)\.h$/) return file == "src/study/report_file.c"
     if (header == "immintrin.h") return file == "src/base/four.h"

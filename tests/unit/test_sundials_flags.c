@@ -17,8 +17,7 @@
 #include <cvode/cvode.h>
 #include <ida/ida.h>
 
-#include "integrate/cvode.h"
-#include "integrate/ida.h"
+#include "integrate/sundials_driver.h"
 #include "sentence.h"
 
 /* ---- flag by flag ---- */
@@ -64,8 +63,8 @@ static void every_flag_has_a_sentence_with_time_and_step(void **state)
       known[0] = FLAGS[k].cvode == flag ? k : known[0];
       known[1] = FLAGS[k].ida == flag ? k : known[1];
     }
-    check_flag("cvode", flag, baum_i_cvode_explain_flag(flag), known[0]);
-    check_flag("ida", flag, baum_i_ida_explain_flag(flag), known[1]);
+    check_flag("cvode", flag, baum_i_sundials_explain_flag(BAUM_I_SUNDIALS_CVODE, flag), known[0]);
+    check_flag("ida", flag, baum_i_sundials_explain_flag(BAUM_I_SUNDIALS_IDA, flag), known[1]);
   }
 }
 

@@ -1,0 +1,361 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The driver of CVODE and IDA: creation, steps, stops, interpolation, restarts, counters and
+ * messages of both.
+ *
+ * SUNDIALS counts time from the last start, so that a late one costs no digits.
+ */
+#include "integrate/integrator.h"
+
+#if BAUM_HAVE_SUNDIALS
+
+#include "integrate/sundials_driver.h"
+
+#include <float.h>
+#include <math.h>
+
+#include <cvode/cvode.h>
+#include <ida/ida.h>
+
+#include "base/alloc.h"
+
+/* ---- messages ---- */
+
+/* Flags by package, 0 where it has none; what they mean, and advice. */
+static const struct {
+  int flag[2];
+  baum_status status;
+  const char *meaning;
+} FLAGS[] = {
+  {{CV_TOO_MUCH_ACC, IDA_TOO_MUCH_ACC},
+   BAUM_ERR_STEP,
+   "rtol and atol ask for more digits than double precision has; raise rtol"},
+  {{CV_ERR_FAILURE, IDA_ERR_FAIL},
+   BAUM_ERR_STEP,
+   "the error stays above the tolerance however small the step; a force may jump here, the "
+   "position may be near singular, or rtol is too small"},
+  {{CV_CONV_FAILURE, 0},
+   BAUM_ERR_CONVERGENCE,
+   "the iteration does not converge however small the step; forces may be stiff, which only "
+   "cvode_bdf and ida are for, or the position near singular, where projection helps"},
+  {{0, IDA_CONV_FAIL},
+   BAUM_ERR_CONVERGENCE,
+   "the iteration does not converge however small the step; the position may be near singular, "
+   "or rtol is too small, for index 3 above all"},
+  {{CV_TOO_CLOSE, 0},
+   BAUM_ERR_STEP,
+   "no first step can be found; the scales of time differ too much"},
+  {{CV_LSETUP_FAIL, 0},
+   BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be factored; take a fixed-point method such as "
+   "cvode_adams, or rk8"},
+  {{0, IDA_LSETUP_FAIL},
+   BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be factored; take another formulation, or rk8"},
+  {{CV_LSOLVE_FAIL, IDA_LSOLVE_FAIL},
+   BAUM_ERR_SINGULAR,
+   "the matrix of Newton's iteration cannot be solved with; take rk8, or a smaller rtol"},
+  {{CV_NLS_FAIL, IDA_NLS_FAIL},
+   BAUM_ERR_CONVERGENCE,
+   "the iteration failed; take rk8, or a smaller rtol"},
+  {{CV_ILL_INPUT, IDA_ILL_INPUT},
+   BAUM_ERR_NOT_FINITE,
+   "the state or its tolerances are not finite; the motion grows without bound, or rtol and atol "
+   "are too small"},
+  {{CV_MEM_FAIL, IDA_MEM_FAIL}, BAUM_ERR_MEMORY, "out of memory"},
+};
+
+enum { FLAG_COUNT = sizeof FLAGS / sizeof *FLAGS };
+
+/* step: 0 where none was tried. */
+static baum_status fail_with_evaluation(const baum_i_sundials *run, double step)
+{
+  return baum_i_fail_in_step(run->evaluation, run->message, run->method->name, run->t, step);
+}
+
+/* A remembered evaluation comes first. */
+static baum_status fail(const baum_i_sundials *run, int flag, double step)
+{
+  if (run->evaluation != BAUM_OK) {
+    return fail_with_evaluation(run, step);
+  }
+  int k = 0;
+  while (k < FLAG_COUNT && FLAGS[k].flag[run->method->package->kind] != flag) {
+    k++;
+  }
+  if (k == FLAG_COUNT) {
+    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s: %s failed with flag %d (step %.3g s. %s)",
+                       run->t, run->method->name, flag, step, run->complaint);
+  }
+  return baum_i_fail(FLAGS[k].status, "t = %.9g s: %s: %s (step %.3g s. %s)", run->t,
+                     run->method->name, FLAGS[k].meaning, step,
+                     run->origin == 0.0 ? run->complaint : "");
+}
+
+static baum_status fail_in_step(const baum_i_sundials *run, int flag)
+{
+  double step = 0.0;
+  (void)run->method->package->get_step(run->memory, &step);
+  return fail(run, flag, step);
+}
+
+baum_status baum_i_sundials_explain_flag(baum_i_sundials_kind kind, int flag)
+{
+  const baum_i_sundials_package package = {.kind = kind};
+  const baum_i_sundials_method method = {
+    .name = kind == BAUM_I_SUNDIALS_IDA ? "ida" : "cvode",
+    .package = &package,
+  };
+  const baum_i_sundials run = {.method = &method};
+  return fail(&run, flag, 1e-3);
+}
+
+/* ---- start and restart ---- */
+
+static void begin(baum_i_sundials *run, const baum_i_problem *problem, double t)
+{
+  run->problem = problem;
+  run->t = t;
+  run->unfinished = true;
+  run->stopped = false;
+  run->evaluation = BAUM_OK;
+  run->complaint[0] = '\0';
+}
+
+static baum_status load(baum_i_sundials *run, const baum_i_state *state)
+{
+  N_VConst(0.0, run->y);
+  baum_i_sundials_pack(run->problem->workspace->mechanism, state->q, state->v,
+                       N_VGetArrayPointer(run->y));
+  const baum_i_sundials_package *package = run->method->package;
+  return package->complete_start ? package->complete_start(run, state->t) : BAUM_OK;
+}
+
+baum_status baum_i_sundials_restart(void *self, const baum_i_problem *problem,
+                                    const baum_i_state *state)
+{
+  baum_i_sundials *run = self;
+  baum_i_statistics present;
+  baum_i_sundials_count(run, &present);
+  run->before = present;
+  begin(run, problem, state->t);
+  run->origin = state->t;
+  BAUM_I_TRY(load(run, state));
+  int flag = run->method->package->restart(run);
+  run->unfinished = flag != 0;
+  return flag == 0 ? BAUM_OK : fail_in_step(run, flag);
+}
+
+void baum_i_sundials_forget(void *self)
+{
+  baum_i_sundials *run = self;
+  run->unfinished = true;
+  run->pivots_forgotten = true;
+}
+
+void baum_i_sundials_count(const void *self, baum_i_statistics *out)
+{
+  const baum_i_sundials *run = self;
+  const baum_i_sundials_package *package = run->method->package;
+  long rejected[2] = {0, 0};
+  long setups = 0;
+  long iterations = 0;
+  (void)package->count_error_failures(run->memory, &rejected[0]);
+  (void)package->count_solver_failures(run->memory, &rejected[1]);
+  (void)package->count_setups(run->memory, &setups);
+  (void)package->count_iterations(run->memory, &iterations);
+  out->rejected = run->before.rejected + rejected[0] + rejected[1];
+  out->factorizations = run->before.factorizations + setups;
+  out->full_factorizations = run->full_factorizations;
+  out->nonlinear_iterations = run->before.nonlinear_iterations + iterations;
+}
+
+/* ---- one step ---- */
+
+/* Steps that shrink towards a place where evaluations fail end with one in which none does: what
+ * failed nearly no time ago is still the reason. */
+static void begin_step(baum_i_sundials *run, const baum_i_problem *problem, double t)
+{
+  bool near = fabs(t - run->evaluated_at) * problem->rate <= 1e-6;
+  baum_status evaluation = near ? run->evaluation : BAUM_OK;
+  begin(run, problem, t);
+  run->evaluation = evaluation;
+}
+
+/* SUNDIALS 6.4 cannot take a stop back, only put it off. */
+static void give_stop(baum_i_sundials *run)
+{
+  const baum_i_problem *problem = run->problem;
+  if (problem->stops || run->stops) {
+    double stop =
+      problem->stops ? problem->stop - run->origin : problem->direction * (double)INFINITY;
+    (void)run->method->package->set_stop(run->memory, stop); /* fails only where it is behind */
+    run->stops = problem->stops;
+  }
+}
+
+/* First steps may be lost in the rounding of a late t as long as that is fine beside the motion. */
+static bool has_moved(const baum_i_sundials *run, double before, double after)
+{
+  double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
+  bool shows = run->origin + after != run->t;
+  return shows || (after != before && rounding <= 1e-4);
+}
+
+/* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
+static baum_status check_progress(const baum_i_sundials *run, double before, double after)
+{
+  if (has_moved(run, before, after)) {
+    return BAUM_OK;
+  }
+  if (run->evaluation != BAUM_OK) {
+    return fail_with_evaluation(run, after - before);
+  }
+  return baum_i_fail(BAUM_ERR_STEP,
+                     "t = %.9g s: %s: the step became too small to change the time (%.3g s); the "
+                     "motion may be singular here, or rtol = %g is too small",
+                     run->t, run->method->name, fabs(after - before), run->problem->rtol);
+}
+
+/* SUNDIALS takes the direction from the target, and its distance, 10 T, bounds the first step to a
+ * tenth of it. */
+baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state)
+{
+  baum_i_sundials *run = self;
+  if (run->unfinished) {
+    BAUM_I_TRY(baum_i_sundials_restart(run, problem, state));
+  }
+  const baum_i_sundials_package *package = run->method->package;
+  begin_step(run, problem, state->t);
+  give_stop(run);
+  double before = 0.0;
+  double after = 0.0;
+  (void)package->get_time(run->memory, &before);
+  int flag = package->step(run, before + problem->direction * 10.0 / problem->rate, &after);
+  if (flag < 0) {
+    return fail_in_step(run, flag);
+  }
+  BAUM_I_TRY(check_progress(run, before, after));
+  run->unfinished = false;
+  state->t = run->origin + after;
+  baum_i_sundials_unpack(problem->workspace->mechanism, N_VGetArrayPointer(run->y), state->q,
+                         state->v);
+  return BAUM_OK;
+}
+
+/* ---- inside the last step ---- */
+
+/* The time of SUNDIALS that is t, put into the last step where it is off by the rounding of t; NaN
+ * where it is outside, where IDA would extrapolate. */
+static double find_inside(const baum_i_sundials *run, double t)
+{
+  double end = 0.0;
+  double last = 0.0;
+  (void)run->method->package->get_time(run->memory, &end);
+  (void)run->method->package->get_last_step(run->memory, &last);
+  double tau = t - run->origin;
+  double beyond = (tau - end) * run->problem->direction;
+  double before = -beyond - fabs(last);
+  if (fmax(beyond, before) > 100.0 * DBL_EPSILON * fmax(fabs(t), fabs(end))) {
+    return (double)NAN;
+  }
+  return beyond > 0.0 ? end : (before > 0.0 ? end - last : tau);
+}
+
+baum_status baum_i_sundials_interpolate(void *self, const baum_i_problem *problem, double t,
+                                        double *q, double *v)
+{
+  baum_i_sundials *run = self;
+  double tau = find_inside(run, t);
+  if (isnan(tau) || run->method->package->get_derivative(run->memory, tau, 0, run->inside) != 0) {
+    return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
+                       run->method->name);
+  }
+  baum_i_sundials_unpack(problem->workspace->mechanism, N_VGetArrayPointer(run->inside), q, v);
+  return BAUM_OK;
+}
+
+/* ---- life ---- */
+
+static void complain(int flag, const char *module, const char *function, char *text, void *user)
+{
+  (void)flag;
+  (void)module;
+  (void)function;
+  baum_i_sundials_complain(user, text);
+}
+
+static int start_sundials(baum_i_sundials *run)
+{
+  const baum_i_sundials_package *package = run->method->package;
+  double max_step = run->problem->max_step;
+  run->memory = run->method->create(run->context);
+  if (!run->memory) {
+    return package->kind == BAUM_I_SUNDIALS_IDA ? IDA_MEM_FAIL : CV_MEM_FAIL;
+  }
+  int flag = package->set_complain ? package->set_complain(run->memory, complain, run) : 0;
+  if (flag == 0) {
+    flag = package->set_user(run->memory, run);
+  }
+  if (flag == 0) {
+    flag = package->init(run);
+  }
+  if (flag == 0) {
+    flag = package->set_weigh(run->memory, package->weigh);
+  }
+  if (flag == 0) {
+    flag = run->method->attach(run);
+  }
+  if (flag == 0 && isfinite(max_step)) {
+    flag = package->set_max_step(run->memory, max_step);
+  }
+  return flag;
+}
+
+static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
+                          const baum_i_state *start)
+{
+  BAUM_I_TRY(baum_i_sundials_open(run, run->method->package->size(problem)));
+  run->y = baum_i_sundials_vector(run);
+  run->inside = baum_i_sundials_vector(run);
+  begin(run, problem, start->t);
+  run->origin = start->t;
+  if (run->method->open) {
+    BAUM_I_TRY(run->method->open(run));
+  }
+  BAUM_I_TRY(load(run, start));
+  int flag = start_sundials(run);
+  run->unfinished = flag != 0;
+  return flag == 0 ? BAUM_OK : fail(run, flag, 0.0);
+}
+
+baum_status baum_i_sundials_create(const baum_i_sundials_method *method,
+                                   const baum_i_problem *problem, const baum_i_state *start,
+                                   void **out)
+{
+  *out = NULL;
+  baum_i_sundials *run = baum_i_alloc(1, method->package->run_size);
+  if (!run) {
+    return baum_i_fail_memory();
+  }
+  run->method = method;
+  baum_status status = set_up(run, problem, start);
+  if (status != BAUM_OK) {
+    baum_i_sundials_destroy(run);
+    return status;
+  }
+  *out = run;
+  return BAUM_OK;
+}
+
+void baum_i_sundials_destroy(void *self)
+{
+  baum_i_sundials *run = self;
+  if (run) {
+    run->method->package->destroy(&run->memory);
+    run->method->package->close(run);
+    baum_i_sundials_close(run);
+    baum_i_free(run);
+  }
+}
+
+#endif

@@ -1,0 +1,117 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Runs of CVODE and IDA: one driver for both. cvode.c and ida.c hold what differs, as a table. Only
+ * they and the driver include it, and tests; only when the build has SUNDIALS.
+ */
+#ifndef BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
+#define BAUM_I_INTEGRATE_SUNDIALS_DRIVER_H
+
+#include "integrate/sundials_common.h"
+
+typedef enum baum_i_sundials_kind {
+  BAUM_I_SUNDIALS_CVODE,
+  BAUM_I_SUNDIALS_IDA
+} baum_i_sundials_kind;
+
+typedef void baum_i_sundials_complain_fn(int flag, const char *module, const char *function,
+                                         char *text, void *user);
+
+/* CVODE or IDA. Functions that return int return flags, 0 for success. */
+typedef struct baum_i_sundials_package {
+  baum_i_sundials_kind kind;
+
+  /* What differs between the two in the name alone: BAUM_I_SUNDIALS_CALLS. */
+  int (*set_complain)(void *memory, baum_i_sundials_complain_fn *function, void *user);
+  int (*set_user)(void *memory, void *user);
+  int (*set_weigh)(void *memory, int (*weigh)(N_Vector y, N_Vector weights, void *user));
+  int (*set_max_step)(void *memory, sunrealtype step);
+  int (*set_stop)(void *memory, sunrealtype stop);
+  int (*get_time)(void *memory, sunrealtype *t);
+  int (*get_step)(void *memory, sunrealtype *step); /* to be tried */
+  int (*get_last_step)(void *memory, sunrealtype *step);
+  int (*get_derivative)(void *memory, sunrealtype t, int order, N_Vector out);
+  int (*count_error_failures)(void *memory, long *count);
+  int (*count_solver_failures)(void *memory, long *count);
+  int (*count_setups)(void *memory, long *count);
+  int (*count_iterations)(void *memory, long *count);
+  void (*destroy)(void **memory); /* NULL is fine */
+
+  size_t run_size;                            /* of a run, which begins with baum_i_sundials */
+  int (*size)(const baum_i_problem *problem); /* n, length of y */
+  /* Completes the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
+  baum_status (*complete_start)(baum_i_sundials *run, double t);
+  int (*init)(baum_i_sundials *run);
+  int (*weigh)(N_Vector y, N_Vector weights, void *run);
+  int (*restart)(baum_i_sundials *run);
+  /* One step towards target, into run->y; tau is its end. */
+  int (*step)(baum_i_sundials *run, double target, double *tau);
+  /* Frees what the method's `open` and `attach` made, or zeroes; run->memory is freed before. */
+  void (*close)(baum_i_sundials *run);
+} baum_i_sundials_package;
+
+/* A method of a package. */
+typedef struct baum_i_sundials_method {
+  const char *name; /* in messages */
+  const baum_i_sundials_package *package;
+  baum_status (*open)(baum_i_sundials *run); /* what a run needs beside SUNDIALS; NULL: nothing */
+  void *(*create)(SUNContext context);       /* run->memory; NULL: out of memory */
+  int (*attach)(baum_i_sundials *run);       /* solvers and other settings, after all else */
+} baum_i_sundials_method;
+
+/* From 7 on the handler of the context serves all, before each package has its own. */
+#if SUNDIALS_VERSION_MAJOR >= 7
+#define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) NULL
+#else
+#define BAUM_I_SUNDIALS_SET_COMPLAIN(prefix) prefix##SetErrHandlerFn
+#endif
+
+/* clang-format off */
+#define BAUM_I_SUNDIALS_CALLS(prefix)                      \
+  .set_complain = BAUM_I_SUNDIALS_SET_COMPLAIN(prefix),    \
+  .set_user = prefix##SetUserData,                         \
+  .set_weigh = prefix##WFtolerances,                       \
+  .set_max_step = prefix##SetMaxStep,                      \
+  .set_stop = prefix##SetStopTime,                         \
+  .get_time = prefix##GetCurrentTime,                      \
+  .get_step = prefix##GetCurrentStep,                      \
+  .get_last_step = prefix##GetLastStep,                    \
+  .get_derivative = prefix##GetDky,                        \
+  .count_error_failures = prefix##GetNumErrTestFails,      \
+  .count_solver_failures = prefix##GetNumStepSolveFails,   \
+  .count_setups = prefix##GetNumLinSolvSetups,             \
+  .count_iterations = prefix##GetNumNonlinSolvIters,       \
+  .destroy = prefix##Free
+/* clang-format on */
+
+/* As create() of an integrator. */
+baum_status baum_i_sundials_create(const baum_i_sundials_method *method,
+                                   const baum_i_problem *problem, const baum_i_state *start,
+                                   void **out);
+
+/* ---- operations of an integrator ---- */
+
+void baum_i_sundials_destroy(void *self);
+baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state);
+baum_status baum_i_sundials_interpolate(void *self, const baum_i_problem *problem, double t,
+                                        double *q, double *v);
+baum_status baum_i_sundials_restart(void *self, const baum_i_problem *problem,
+                                    const baum_i_state *state);
+void baum_i_sundials_forget(void *self);
+void baum_i_sundials_count(const void *self, baum_i_statistics *out);
+
+/* All but create(). */
+/* clang-format off */
+#define BAUM_I_SUNDIALS_OPERATIONS              \
+  .destroy = baum_i_sundials_destroy,           \
+  .advance = baum_i_sundials_advance,           \
+  .interpolate = baum_i_sundials_interpolate,   \
+  .restart = baum_i_sundials_restart,           \
+  .forget = baum_i_sundials_forget,             \
+  .statistics = baum_i_sundials_count
+/* clang-format on */
+
+/* ---- for tests ---- */
+
+/* The message of a flag, as of a step of 0.001 s from t = 0 that no evaluation failed in. */
+baum_status baum_i_sundials_explain_flag(baum_i_sundials_kind kind, int flag);
+
+#endif
