@@ -211,6 +211,8 @@ baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, dou
   return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
+#endif
+
 /* ---- the two integrators ---- */
 
 static const baum_formulation ADAMS_FORMULATIONS[] = {
@@ -232,8 +234,10 @@ static const baum_integrator ADAMS = {
   .why_no_projection = "CVODE projects only within BDF",
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_ADAMS,
+#if BAUM_HAVE_SUNDIALS
   .create = create_adams,
   BAUM_I_SUNDIALS_OPERATIONS,
+#endif
 };
 
 static const baum_integrator BDF = {
@@ -242,8 +246,10 @@ static const baum_integrator BDF = {
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_BDF,
   .seen = 60.0 / 137.0,
+#if BAUM_HAVE_SUNDIALS
   .create = create_bdf,
   BAUM_I_SUNDIALS_OPERATIONS,
+#endif
 };
 
 const baum_integrator *baum_cvode_adams(void)
@@ -255,5 +261,3 @@ const baum_integrator *baum_cvode_bdf(void)
 {
   return &BDF;
 }
-
-#endif

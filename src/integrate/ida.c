@@ -374,6 +374,8 @@ const double *baum_i_ida_multipliers(const void *run)
   return N_VGetArrayPointer(sundials->y) + mechanism->nq + mechanism->nv;
 }
 
+#endif
+
 /* ---- the integrator ---- */
 
 static const baum_formulation FORMULATIONS[] = {
@@ -389,13 +391,13 @@ static const baum_integrator IDA = {
   .seen = 1.0,
   .tests_multipliers = true,
   .solves_residuals = true,
+#if BAUM_HAVE_SUNDIALS
   .create = create,
   BAUM_I_SUNDIALS_OPERATIONS,
+#endif
 };
 
 const baum_integrator *baum_ida(void)
 {
   return &IDA;
 }
-
-#endif

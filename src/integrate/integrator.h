@@ -71,7 +71,8 @@ struct baum_integrator {
 
   /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by
    * the caller through baum_i_problem_motion(). state->t is set by the caller. NULL where there is only variable step.
-   * A method that has this and `advance` takes the one that problem->step asks for. */
+   * A method that has this and `advance` takes the one that problem->step asks for; one that has neither needs
+   * SUNDIALS, which the build does not have. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 

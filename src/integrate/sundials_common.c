@@ -194,9 +194,13 @@ int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run)
   return 0;
 }
 
+#endif
+
 const char *baum_i_sundials_version(void)
 {
+#if BAUM_HAVE_SUNDIALS
   return SUNDIALS_VERSION;
-}
-
+#else
+  return "none";
 #endif
+}

@@ -254,6 +254,14 @@ static baum_status check_multipliers(const baum_simulation_options *o)
                      o->tolerance_lambda, baum_formulation_name(o->formulation));
 }
 
+static baum_status check_built_in(const baum_integrator *integrator)
+{
+  return integrator->step || integrator->advance
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_UNSUPPORTED, "%s needs SUNDIALS, which this build does not have",
+                         integrator->name);
+}
+
 baum_status baum_i_options_check(baum_simulation_options *options)
 {
   if (!options->integrator) {
@@ -265,18 +273,11 @@ baum_status baum_i_options_check(baum_simulation_options *options)
       "baum_cvode_bdf, baum_ida, "
       "baum_kinematics");
   }
-  baum_status status = check_steps(options);
-  if (status == BAUM_OK) {
-    status = check_choices(options);
-  }
-  if (status == BAUM_OK) {
-    status = check_pair(options);
-  }
-  if (status == BAUM_OK) {
-    status = check_multipliers(options);
-  }
-  if (status == BAUM_OK) {
-    status = check_gains(options);
-  }
-  return status == BAUM_OK ? check_row_gains(options) : status;
+  BAUM_I_TRY(check_steps(options));
+  BAUM_I_TRY(check_choices(options));
+  BAUM_I_TRY(check_pair(options));
+  BAUM_I_TRY(check_multipliers(options));
+  BAUM_I_TRY(check_gains(options));
+  BAUM_I_TRY(check_row_gains(options));
+  return check_built_in(options->integrator);
 }
