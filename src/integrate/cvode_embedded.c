@@ -72,10 +72,7 @@ static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, co
   int nc = w->mechanism->nc;
   double *rows_v = w->work_c;
   double *rows_q = rows_v + nc;
-  baum_status status = baum_i_need_jacobian(w);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_need_jacobian(w));
   memset(rows_v, 0, 2 * (size_t)nc * sizeof *rows_v);
   baum_i_jacobian_times(&w->structure, w->jacobian, r + w->mechanism->nq, rows_v);
   baum_i_jacobian_times(&w->structure, w->jacobian, r, rows_q);

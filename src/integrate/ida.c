@@ -256,6 +256,12 @@ static baum_status open_with_klu(baum_i_sundials *sundials)
   return baum_i_sundials_klu_open(&run->klu, sundials, run->dae.index);
 }
 
+static void *create_memory(int multistep, SUNContext context)
+{
+  (void)multistep;
+  return IDACreate(context);
+}
+
 static int init(baum_i_sundials *sundials)
 {
   return IDAInit(sundials->memory, evaluate, 0.0, sundials->y, ((ida_run *)sundials)->dy);
@@ -333,6 +339,7 @@ static const baum_i_sundials_package PACKAGE = {
   .run_size = sizeof(ida_run),
   .size = size_of,
   .complete_start = complete_start,
+  .create = create_memory,
   .init = init,
   .weigh = weigh,
   .restart = restart,
@@ -346,7 +353,6 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
     .name = "ida",
     .package = &PACKAGE,
     .open = open_with_klu,
-    .create = IDACreate,
     .attach = attach_klu,
   };
   return baum_i_sundials_create(&METHOD, problem, start, out);
@@ -361,7 +367,6 @@ baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
     .name = "ida",
     .package = &PACKAGE,
     .open = open_run,
-    .create = IDACreate,
     .attach = attach_dense,
   };
   return baum_i_sundials_create(&METHOD, problem, start, out);

@@ -121,10 +121,13 @@ static void begin(baum_i_sundials *run, const baum_i_problem *problem, double t)
   run->complaint[0] = '\0';
 }
 
-static baum_status load(baum_i_sundials *run, const baum_i_state *state)
+static baum_status load(baum_i_sundials *run, const baum_i_problem *problem,
+                        const baum_i_state *state)
 {
+  begin(run, problem, state->t);
+  run->origin = state->t;
   N_VConst(0.0, run->y);
-  baum_i_sundials_pack(run->problem->workspace->mechanism, state->q, state->v,
+  baum_i_sundials_pack(problem->workspace->mechanism, state->q, state->v,
                        N_VGetArrayPointer(run->y));
   const baum_i_sundials_package *package = run->method->package;
   return package->complete_start ? package->complete_start(run, state->t) : BAUM_OK;
@@ -137,9 +140,7 @@ baum_status baum_i_sundials_restart(void *self, const baum_i_problem *problem,
   baum_i_statistics present;
   baum_i_sundials_count(run, &present);
   run->before = present;
-  begin(run, problem, state->t);
-  run->origin = state->t;
-  BAUM_I_TRY(load(run, state));
+  BAUM_I_TRY(load(run, problem, state));
   int flag = run->method->package->restart(run);
   run->unfinished = flag != 0;
   return flag == 0 ? BAUM_OK : fail_in_step(run, flag);
@@ -288,7 +289,7 @@ static int start_sundials(baum_i_sundials *run)
 {
   const baum_i_sundials_package *package = run->method->package;
   double max_step = run->problem->max_step;
-  run->memory = run->method->create(run->context);
+  run->memory = package->create(run->method->multistep, run->context);
   if (!run->memory) {
     return package->kind == BAUM_I_SUNDIALS_IDA ? IDA_MEM_FAIL : CV_MEM_FAIL;
   }
@@ -317,12 +318,11 @@ static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
   BAUM_I_TRY(baum_i_sundials_open(run, run->method->package->size(problem)));
   run->y = baum_i_sundials_vector(run);
   run->inside = baum_i_sundials_vector(run);
-  begin(run, problem, start->t);
-  run->origin = start->t;
+  run->problem = problem;
   if (run->method->open) {
     BAUM_I_TRY(run->method->open(run));
   }
-  BAUM_I_TRY(load(run, start));
+  BAUM_I_TRY(load(run, problem, start));
   int flag = start_sundials(run);
   run->unfinished = flag != 0;
   return flag == 0 ? BAUM_OK : fail(run, flag, 0.0);

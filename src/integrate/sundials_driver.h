@@ -39,6 +39,7 @@ typedef struct baum_i_sundials_package {
   int (*size)(const baum_i_problem *problem); /* n, length of y */
   /* Completes the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
+  void *(*create)(int multistep, SUNContext context); /* run->memory; NULL: out of memory */
   int (*init)(baum_i_sundials *run);
   int (*weigh)(N_Vector y, N_Vector weights, void *run);
   int (*restart)(baum_i_sundials *run);
@@ -53,7 +54,7 @@ typedef struct baum_i_sundials_method {
   const char *name; /* in messages */
   const baum_i_sundials_package *package;
   baum_status (*open)(baum_i_sundials *run); /* what a run needs beside SUNDIALS; NULL: nothing */
-  void *(*create)(SUNContext context);       /* run->memory; NULL: out of memory */
+  int multistep;                             /* of CVODE: CV_ADAMS or CV_BDF */
   int (*attach)(baum_i_sundials *run);       /* solvers and other settings, after all else */
 } baum_i_sundials_method;
 

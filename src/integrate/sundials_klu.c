@@ -50,11 +50,9 @@ baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *
   const baum_workspace *workspace = sundials->problem->workspace;
   int n = baum_i_residual_size(workspace->mechanism, index);
   klu->sundials = sundials;
-  baum_status status = baum_i_residual_matrix_create(workspace, index, &klu->form);
-  if (status == BAUM_OK) {
-    status = make_arrays(klu, n);
-  }
-  return status == BAUM_OK ? make_solver(klu, n) : status;
+  BAUM_I_TRY(baum_i_residual_matrix_create(workspace, index, &klu->form));
+  BAUM_I_TRY(make_arrays(klu, n));
+  return make_solver(klu, n);
 }
 
 void baum_i_sundials_klu_close(baum_i_sundials_klu *klu)
