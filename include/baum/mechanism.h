@@ -561,8 +561,6 @@ typedef struct baum_report {
   int32_t most_couplings;  /**< [-] of one node; 0 for KLU. */
   int32_t most_joints;     /**< [-] of one body that is not left out. */
   baum_body_id most_joined; /**< That body; none when there are no joints. */
-  double flops;             /**< [-] operations on numbers per evaluation; NaN: not known. */
-  double bytes;             /**< [B] of all numbers and indices that are touched; NaN likewise. */
   char text[2048];          /**< The same in lines, by name, with the reasons. */
 } baum_report;
 

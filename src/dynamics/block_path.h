@@ -10,7 +10,7 @@
 
 #include "dynamics/dynamics.h"
 #include "dynamics/pins.h"
-#include "linear/block_cost.h"
+#include "linear/block.h"
 
 struct baum_i_block_path {
   baum_i_block *block;
@@ -62,8 +62,5 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const d
 
 /* Pivots alone, also where they are bad. */
 baum_status baum_i_block_path_factor(baum_workspace *workspace, double t, const double *q);
-
-/* One evaluation, refinement, forces and functions of the user left out. path_cost.c */
-baum_i_cost baum_i_block_path_cost(const baum_mechanism *mechanism, const baum_i_block_path *path);
 
 #endif

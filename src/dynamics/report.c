@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What an evaluation of a mechanism costs and what it is spared, in numbers and in words. */
-#include <math.h>
 #include <stdarg.h>
 #include <string.h>
 
@@ -138,51 +137,6 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
   return status;
 }
 
-/* ---- cost ---- */
-
-/* KLU knows it once it has factored. */
-static void cost_of_whole(baum_workspace *w, const double *q, const double *v, baum_report *report)
-{
-  if (baum_i_acceleration(w, 0.0, q, v, 0.0, 0.0) == BAUM_OK) {
-    (void)baum_i_kkt_cost(w->kkt, &report->flops, &report->bytes);
-  }
-}
-
-/* Four digits, however large. */
-static void say_number(baum_report *report, double number, const char *unit)
-{
-  static const char *const powers[] = {"", "k", "M", "G", "T"};
-  int power = 0;
-  while (number >= 9999.5 && power < 4) {
-    number *= 1e-3;
-    power++;
-  }
-  say(report, "%.4g %s%s", number, powers[power], unit);
-}
-
-static void report_cost(baum_workspace *w, const double *q, const double *v, baum_report *report)
-{
-  const baum_i_block_path *path = baum_i_motion_path(w);
-  report->flops = (double)NAN;
-  report->bytes = (double)NAN;
-  if (path) {
-    baum_i_cost cost = baum_i_block_path_cost(w->mechanism, path);
-    report->flops = cost.flops;
-    report->bytes = cost.bytes;
-  } else {
-    cost_of_whole(w, q, v, report);
-  }
-  if (isnan(report->flops)) {
-    say(report, "cost          not known\n");
-    return;
-  }
-  say(report, "cost          ");
-  say_number(report, report->flops, "flop on ");
-  say_number(report, report->bytes, "B per evaluation");
-  say(report, "%s%s\n", path ? "" : ", of the solution alone",
-      w->mechanism->force_count > 0 ? "; forces not counted" : "");
-}
-
 /* ---- what is spared ---- */
 
 static bool has_constant_force(const baum_mechanism *m)
@@ -264,7 +218,6 @@ static baum_status look(baum_workspace *w, double *q, void *whole)
     status = report_solver(w, report);
   }
   if (status == BAUM_OK) {
-    report_cost(w, q, v, report);
     report_spared(w->mechanism, report);
   }
   baum_i_islands_clear(&islands);

@@ -35,10 +35,6 @@ typedef struct baum_i_kkt_ops {
   /* Cheap estimate of the reciprocal condition of the scaled matrix; 0 if its rank is not full. */
   double (*rcond)(const void *self);
 
-  /* Flops of a factorization with kept pivots and one solution, and numbers in the factors. Only
-   * after a factorization. NULL: not known. */
-  void (*cost)(void *self, double *flops, double *numbers);
-
   void (*destroy)(void *self); /* NULL is fine */
 } baum_i_kkt_ops;
 

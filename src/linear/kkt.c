@@ -379,34 +379,6 @@ const char *baum_i_kkt_backend(const baum_i_kkt *kkt)
   return kkt->present->ops->name;
 }
 
-/* Numbers of M, J and J^T. */
-static double count_entries(const baum_i_kkt_structure *structure)
-{
-  double count = 0.0;
-  for (int i = 0; i < structure->mass_block_count; i++) {
-    double size = structure->mass_blocks[i].size;
-    count += size * size;
-  }
-  for (int i = 0; i < structure->row_block_count; i++) {
-    count += 2.0 * structure->row_blocks[i].rows * structure->row_blocks[i].cols;
-  }
-  return count;
-}
-
-bool baum_i_kkt_cost(const baum_i_kkt *kkt, double *flops, double *bytes)
-{
-  if (!kkt->present->ops->cost || kkt->quality == BAUM_I_KKT_SINGULAR) {
-    return false;
-  }
-  double numbers = 0.0;
-  kkt->present->ops->cost(kkt->present->self, flops, &numbers);
-  double entries = count_entries(kkt->structure);
-  *flops += 6.0 * entries; /* scaled by row and column; K x and |K| |x| of the residual */
-  *bytes = (numbers + entries) * (double)(sizeof(double) + sizeof(int32_t)) +
-           5.0 * kkt->n * (double)sizeof(double);
-  return true;
-}
-
 double baum_i_kkt_rcond(const baum_i_kkt *kkt)
 {
   return kkt->quality == BAUM_I_KKT_SINGULAR ? 0.0 : present_rcond(kkt);

@@ -99,9 +99,6 @@ baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
  * free of units, continuous while pivots are kept, with a jump where they are chosen anew. 0 for no
  * factorization or no full rank. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
-/* Flops and bytes, each number and index once, of a factorization with kept pivots and one solution;
- * false where that is not known. */
-bool baum_i_kkt_cost(const baum_i_kkt *kkt, double *flops, double *bytes);
 const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);
 

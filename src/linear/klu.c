@@ -155,14 +155,6 @@ static double rcond(const void *self)
   return klu->common.rcond;
 }
 
-static void cost(void *self, double *flops, double *numbers)
-{
-  klu_backend *klu = self;
-  (void)klu_flops(klu->symbolic, klu->numeric, &klu->common);
-  *numbers = (double)klu->numeric->lnz + klu->numeric->unz + klu->numeric->nzoff;
-  *flops = klu->common.flops + 2.0 * *numbers;
-}
-
 const baum_i_kkt_ops baum_i_klu_ops = {
   .name = "klu",
   .keeps_pivots = true,
@@ -170,6 +162,5 @@ const baum_i_kkt_ops baum_i_klu_ops = {
   .factor = factor,
   .solve = solve,
   .rcond = rcond,
-  .cost = cost,
   .destroy = destroy,
 };

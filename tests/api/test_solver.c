@@ -328,8 +328,6 @@ static void masses_that_are_not_known_as_drawn_are_told(void **state)
   baum_report report;
   check(baum_mechanism_report(m, &report, sizeof report));
   assert_false(report.blocks);
-  assert_true(isnan(report.flops) && isnan(report.bytes));
-  assert_non_null(strstr(report.text, "\ncost          not known\n"));
   assert_non_null(strstr(report.text, "\nspared        nothing"));
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
   o.start_time = 1.5;

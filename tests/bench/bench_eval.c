@@ -125,23 +125,11 @@ static void print_phases(const measured *m)
   }
 }
 
-static void print_cost(const measured *m, int bodies)
-{
-  solver_cost cost = m->way->cost ? m->way->cost(m->self) : (solver_cost){0};
-  if (cost.bytes > 0.0) {
-    printf(" %7.0f %7.0f %6.1f %7.2f", cost.bytes / bodies, cost.flops / bodies,
-           1e-9 * cost.bytes / m->whole, 1e-9 * cost.flops / m->whole);
-  } else {
-    printf(" %7s %7s %6s %7s", "-", "-", "-", "-");
-  }
-}
-
 static void print_row(const scene *at, const measured *m, double reference)
 {
   printf("%-12s %6d %-11s %10.0f %8.1f %6.2f", scene_name(at->kind), at->n, m->way->name,
          1e9 * m->whole, 1e9 * m->whole / at->bodies, m->whole / reference);
   print_phases(m);
-  print_cost(m, at->bodies);
   printf(" %6.0e\n", m->apart);
   (void)fflush(stdout);
 }
@@ -151,11 +139,10 @@ static void print_head(void)
   printf(
     "\nns of CPU time per evaluation. rel: over that of the first solver. Phases in ns; other: "
     "what "
-    "the whole\ntakes beyond them: checks, refinement, copies. Bytes (each once) and flops per "
-    "body by count, and the\nrates they come to. apart: largest relative difference of a\n");
-  printf("%-12s %6s %-11s %10s %8s %6s %9s %9s %9s %9s %9s %7s %7s %6s %7s %6s\n", "case", "n",
-         "solver", "ns", "per body", "rel", "geometry", "assembly", "factor", "solve", "other",
-         "B/body", "fl/body", "GB/s", "Gflop/s", "apart");
+    "the whole\ntakes beyond them: checks, refinement, copies. apart: largest relative difference "
+    "of a\n");
+  printf("%-12s %6s %-11s %10s %8s %6s %9s %9s %9s %9s %9s %6s\n", "case", "n", "solver", "ns",
+         "per body", "rel", "geometry", "assembly", "factor", "solve", "other", "apart");
 }
 
 /* False: something failed, or solvers disagree. */

@@ -105,7 +105,6 @@ class Building(unittest.TestCase):
         self.assertEqual((report.rows, report.degrees_of_freedom, report.nodes), (8, 1, 4))
         self.assertIs(report.blocks, True)
         self.assertEqual(report.most_joined.name, "crank")
-        self.assertGreater(report.flops, 500.0)
         self.assertEqual(str(report), report.text)
         self.assertIn("\nsolver        blocks, 4 nodes", str(report))
 

@@ -98,40 +98,6 @@ static void new_values_on_the_same_structure_keep_the_pivots(void **state)
   saddle_free(&system);
 }
 
-/* A full matrix has full factors: 2 n^3 / 3 flops and n^2 numbers, and whoever asks too early learns
- * nothing. */
-static void the_cost_of_a_full_matrix_is_that_of_gauss(void **state)
-{
-  (void)state;
-  enum { NV = 30, NC = 10, N = NV + NC };
-  uint64_t seed = 4;
-  double flops = 0.0;
-  double bytes = 0.0;
-  saddle system = saddle_make_dense(NV, NC);
-  for (int i = 0; i < NV; i++) {
-    for (int j = 0; j <= i; j++) {
-      double value = saddle_random(&seed) + (i == j ? NV : 0.0);
-      system.mass[i * NV + j] = value;
-      system.mass[j * NV + i] = value;
-    }
-  }
-  for (int k = 0; k < system.jacobian_count; k++) {
-    system.jacobian[k] = saddle_random(&seed);
-  }
-  baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_KLU);
-  assert_false(baum_i_kkt_cost(kkt, &flops, &bytes));
-  assert_int_equal(factor(kkt, &system), BAUM_OK);
-  assert_true(baum_i_kkt_cost(kkt, &flops, &bytes));
-  ASSERT_NEAR(flops, 2.0 / 3.0 * N * N * N, 0.35, 0.0); /* and a solution and a residual */
-  ASSERT_NEAR(bytes, 2.0 * 12.0 * N * N, 0.2, 0.0);     /* the matrix and its factors */
-  baum_i_kkt_destroy(kkt);
-  kkt = make_solver(&system, BAUM_I_KKT_QR);
-  assert_int_equal(factor(kkt, &system), BAUM_OK);
-  assert_false(baum_i_kkt_cost(kkt, &flops, &bytes));
-  baum_i_kkt_destroy(kkt);
-  saddle_free(&system);
-}
-
 static void omitted_rows_have_no_multiplier_and_no_influence(void **state)
 {
   (void)state;
@@ -326,7 +292,6 @@ int main(void)
     cmocka_unit_test(products_add_to_what_is_there),
     cmocka_unit_test(random_systems_are_solved_to_rounding_by_every_backend),
     cmocka_unit_test(new_values_on_the_same_structure_keep_the_pivots),
-    cmocka_unit_test(the_cost_of_a_full_matrix_is_that_of_gauss),
     cmocka_unit_test(omitted_rows_have_no_multiplier_and_no_influence),
     cmocka_unit_test(a_shift_makes_dependent_rows_solvable),
     cmocka_unit_test(one_velocity_without_constraints_is_a_division),

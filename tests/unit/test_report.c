@@ -139,29 +139,6 @@ static void a_slider_crank_is_counted(void **state)
   assert_says(&r, "10 of 11 rows have no time derivatives; 2 redundant rows");
 }
 
-/* One link: a sine with its cosine 65, its pin 75 and what it does to the motion 18, the pivot 14. Two of
- * them are coupled: block 9, elimination 46, back 8. */
-static void a_chain_costs_what_its_links_cost(void **state)
-{
-  (void)state;
-  double bytes[3];
-  for (int k = 0; k < 3; k++) {
-    static const int links[] = {1, 10, 100};
-    model m;
-    model_chain data = {.links = links[k]};
-    must(model_chain_build(&data, &m));
-    baum_report r = report_of(m.mechanism);
-    model_destroy(&m);
-    assert_int_equal(r.nodes, links[k]);
-    assert_int_equal(r.couplings, links[k] - 1);
-    ASSERT_NEAR(r.flops, 172.0 * links[k] + 63.0 * (links[k] - 1), 0.0, 0.0);
-    bytes[k] = r.bytes;
-  }
-  /* So many per link, and so many for ground. */
-  ASSERT_NEAR(bytes[2] - bytes[1], 10.0 * (bytes[1] - bytes[0]), 0.0, 1e-9);
-  assert_true(bytes[0] > 300.0 && bytes[0] < 1000.0);
-}
-
 /* A ring of n pins, off the ground: the first n - 3 that go couple their neighbours. */
 static void fill_is_what_bodies_do_not_make(void **state)
 {
@@ -223,7 +200,7 @@ static void bodies_that_cannot_move_are_told(void **state)
   assert_says(&r, "2 bodies that cannot move, 2 of them left out");
 }
 
-static void no_joints_cost_no_solution(void **state)
+static void no_joints_need_no_solution(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -233,67 +210,11 @@ static void no_joints_cost_no_solution(void **state)
   assert_int_equal(r.degrees_of_freedom, 3);
   assert_int_equal(r.most_joints, 0);
   assert_int_equal(r.most_joined.index1, 0);
-  ASSERT_NEAR(r.flops, 65.0, 0.0, 0.0);
-}
-
-static int unit_mass(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)q;
-  int size = *(int *)user;
-  for (int i = 0; i < size; i++) {
-    out[i * (size + 1)] = 1.0;
-  }
-  return 0;
-}
-
-static int first_is_zero(double t, const double *q, double *out, void *user)
-{
-  (void)t;
-  (void)user;
-  out[0] = q[0];
-  return 0;
-}
-
-/* L y = f and L^T a = y once for the body and once for its row: n^2 each; and for every coordinate a number of J, 6,
- * and of a force that changes. Sides come in threes. */
-static void the_factor_of_a_full_mass_matrix_is_counted(void **state)
-{
-  (void)state;
-  double flops[3];
-  double bytes[3];
-  for (int k = 0; k < 3; k++) {
-    int size = 4 + k;
-    baum_mechanism *m = begin();
-    baum_coordinates_def body = baum_coordinates_def_default();
-    baum_body_id id;
-    body.size = size;
-    body.mass = unit_mass;
-    body.force = user_no_force;
-    body.constant_mass = true;
-    body.user = &size;
-    must(baum_mechanism_add_coordinates(m, &body, &id));
-    baum_user_constraint_def row = baum_user_constraint_def_default();
-    row.bodies = &id;
-    row.body_count = 1;
-    row.row_count = 1;
-    row.phi = first_is_zero;
-    must(baum_mechanism_add_user_constraint(m, &row, NULL));
-    baum_report r = report_once(m);
-    assert_true(r.blocks);
-    assert_int_equal(r.nodes, 1);
-    flops[k] = r.flops;
-    bytes[k] = r.bytes;
-  }
-  ASSERT_NEAR(flops[1] - flops[0], 4.0 * (25.0 - 16.0) + 7.0, 0.0, 0.0);
-  ASSERT_NEAR(flops[2] - flops[1], 4.0 * (36.0 - 25.0) + 7.0, 0.0, 0.0);
-  /* The factor, and in each column what is told of it. */
-  ASSERT_NEAR(bytes[2] - 2.0 * bytes[1] + bytes[0], 2.0 * sizeof(double), 0.0, 0.0);
 }
 
 /* ---- where blocks do not suit ---- */
 
-static void a_hub_is_named_and_klu_counts(void **state)
+static void a_hub_is_named(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -309,16 +230,11 @@ static void a_hub_is_named_and_klu_counts(void **state)
               "solver        klu on the whole system: body 1 \"hub\" has 61 joints, too many for "
               "blocks\n");
   assert_says(&r, "fill          not by blocks; body 1 \"hub\" has most joints, 61\n");
-  assert_says(&r, "per evaluation, of the solution alone\n");
-  /* 305 unknowns; every number of M, J and J^T at least once, but nothing like a full matrix. */
-  double entries = 61 * 3 + 2 * (60 * 2 * 4 + 2 * 2);
-  assert_true(r.flops > 2.0 * entries && r.flops < 305.0 * 305.0 * 305.0 / 3.0);
-  assert_true(r.bytes > 12.0 * entries && r.bytes < 12.0 * 305.0 * 305.0);
 }
 
 /* ---- where there is no start ---- */
 
-static void what_cannot_be_assembled_has_a_cost_nevertheless(void **state)
+static void what_cannot_be_assembled_is_counted_nevertheless(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -336,7 +252,6 @@ static void what_cannot_be_assembled_has_a_cost_nevertheless(void **state)
   baum_report r = report_once(m);
   assert_int_equal(r.degrees_of_freedom, -1);
   assert_int_equal(r.nodes, 2);
-  assert_true(r.flops > 0.0);
   assert_says(&r, "rows 2\n              cannot be assembled\n");
 }
 
@@ -344,14 +259,12 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_slider_crank_is_counted),
-    cmocka_unit_test(a_chain_costs_what_its_links_cost),
     cmocka_unit_test(fill_is_what_bodies_do_not_make),
     cmocka_unit_test(islands_are_counted),
     cmocka_unit_test(bodies_that_cannot_move_are_told),
-    cmocka_unit_test(no_joints_cost_no_solution),
-    cmocka_unit_test(the_factor_of_a_full_mass_matrix_is_counted),
-    cmocka_unit_test(a_hub_is_named_and_klu_counts),
-    cmocka_unit_test(what_cannot_be_assembled_has_a_cost_nevertheless),
+    cmocka_unit_test(no_joints_need_no_solution),
+    cmocka_unit_test(a_hub_is_named),
+    cmocka_unit_test(what_cannot_be_assembled_is_counted_nevertheless),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

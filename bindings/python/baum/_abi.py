@@ -183,8 +183,6 @@ class baum_report(Structure):
         ("most_couplings", c_int32),
         ("most_joints", c_int32),
         ("most_joined", baum_body_id),
-        ("flops", c_double),
-        ("bytes", c_double),
         ("text", c_char * 2048),
     ]
 

@@ -336,8 +336,8 @@ class Mechanism(Adding):
         return Mobility(**values)
 
     def report(self):
-        """What an evaluation of the accelerations costs: nodes, couplings, islands, flops and
-        bytes; and what it is spared, such as bodies that cannot move."""
+        """What an evaluation of the accelerations costs: nodes, couplings and islands; and what it
+        does not compute, such as bodies that cannot move."""
         values = self._survey(lib.baum_mechanism_report, _abi.baum_report())
         values["most_joined"] = self.find("body", values["most_joined"])
         return Report(**values)

@@ -144,19 +144,11 @@ static void block_read(const void *self, double *a, double *lambda)
   solver_read_workspace(s->at->workspace, a, lambda);
 }
 
-static solver_cost block_cost(const void *self)
-{
-  const block_solver *s = self;
-  baum_i_cost cost = baum_i_block_path_cost(s->at->workspace->mechanism, s->path);
-  return (solver_cost){.bytes = cost.bytes, .flops = cost.flops};
-}
-
 const solver solver_block = {.name = "block",
                              .has_phases = true,
                              .create = block_create,
                              .run = block_run,
                              .read = block_read,
-                             .cost = block_cost,
                              .destroy = free};
 
 const solver solver_block_plain = {.name = "block_plain",

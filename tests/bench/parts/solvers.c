@@ -330,19 +330,11 @@ static void dense_read(const void *self, double *a, double *lambda)
   read_common(&s->c, a, lambda);
 }
 
-static solver_cost dense_cost(const void *self)
-{
-  const dense_solver *s = self;
-  double n = s->c.n;
-  return (solver_cost){.bytes = 8.0 * n * n, .flops = 2.0 / 3.0 * n * n * n};
-}
-
 static const solver DENSE = {.name = "dense",
                              .has_phases = true,
                              .create = dense_create,
                              .run = dense_run,
                              .read = dense_read,
-                             .cost = dense_cost,
                              .destroy = dense_destroy};
 
 const solver *solver_at(int k)

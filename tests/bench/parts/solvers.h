@@ -20,12 +20,6 @@ typedef enum solver_phase {
 /* alpha and beta [1/s] of an ordinary run; their values do not matter here. */
 static const double SOLVER_GAIN = 10.0;
 
-/* What an evaluation costs by count; 0: not known. */
-typedef struct solver_cost {
-  double bytes; /* of all numbers and indices that it touches */
-  double flops;
-} solver_cost;
-
 typedef struct solver {
   const char *name;
   bool has_phases; /* else only PHASE_WHOLE can be run */
@@ -35,8 +29,7 @@ typedef struct solver {
   bool (*run)(void *self, int last_phase);
   /* The solution after a whole run: (nv), (nc). */
   void (*read)(const void *self, double *a, double *lambda);
-  solver_cost (*cost)(const void *self); /* NULL: not known */
-  void (*destroy)(void *self);           /* NULL is fine */
+  void (*destroy)(void *self); /* NULL is fine */
 } solver;
 
 /* a and lambda of a workspace. */
