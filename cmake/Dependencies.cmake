@@ -14,9 +14,9 @@ endfunction()
 set(BAUM_BACKENDS "")
 set(BAUM_CAPABILITIES "BAUM_HAVE_SUNDIALS=0" "BAUM_HAVE_GSL=0")
 
-find_package(SuiteSparse QUIET COMPONENTS KLU SPQR)
+find_package(SuiteSparse QUIET)
 if(NOT SuiteSparse_FOUND)
-  baum_refuse("SuiteSparse with KLU and SPQR" libsuitesparse-dev "")
+  baum_refuse("SuiteSparse with KLU" libsuitesparse-dev "")
 endif()
 
 if(BAUM_SUNDIALS)
@@ -39,7 +39,7 @@ endif()
 
 set(THREADS_PREFER_PTHREAD_FLAG ON)
 find_package(Threads REQUIRED)
-list(APPEND BAUM_BACKENDS SuiteSparse::KLU SuiteSparse::SPQR Threads::Threads m)
+list(APPEND BAUM_BACKENDS SuiteSparse::KLU Threads::Threads m)
 
 if(BAUM_TESTS)
   find_package(PkgConfig QUIET)

@@ -71,18 +71,8 @@ if readelf -d "$build/every_backend" | grep 'NEEDED.*libbaum'; then
   fail "the static program loads the shared library"
 fi
 
-# All of it static. Where METIS is a shared library only, functions that are never called stand for its own.
 echo "every backend on archives alone"
-cat >"$build/metis.c" <<'EOF'
-int METIS_NodeND(void);
-int METIS_ComputeVertexSeparator(void);
-int METIS_NodeND(void) { return -1; }
-int METIS_ComputeVertexSeparator(void) { return -1; }
-EOF
-"$cc" -c "$build/metis.c" -o "$build/metis.o"
-metis=$("$cc" -print-file-name=libmetis.a)
-[ "$metis" != libmetis.a ] || metis=$build/metis.o
-link "$build/all_static" -static "$metis"
+link "$build/all_static" -static
 
 # The C of its first chapter, in its order: functions as they are, statements as the body of main.
 echo "the tutorial's program, as it is printed"

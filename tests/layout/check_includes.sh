@@ -12,8 +12,7 @@ find src include -name '*.[ch]' | sort | xargs awk '
   # The backend files, and what each may see.
   function foreign_allowed(file, header) {
     if (header ~ /^klu\.h$/) return file ~ /^src\/linear\/(klu|sparse_lu)\.c$/
-    if (header ~ /^(SuiteSparseQR_C|cholmod)\.h$/) return file == "src/linear/qr.c"
-    if (header ~ /^SuiteSparse_config\.h$/) return file ~ /^src\/linear\/(klu|qr)\.c$/
+    if (header == "colamd.h") return file == "src/linear/qr.c"
     if (header ~ /^(cvode|ida|nvector|sundials|sunmatrix|sunlinsol|sunnonlinsol)\//)
       return file ~ /^src\/integrate\/(cvode(_[a-z]+)?|ida(_[a-z]+)?|sundials_(common|driver|klu))\.[ch]$/
     if (header == "pthread.h") return file == "src/study/threads.h"

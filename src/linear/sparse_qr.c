@@ -1,0 +1,583 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A = Q R of a sparse m x n matrix by Householder reflections, with its rank.
+ *
+ * Structure. Number the columns in their order of elimination. R lies within the pattern of the
+ * Cholesky factor of A^T A (George & Heath 1980), of which
+ *
+ *   parent(k) = min { j > k : R_kj may be non-zero }
+ *
+ * makes a tree; R_kj may be non-zero where k is on the path up from the first column of a row of A
+ * to another column j of that row (Liu 1986). A chain of columns, each with the pattern of its
+ * parent and itself, is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
+ * 2011). A front assembles the rows of A that begin with one of its columns, the pivots, and the
+ * rows that fronts below it in the tree hand on, ordered by the column with which they begin:
+ *
+ *     pivots  others
+ *   [ R   R | R  R  R ]   independent pivots: rows of R
+ *   [ v   R | R  R  R ]
+ *   [     v | r  r  r ]   handed on to the parent
+ *   [     v | v  r  r ]
+ *   [       | v  v  r ]   under the staircase of beginnings, v: the reflections 1 - tau v v^T
+ *
+ * Rank (Heath 1982). A pivot of which at most the tolerance is left gets neither a reflection nor
+ * a row of R; its rows are left to later columns. What is left of a column depends only on those
+ * below it in the tree, so the outcome is that of one column after the other in the given order.
+ *
+ * Memory. The other columns are reduced, too, so a front hands on no more rows than it has columns
+ * left, whichever pivots are dependent. This bounds all fronts once and for all.
+ *
+ *   A. George, M. T. Heath, Linear Algebra Appl. 34 (1980) 69-83
+ *   I. S. Duff, J. K. Reid, ACM Trans. Math. Softw. 9 (1983) 302-325
+ *   M. T. Heath, SIAM J. Sci. Stat. Comput. 3 (1982) 223-237
+ *   J. W. H. Liu, ACM Trans. Math. Softw. 12 (1986) 127-148
+ *   T. A. Davis, Direct Methods for Sparse Linear Systems, SIAM 2006;
+ *                ACM Trans. Math. Softw. 38 (2011) 8:1-22
+ */
+#include "linear/sparse_qr.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <string.h>
+
+#include "base/alloc.h"
+
+enum { NONE = -1 };
+
+typedef struct front {
+  int32_t parent; /* fronts, rows of A: index or NONE */
+  int32_t first_child;
+  int32_t next_child;
+  int32_t first_row; /* of those that begin here */
+  int32_t rows;      /* at most */
+  int32_t columns;
+  int32_t pivots; /* the first of the columns */
+  int32_t *place; /* (columns) in the order of elimination, ascending */
+  int32_t *end;   /* (columns) rows that begin with this column or one before */
+  int32_t *done;  /* (columns) reflections after this column, which is rows of R and r */
+  int32_t *row;   /* (rows) of A whose place in Q^T x each takes */
+  double *tau;    /* (columns) of its reflection */
+  double *value;  /* (rows x columns) by columns */
+} front;
+
+struct baum_i_sparse_qr {
+  int32_t m;
+  int32_t n;
+  int32_t front_count;
+  front *fronts;      /* a parent after its children */
+  int32_t *memory;    /* of the six below */
+  int32_t *order;     /* (n) column of A at each place */
+  int32_t *position;  /* (n) of each place in the present front */
+  int32_t *row_start; /* (m + 1) entries of A by rows, places ascending */
+  int32_t *next_row;  /* (m) that begins in the same front, or NONE */
+  int32_t *place;     /* (entries) */
+  int32_t *source;    /* (entries) among the values */
+  double *work;       /* (max(m, n)) */
+  int32_t *indices;   /* of all fronts */
+  double *numbers;    /* of all fronts */
+};
+
+/* ---- structure ---- */
+
+/* What only creation needs. */
+typedef struct plan {
+  const baum_i_sparse_columns *pattern;
+  int32_t *memory;   /* of the five below, (n) each */
+  int32_t *parent;   /* of a column, or NONE */
+  int32_t *mark;     /* of a search */
+  int32_t *count;    /* size of the pattern of a row of R */
+  int32_t *below;    /* the column below in the same front, or NONE */
+  int32_t *front_of; /* each column */
+  int32_t **list;    /* (n) where to list the pattern of a row of R, or NULL */
+  size_t columns;    /* of all fronts */
+  size_t rows;
+  size_t values;
+} plan;
+
+static void fill(int32_t *x, int32_t count, int32_t value)
+{
+  for (int32_t i = 0; i < count; i++) {
+    x[i] = value;
+  }
+}
+
+static void list_rows(baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern)
+{
+  int32_t *next = qr->next_row; /* scratch */
+  for (int32_t e = 0; e < pattern->start[qr->n]; e++) {
+    qr->row_start[pattern->row[e] + 1]++;
+  }
+  for (int32_t i = 0; i < qr->m; i++) {
+    next[i] = qr->row_start[i];
+    qr->row_start[i + 1] += qr->row_start[i];
+  }
+  for (int32_t k = 0; k < qr->n; k++) {
+    int32_t j = qr->order[k];
+    for (int32_t e = pattern->start[j]; e < pattern->start[j + 1]; e++) {
+      int32_t entry = next[pattern->row[e]]++;
+      qr->place[entry] = k;
+      qr->source[entry] = e;
+    }
+  }
+}
+
+static int32_t first_of_row(const baum_i_sparse_qr *qr, int32_t row)
+{
+  return qr->place[qr->row_start[row]];
+}
+
+/* Each row of A links its columns, one to the next; mark: the way up so far, shortened. */
+static void find_parents(const baum_i_sparse_qr *qr, plan *p)
+{
+  int32_t *last = qr->next_row; /* scratch: column of each row so far */
+  fill(last, qr->m, NONE);
+  for (int32_t k = 0; k < qr->n; k++) {
+    p->parent[k] = p->mark[k] = NONE;
+    int32_t j = qr->order[k];
+    for (int32_t e = p->pattern->start[j]; e < p->pattern->start[j + 1]; e++) {
+      int32_t row = p->pattern->row[e];
+      for (int32_t i = last[row], up; i != NONE && i != k; i = up) {
+        up = p->mark[i];
+        p->mark[i] = k;
+        p->parent[i] = up == NONE ? k : p->parent[i];
+      }
+      last[row] = k;
+    }
+  }
+}
+
+/* Column k is in the pattern of row i of R. */
+static void add_to_pattern(plan *p, int32_t i, int32_t k)
+{
+  p->mark[i] = k;
+  if (p->list[i]) {
+    p->list[i][p->count[i]] = k;
+  }
+  p->count[i]++;
+}
+
+static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
+{
+  fill(p->mark, qr->n, NONE);
+  fill(p->count, qr->n, 0);
+  for (int32_t k = 0; k < qr->n; k++) {
+    int32_t j = qr->order[k];
+    add_to_pattern(p, k, k);
+    for (int32_t e = p->pattern->start[j]; e < p->pattern->start[j + 1]; e++) {
+      int32_t i = first_of_row(qr, p->pattern->row[e]);
+      for (; p->mark[i] != k; i = p->parent[i]) {
+        add_to_pattern(p, i, k);
+      }
+    }
+  }
+}
+
+/* The top column of a front has no column above with the same pattern but for itself. */
+static void find_fronts(baum_i_sparse_qr *qr, plan *p)
+{
+  fill(p->below, qr->n, NONE);
+  for (int32_t k = 0; k < qr->n; k++) {
+    int32_t up = p->parent[k];
+    if (up != NONE && p->count[k] == p->count[up] + 1) {
+      p->below[up] = k;
+    }
+  }
+  for (int32_t k = 0; k < qr->n; k++) {
+    bool is_top = p->parent[k] == NONE || p->below[p->parent[k]] != k;
+    p->front_of[k] = is_top ? qr->front_count++ : NONE;
+  }
+  for (int32_t k = qr->n - 1; k >= 0; k--) {
+    p->front_of[k] = p->front_of[k] == NONE ? p->front_of[p->parent[k]] : p->front_of[k];
+  }
+}
+
+/* Lists are filled from behind, so that they ascend. */
+static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
+{
+  for (int32_t f = 0; f < qr->front_count; f++) {
+    qr->fronts[f].parent = qr->fronts[f].first_child = qr->fronts[f].first_row = NONE;
+  }
+  for (int32_t k = qr->n - 1; k >= 0; k--) {
+    front *f = &qr->fronts[p->front_of[k]];
+    f->pivots++;
+    f->columns = p->count[k]; /* at last of the lowest, which has most */
+    int32_t up = p->parent[k] == NONE ? NONE : p->front_of[p->parent[k]];
+    if (up != NONE && up != p->front_of[k]) {
+      f->parent = up;
+      f->next_child = qr->fronts[up].first_child;
+      qr->fronts[up].first_child = p->front_of[k];
+    }
+  }
+  for (int32_t i = qr->m - 1; i >= 0; i--) {
+    if (qr->row_start[i] < qr->row_start[i + 1]) {
+      front *f = &qr->fronts[p->front_of[first_of_row(qr, i)]];
+      qr->next_row[i] = f->first_row;
+      f->first_row = i;
+      f->rows++;
+    }
+  }
+}
+
+static void measure_fronts(baum_i_sparse_qr *qr, plan *p)
+{
+  for (int32_t i = 0; i < qr->front_count; i++) {
+    const front *f = &qr->fronts[i];
+    int32_t left = f->columns - f->pivots;
+    if (f->parent != NONE) {
+      qr->fronts[f->parent].rows += f->rows < left ? f->rows : left;
+    }
+    p->columns += (size_t)f->columns;
+    p->rows += (size_t)f->rows;
+    p->values += (size_t)f->rows * (size_t)f->columns;
+  }
+}
+
+static bool make_room(baum_i_sparse_qr *qr, const plan *p)
+{
+  qr->indices = baum_i_alloc(3 * p->columns + p->rows, sizeof *qr->indices);
+  qr->numbers = baum_i_alloc(p->columns + p->values, sizeof *qr->numbers);
+  int32_t *index = qr->indices;
+  double *number = qr->numbers;
+  for (int32_t i = 0; i < qr->front_count && index && number; i++) {
+    front *f = &qr->fronts[i];
+    f->place = index;
+    f->end = f->place + f->columns;
+    f->done = f->end + f->columns;
+    f->row = f->done + f->columns;
+    index = f->row + f->rows;
+    f->tau = number;
+    f->value = f->tau + f->columns;
+    number = f->value + (size_t)f->rows * (size_t)f->columns;
+  }
+  return index && number;
+}
+
+/* Parts of baum_i_sparse_qr_create(), false: out of memory. */
+static bool copy_pattern(baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern,
+                         const int32_t *order)
+{
+  size_t m = (size_t)pattern->rows;
+  size_t n = (size_t)pattern->columns;
+  size_t entries = (size_t)pattern->start[n];
+  qr->m = pattern->rows;
+  qr->n = pattern->columns;
+  qr->work = baum_i_alloc(m > n ? m : n, sizeof *qr->work);
+  qr->memory = baum_i_alloc(2 * (n + m + entries) + 1, sizeof *qr->memory);
+  if (!qr->work || !qr->memory) {
+    return false;
+  }
+  qr->order = qr->memory;
+  qr->position = qr->order + n;
+  qr->row_start = qr->position + n;
+  qr->next_row = qr->row_start + m + 1;
+  qr->place = qr->next_row + m;
+  qr->source = qr->place + entries;
+  for (int32_t k = 0; k < qr->n; k++) {
+    qr->order[k] = order ? order[k] : k;
+  }
+  list_rows(qr, pattern);
+  return true;
+}
+
+static bool make_plan(const baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern, plan *p)
+{
+  size_t n = (size_t)qr->n;
+  *p = (plan){.pattern = pattern,
+              .memory = baum_i_alloc(5 * n, sizeof *p->memory),
+              .list = baum_i_alloc(n, sizeof(int32_t *))};
+  if (!p->memory || !p->list) {
+    return false;
+  }
+  p->parent = p->memory;
+  p->mark = p->parent + n;
+  p->count = p->mark + n;
+  p->below = p->count + n;
+  p->front_of = p->below + n;
+  return true;
+}
+
+static bool lay_out(baum_i_sparse_qr *qr, plan *p)
+{
+  find_parents(qr, p);
+  find_patterns(qr, p);
+  find_fronts(qr, p);
+  qr->fronts = baum_i_alloc((size_t)qr->front_count, sizeof *qr->fronts);
+  if (!qr->fronts) {
+    return false;
+  }
+  link_fronts(qr, p);
+  measure_fronts(qr, p);
+  if (!make_room(qr, p)) {
+    return false;
+  }
+  for (int32_t k = 0; k < qr->n; k++) {
+    p->list[k] = p->below[k] == NONE ? qr->fronts[p->front_of[k]].place : NULL;
+  }
+  find_patterns(qr, p);
+  return true;
+}
+
+void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr)
+{
+  if (!qr) {
+    return;
+  }
+  baum_i_free(qr->fronts);
+  baum_i_free(qr->memory);
+  baum_i_free(qr->work);
+  baum_i_free(qr->indices);
+  baum_i_free(qr->numbers);
+  baum_i_free(qr);
+}
+
+baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const int32_t *order,
+                                    baum_i_sparse_qr **out)
+{
+  plan p = {0};
+  baum_i_sparse_qr *qr = baum_i_alloc(1, sizeof *qr);
+  bool done =
+    qr && copy_pattern(qr, pattern, order) && make_plan(qr, pattern, &p) && lay_out(qr, &p);
+  baum_i_free(p.memory);
+  baum_i_free(p.list);
+  if (!done) {
+    baum_i_sparse_qr_destroy(qr);
+    qr = NULL;
+  }
+  *out = qr;
+  return qr ? BAUM_OK : BAUM_ERR_MEMORY;
+}
+
+/* ---- factorization ---- */
+
+static double *column_of(const front *f, int32_t j)
+{
+  return f->value + (ptrdiff_t)j * f->rows;
+}
+
+/* Does a reflection, and so a row of R or r, belong to column j? It is the last so far. */
+static bool is_reduced(const front *f, int32_t j)
+{
+  return f->done[j] > (j > 0 ? f->done[j - 1] : 0);
+}
+
+static const front *front_at(const baum_i_sparse_qr *qr, int32_t index)
+{
+  return index == NONE ? NULL : &qr->fronts[index];
+}
+
+/* end becomes where rows begin that begin with each column. */
+static void count_rows(const baum_i_sparse_qr *qr, const front *f)
+{
+  fill(f->end, f->columns, 0);
+  for (int32_t i = f->first_row; i != NONE; i = qr->next_row[i]) {
+    f->end[qr->position[first_of_row(qr, i)]]++;
+  }
+  for (const front *c = front_at(qr, f->first_child); c; c = front_at(qr, c->next_child)) {
+    for (int32_t j = c->pivots; j < c->columns; j++) {
+      f->end[qr->position[c->place[j]]] += is_reduced(c, j);
+    }
+  }
+  int32_t begin = 0;
+  for (int32_t j = 0; j < f->columns; j++) {
+    int32_t count = f->end[j];
+    f->end[j] = begin;
+    begin += count;
+  }
+}
+
+/* Row i of A; end grows to what it is to be. */
+static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i, const front *f)
+{
+  int32_t row = f->end[qr->position[first_of_row(qr, i)]]++;
+  f->row[row] = i;
+  for (int32_t e = qr->row_start[i]; e < qr->row_start[i + 1]; e++) {
+    column_of(f, qr->position[qr->place[e]])[row] = values[qr->source[e]];
+  }
+}
+
+/* What a child hands on. */
+static void load_child(const baum_i_sparse_qr *qr, const front *c, const front *f)
+{
+  for (int32_t j = c->pivots; j < c->columns; j++) {
+    if (!is_reduced(c, j)) {
+      continue;
+    }
+    int32_t from = c->done[j] - 1;
+    int32_t row = f->end[qr->position[c->place[j]]]++;
+    f->row[row] = c->row[from];
+    for (int32_t k = j; k < c->columns; k++) {
+      column_of(f, qr->position[c->place[k]])[row] = column_of(c, k)[from];
+    }
+  }
+}
+
+static void assemble(const baum_i_sparse_qr *qr, const double *values, const front *f)
+{
+  memset(f->value, 0, (size_t)f->rows * (size_t)f->columns * sizeof *f->value);
+  for (int32_t j = 0; j < f->columns; j++) {
+    qr->position[f->place[j]] = j;
+  }
+  count_rows(qr, f);
+  for (int32_t i = f->first_row; i != NONE; i = qr->next_row[i]) {
+    load_row(qr, values, i, f);
+  }
+  for (const front *c = front_at(qr, f->first_child); c; c = front_at(qr, c->next_child)) {
+    load_child(qr, c, f);
+  }
+}
+
+static double sum_of_squares(const double *x, int32_t count)
+{
+  double sum = 0.0;
+  for (int32_t i = 0; i < count; i++) {
+    sum += x[i] * x[i];
+  }
+  return sum;
+}
+
+/* x (count) of some length becomes -+length, v_1, v_2, ... of a reflection with v_0 = 1. */
+static double make_reflection(double *x, int32_t count, double length)
+{
+  double first = x[0];
+  x[0] = first > 0.0 ? -length : length;
+  for (int32_t i = 1; i < count; i++) {
+    x[i] /= first - x[0];
+  }
+  return (x[0] - first) / x[0];
+}
+
+static void reflect(const double *v, double tau, int32_t count, double *x)
+{
+  double sum = x[0];
+  for (int32_t i = 1; i < count; i++) {
+    sum += v[i] * x[i];
+  }
+  sum *= tau;
+  x[0] -= sum;
+  for (int32_t i = 1; i < count; i++) {
+    x[i] -= sum * v[i];
+  }
+}
+
+/* Returns how many pivots are independent. */
+static int32_t reduce(const front *f, double tolerance)
+{
+  int32_t done = 0;
+  for (int32_t j = 0; j < f->columns; j++) {
+    double *x = column_of(f, j) + done;
+    int32_t count = f->end[j] - done;
+    double below = count > 1 ? sum_of_squares(x + 1, count - 1) : 0.0;
+    double length = count > 0 ? sqrt(x[0] * x[0] + below) : 0.0;
+    if (length > (j < f->pivots ? tolerance : 0.0)) {
+      f->tau[j] = below > 0.0 ? make_reflection(x, count, length) : 0.0;
+      for (int32_t k = j + 1; k < f->columns && f->tau[j] != 0.0; k++) {
+        reflect(x, f->tau[j], count, column_of(f, k) + done);
+      }
+      done++;
+    }
+    f->done[j] = done;
+  }
+  return f->done[f->pivots - 1];
+}
+
+int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance)
+{
+  int32_t rank = 0;
+  for (int32_t f = 0; f < qr->front_count; f++) {
+    assemble(qr, values, &qr->fronts[f]);
+    rank += reduce(&qr->fronts[f], tolerance);
+  }
+  return rank;
+}
+
+/* ---- use ---- */
+
+void baum_i_sparse_qr_mark(const baum_i_sparse_qr *qr, unsigned char *independent)
+{
+  for (const front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
+    for (int32_t j = 0; j < f->pivots; j++) {
+      independent[qr->order[f->place[j]]] = is_reduced(f, j);
+    }
+  }
+}
+
+/* The reflection of column j, if there is one. */
+static void reflect_by(const front *f, int32_t j, double *x)
+{
+  if (!is_reduced(f, j)) {
+    return;
+  }
+  const double *v = column_of(f, j);
+  int32_t first = f->done[j] - 1;
+  double sum = x[f->row[first]];
+  for (int32_t i = first + 1; i < f->end[j]; i++) {
+    sum += v[i] * x[f->row[i]];
+  }
+  sum *= f->tau[j];
+  x[f->row[first]] -= sum;
+  for (int32_t i = first + 1; i < f->end[j]; i++) {
+    x[f->row[i]] -= sum * v[i];
+  }
+}
+
+/* x <- Q^T x */
+static void multiply_transposed(const baum_i_sparse_qr *qr, double *x)
+{
+  for (const front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
+    for (int32_t j = 0; j < f->columns; j++) {
+      reflect_by(f, j, x);
+    }
+  }
+}
+
+/* x <- Q x */
+static void multiply(const baum_i_sparse_qr *qr, double *x)
+{
+  for (int32_t i = qr->front_count - 1; i >= 0; i--) {
+    for (int32_t j = qr->fronts[i].columns - 1; j >= 0; j--) {
+      reflect_by(&qr->fronts[i], j, x);
+    }
+  }
+}
+
+/* x (n) by places from y = Q^T b, zero for dependent columns. */
+static void solve_triangle(const baum_i_sparse_qr *qr, const double *y, double *x)
+{
+  for (int32_t i = qr->front_count - 1; i >= 0; i--) {
+    const front *f = &qr->fronts[i];
+    for (int32_t j = f->pivots - 1; j >= 0; j--) {
+      double *unknown = &x[f->place[j]];
+      *unknown = 0.0;
+      if (is_reduced(f, j)) {
+        int32_t row = f->done[j] - 1;
+        double sum = y[f->row[row]];
+        for (int32_t k = j + 1; k < f->columns; k++) {
+          sum -= column_of(f, k)[row] * x[f->place[k]];
+        }
+        *unknown = sum / column_of(f, j)[row];
+      }
+    }
+  }
+}
+
+void baum_i_sparse_qr_solve(baum_i_sparse_qr *qr, double *x)
+{
+  multiply_transposed(qr, x);
+  solve_triangle(qr, x, qr->work);
+  for (int32_t k = 0; k < qr->n; k++) {
+    x[qr->order[k]] = qr->work[k];
+  }
+}
+
+void baum_i_sparse_qr_project(baum_i_sparse_qr *qr, double *x)
+{
+  multiply_transposed(qr, x);
+  memset(qr->work, 0, (size_t)qr->m * sizeof *qr->work);
+  for (const front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
+    for (int32_t i = 0; i < f->done[f->pivots - 1]; i++) {
+      qr->work[f->row[i]] = x[f->row[i]];
+    }
+  }
+  memcpy(x, qr->work, (size_t)qr->m * sizeof *x);
+  multiply(qr, x);
+}
