@@ -29,9 +29,6 @@ foreach(target IN LISTS BAUM_SUNDIALS_TARGETS)
   string(REPLACE "SUNDIALS::" " -lsundials_" flag ${target})
   string(APPEND BAUM_PC_PRIVATE ${flag})
 endforeach()
-if(BAUM_GSL)
-  string(APPEND BAUM_PC_PRIVATE " -lgsl -lgslcblas")
-endif()
 string(APPEND BAUM_PC_PRIVATE " -lklu -lbtf -lamd -lcolamd -lsuitesparseconfig")
 # The archive of suitesparseconfig may need OpenMP.
 execute_process(COMMAND ${CMAKE_C_COMPILER} -print-file-name=libgomp.so OUTPUT_VARIABLE path

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Drivers along a spline. They need GSL, whose licence a program takes on that links it (README);
- *  in a build without, baum_has("gsl") is false and adding one is refused.
+ *  Drivers along a spline.
  */
 #ifndef BAUM_SPLINE_H
 #define BAUM_SPLINE_H
@@ -46,8 +45,8 @@ static inline baum_spline_driver_def baum_spline_driver_def_default(void)
  *  @param[in]  def        copied
  *  @param[out] id         receives the driver, a joint of one row; left as it is on failure.
  *                         May be NULL.
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
- *              BAUM_ERR_UNSUPPORTED (a build without GSL); the mechanism is unchanged on failure
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY;
+ *              the mechanism is unchanged on failure
  */
 BAUM_API baum_status baum_mechanism_add_spline_driver(baum_mechanism *mechanism,
                                                       const baum_spline_driver_def *def,

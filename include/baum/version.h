@@ -24,7 +24,7 @@ extern "C" {
 BAUM_API const char *baum_version(void);
 
 /** Whether an optional part is built in.
- *  @param feature  "sundials" (CVODE and IDA) or "gsl"; NULL and unknown names give false
+ *  @param feature  "sundials" (CVODE and IDA); NULL and unknown names give false
  *  @return         true when it can be used
  */
 BAUM_API bool baum_has(const char *feature);

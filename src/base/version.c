@@ -14,6 +14,5 @@ bool baum_has(const char *feature)
   if (!feature) {
     return false;
   }
-  return (BAUM_HAVE_SUNDIALS && strcmp(feature, "sundials") == 0) ||
-         (BAUM_HAVE_GSL && strcmp(feature, "gsl") == 0);
+  return BAUM_HAVE_SUNDIALS && strcmp(feature, "sundials") == 0;
 }

@@ -38,7 +38,6 @@ static struct {
   long fail_to;        /* one past the last */
   bool inside;         /* of an excluded call */
   long may_still_fail; /* allocations inside of it that are not excluded */
-  bool gsl_answers;    /* as if its error handler were off */
 } heap;
 
 /* ---- watching ---- */
@@ -166,49 +165,6 @@ HEAP_PUBLIC int SUNLogger_Create(void *communicator, int rank, void **logger)
 
 #endif
 
-/* gsl_interp_alloc() and gsl_interp_init() of GSL: its error handler, which belongs to the whole
- * program, ends it when they get no memory. The library tries beforehand whether there is enough,
- * and that may fail. In a program that has turned the handler off they answer instead; what they
- * have got by then they do not free, so that here they fail as a whole.
- */
-#if BAUM_HAVE_GSL
-
-typedef void *heap_alloc_spline(const void *type, size_t size);
-typedef int heap_init_spline(void *spline, const double *x, const double *y, size_t size);
-
-static heap_alloc_spline *heap_real_alloc_spline;
-static heap_init_spline *heap_real_init_spline;
-
-/* As in GSL's header, but for the names of its types. */
-void *gsl_interp_alloc(const void *type, size_t size);
-int gsl_interp_init(void *spline, const double *x, const double *y, size_t size);
-
-HEAP_PUBLIC void *gsl_interp_alloc(const void *type, size_t size)
-{
-  if (heap.gsl_answers && heap_refuses()) {
-    return NULL;
-  }
-  heap.inside = true;
-  heap.may_still_fail = 0;
-  void *spline = heap_real_alloc_spline(type, size);
-  heap.inside = false;
-  return spline;
-}
-
-HEAP_PUBLIC int gsl_interp_init(void *spline, const double *x, const double *y, size_t size)
-{
-  if (heap.gsl_answers && heap_refuses()) {
-    return 8; /* GSL_ENOMEM */
-  }
-  heap.inside = true;
-  heap.may_still_fail = 0;
-  int code = heap_real_init_spline(spline, x, y, size);
-  heap.inside = false;
-  return code;
-}
-
-#endif
-
 /* Looked up beforehand: it allocates. */
 static bool heap_find_excluded(void)
 {
@@ -217,14 +173,6 @@ static bool heap_find_excluded(void)
 #if BAUM_HAVE_SUNDIALS
   found = dlsym(RTLD_NEXT, "SUNLogger_Create");
   memcpy(&heap_real_create_logger, &found, sizeof found);
-  all = all && found;
-#endif
-#if BAUM_HAVE_GSL
-  found = dlsym(RTLD_NEXT, "gsl_interp_alloc");
-  memcpy(&heap_real_alloc_spline, &found, sizeof found);
-  all = all && found;
-  found = dlsym(RTLD_NEXT, "gsl_interp_init");
-  memcpy(&heap_real_init_spline, &found, sizeof found);
   all = all && found;
 #endif
   (void)found;

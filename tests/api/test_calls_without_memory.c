@@ -142,7 +142,7 @@ typedef struct scene {
   X(baum_warning_name, (BAUM_WARNING_ACCURACY))                                                  \
   X(baum_status_text, (BAUM_OK))                                                                 \
   X(baum_version, ())                                                                            \
-  X(baum_has, ("gsl"))                                                                           \
+  X(baum_has, ("sundials"))                                                                      \
   X(baum_mechanism_destroy, (NULL))                                                              \
   X(baum_mechanism_is_frozen, (s->parts.mechanism))                                              \
   X(baum_mechanism_body_count, (s->parts.mechanism))                                             \

@@ -171,10 +171,7 @@ static void every_allocation_of_an_event_may_fail(void **state)
 
 int main(void)
 {
-  /* heap.h looks its exceptions up before anything else runs, in GSL too, which is linked by this. */
-  baum_spline_driver_def spline = baum_spline_driver_def_default();
-  assert_true(spline.struct_size > 0);
-  (void)heap_is_ours();
+  (void)heap_is_ours(); /* heap.h looks its exceptions up before anything else runs */
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(definitions_are_checked),
     cmocka_unit_test(failing_functions_end_the_call),

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every allocation may fail of what test_allocation.c does not come by: bodies that are left out because they cannot
- * move, dense mass matrices with rows, break times, the solver that is made when a pose is singular, and GSL's splines
- * in a program that has turned GSL's error handler off.
+ * move, dense mass matrices with rows, break times, and the solver that is made when a pose is singular.
  */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
@@ -182,65 +181,11 @@ static void so_does_a_singular_pose(void **state)
   saddle_free(&system);
 }
 
-/* ---- with GSL that answers ---- */
-
-#if BAUM_HAVE_GSL
-
-static baum_status add_wheel(baum_mechanism *m, baum_joint_id *pin)
-{
-  baum_planar_body_def wheel = baum_planar_body_def_default();
-  baum_planar_revolute_def def = baum_planar_revolute_def_default();
-  def.body_a = BAUM_GROUND;
-  def.point[0] = def.point[1] = 0.0;
-  baum_status status = baum_mechanism_add_planar_body(m, &wheel, &def.body_b);
-  return status == BAUM_OK ? baum_mechanism_add_planar_revolute(m, &def, pin) : status;
-}
-
-static baum_status drive_along_splines(void *context)
-{
-  static const double times[5] = {0.0, 1.0, 2.0, 3.0, 4.0};
-  static const double values[5] = {0.0, 1.0, 0.0, -1.0, 0.0};
-  (void)context;
-  baum_mechanism *m = NULL;
-  baum_joint_id pin = {0, 0};
-  baum_status status = baum_mechanism_create(&m);
-  if (status == BAUM_OK) {
-    status = add_wheel(m, &pin);
-  }
-  for (int k = 0; k < 2 && status == BAUM_OK; k++) {
-    baum_spline_driver_def def = baum_spline_driver_def_default();
-    def.joint = pin;
-    def.times = times;
-    def.values = values;
-    def.count = 5;
-    def.periodic = k == 1;
-    status = baum_mechanism_add_spline_driver(m, &def, NULL);
-  }
-  baum_mechanism_destroy(m);
-  return status;
-}
-
-static void splines_survive_where_gsl_answers(void **state)
-{
-  (void)state;
-  if (!heap_is_ours()) {
-    skip();
-  }
-  heap.gsl_answers = true;
-  fail_every_allocation(drive_along_splines, NULL);
-  heap.gsl_answers = false;
-}
-
-#endif
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(what_cannot_move_survives_every_failing_allocation),
     cmocka_unit_test(so_does_a_singular_pose),
-#if BAUM_HAVE_GSL
-    cmocka_unit_test(splines_survive_where_gsl_answers),
-#endif
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

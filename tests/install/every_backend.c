@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program that reaches CVODE, IDA, splines, QR and the catalogue, so that linking it needs all they need. */
+/* A program that reaches CVODE, IDA, QR and the catalogue, so that linking it needs all they need. */
 #include <stdio.h>
 
 #include <baum/baum.h>
@@ -29,8 +29,6 @@ int main(void)
   for (int k = 0; k < 4 && status == BAUM_OK; k++) {
     status = swing(mechanism, integrators[k]);
   }
-  const baum_spline_driver_def spline = baum_spline_driver_def_default();
-  (void)baum_mechanism_add_spline_driver(mechanism, &spline, NULL); /* refused, but linked */
   if (status != BAUM_OK) {
     printf("%s\n", baum_message());
   }

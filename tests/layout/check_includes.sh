@@ -18,7 +18,6 @@ find src include -name '*.[ch]' | sort | xargs awk '
     if (header == "pthread.h") return file == "src/study/threads.h"
     if (header ~ /^(fcntl|unistd|sys\/stat)\.h$/) return file == "src/study/report_file.c"
     if (header == "immintrin.h") return file == "src/base/four.h"
-    if (header ~ /^gsl\//) return file == "src/mechanism/general/spline_driver.c"
     return 0
   }
 

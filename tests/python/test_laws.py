@@ -118,7 +118,6 @@ def driven(times, values, **fields):
 TIMES = np.linspace(0, 1, 21)
 
 
-@unittest.skipUnless(baum.has("gsl"), "no GSL")
 class Splines(unittest.TestCase):
     def angle(self, m, t):
         return m.freeze().simulate([t], "kinematics")["crank.pose"][0, 2]
@@ -165,14 +164,6 @@ class Splines(unittest.TestCase):
         for times in ([0, 1], [0, 2, 1]):
             with self.assertRaisesRegex(baum.Error, '"motor"'):
                 driven(times, np.zeros(len(times)))
-
-
-@unittest.skipIf(baum.has("gsl"), "there is GSL")
-class WithoutSplines(unittest.TestCase):
-    def test_they_are_refused(self):
-        with self.assertRaises(baum.Error) as caught:
-            driven(TIMES, np.sin(TIMES))
-        self.assertEqual(caught.exception.status, baum.Status.ERR_UNSUPPORTED)
 
 
 if __name__ == "__main__":

@@ -390,8 +390,6 @@ GOOD(planar_curve)
   return def;
 }
 
-#if BAUM_HAVE_GSL
-
 GOOD(spline_driver)
 {
   static const double times[4] = {0.0, 0.2, 0.5, 1.0};
@@ -404,8 +402,6 @@ GOOD(spline_driver)
   def.count = 4;
   return def;
 }
-
-#endif
 
 /* ---- building ---- */
 
@@ -471,8 +467,6 @@ static baum_status add_train(every_element *parts)
            : status;
 }
 
-#if BAUM_HAVE_GSL
-
 /* What the spline drives. */
 static baum_status add_wheel(every_element *parts)
 {
@@ -487,16 +481,6 @@ static baum_status add_wheel(every_element *parts)
            ? baum_mechanism_add_planar_revolute(parts->mechanism, &hinge, &parts->hinge)
            : status;
 }
-
-#else
-
-static baum_status add_wheel(every_element *parts)
-{
-  (void)parts;
-  return BAUM_OK;
-}
-
-#endif
 
 static baum_status add_kind(every_element *parts, const element_kind *kind)
 {
@@ -514,10 +498,7 @@ static baum_status add_kind(every_element *parts, const element_kind *kind)
 }
 
 /* Kinds before the spline driver, the last, and before the joints of the train. */
-enum {
-  EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - BAUM_HAVE_GSL,
-  EVERY_WITHOUT_TRAIN = EVERY_WITHOUT_WHEEL - 5
-};
+enum { EVERY_WITHOUT_WHEEL = ELEMENT_KINDS - 1, EVERY_WITHOUT_TRAIN = EVERY_WITHOUT_WHEEL - 5 };
 
 static baum_status add_all(every_element *parts)
 {

@@ -198,16 +198,12 @@ static const element_field planar_curve_fields[] = {
   FIELD(baum_planar_curve_def, user, FUNCTION),
 };
 
-#if BAUM_HAVE_GSL
-
 static const element_field spline_driver_fields[] = {
   FIELD(baum_spline_driver_def, struct_size, SIZE), FIELD(baum_spline_driver_def, name, NAME),
   FIELD(baum_spline_driver_def, joint, ID),         FIELD(baum_spline_driver_def, times, ARRAY),
   FIELD(baum_spline_driver_def, values, ARRAY),     FIELD(baum_spline_driver_def, count, INTEGER),
   FIELD(baum_spline_driver_def, periodic, FLAG),
 };
-
-#endif
 
 const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, struct_size, SIZE),
@@ -290,9 +286,7 @@ KIND_FUNCTIONS(joint, planar_rack_and_pinion)
 KIND_FUNCTIONS(joint, planar_gear)
 KIND_FUNCTIONS(joint, coupling)
 KIND_FUNCTIONS(joint, planar_curve)
-#if BAUM_HAVE_GSL
 KIND_FUNCTIONS(joint, spline_driver)
-#endif
 
 const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(body, planar_body, "planar body", crank),
@@ -313,9 +307,7 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(joint, planar_gear, "planar gear", teeth),
   KIND(joint, coupling, "coupling", lead),
   KIND(joint, planar_curve, "planar point on a curve", track),
-#if BAUM_HAVE_GSL
   KIND(joint, spline_driver, "spline driver", cam),
-#endif
 };
 
 any_id every_element_id(const every_element *parts, const element_kind *kind)

@@ -158,8 +158,6 @@ static void driver(baum_mechanism *m)
   need(baum_mechanism_add_driver(m, &def, NULL));
 }
 
-#if BAUM_HAVE_GSL
-
 /* Pendulum on a crank that is swung to and fro. */
 static void spline_driver(baum_mechanism *m)
 {
@@ -176,8 +174,6 @@ static void spline_driver(baum_mechanism *m)
   def.periodic = true;
   need(baum_mechanism_add_spline_driver(m, &def, NULL));
 }
-
-#endif
 
 /* y = 2 x^2 */
 static int parabola(double t, const double *q, double *out, void *user)
@@ -375,9 +371,7 @@ const joint_scene joint_scenes[JOINT_SCENES] = {
   {"coupling", coupling, 1, true},
   {"coupling by a law", cam, 1, true},
   {"point on a curve", curve, 2, true},
-#if BAUM_HAVE_GSL
   {"spline driver", spline_driver, 1, false},
-#endif
 };
 
 baum_mechanism *joint_scene_make(const joint_scene *scene)

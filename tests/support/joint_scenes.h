@@ -14,7 +14,7 @@ typedef struct joint_scene {
   bool conservative; /* energy is kept: nothing drives */
 } joint_scene;
 
-enum { JOINT_SCENES = 14 + BAUM_HAVE_GSL, JOINT_SCENE_SIZE_MAX = 12 }; /* nv, nc */
+enum { JOINT_SCENES = 15, JOINT_SCENE_SIZE_MAX = 12 }; /* nv, nc */
 extern const joint_scene joint_scenes[JOINT_SCENES];
 
 /* Frozen; the caller destroys it. */

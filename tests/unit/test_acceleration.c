@@ -6,15 +6,12 @@
 #include <stddef.h>
 #include <string.h>
 
-#include <cmocka.h>
-#if BAUM_HAVE_GSL
 #include <gsl/gsl_linalg.h>
-#endif
+#include <cmocka.h>
 
 #include "assert_near.h"
 #include "models.h"
 
-#if BAUM_HAVE_GSL
 enum { SIZE = 64 };
 
 static double scatter(int k)
@@ -95,12 +92,10 @@ static void check_against_lu(model *m, double gain)
   baum_workspace_destroy(w);
   model_destroy(m);
 }
-#endif
 
 static void accelerations_and_multipliers_are_those_of_a_dense_solution(void **state)
 {
   (void)state;
-#if BAUM_HAVE_GSL
   model m;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
   check_against_lu(&m, 0.0);
@@ -112,9 +107,6 @@ static void accelerations_and_multipliers_are_those_of_a_dense_solution(void **s
   check_against_lu(&m, 5.0);
   assert_int_equal(model_andrews_angles(true, &m), BAUM_OK);
   check_against_lu(&m, 5.0);
-#else
-  skip();
-#endif
 }
 
 /* ---- reactions and energy, by the laws of mechanics ---- */

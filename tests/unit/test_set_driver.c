@@ -288,9 +288,6 @@ static void it_takes_the_place_of_a_users_law_in_this_run_alone(void **state)
 static void it_takes_the_place_of_a_spline(void **state)
 {
   (void)state;
-  if (!baum_has("gsl")) {
-    skip();
-  }
   faults f = {.along_spline = true};
   scene s = make_scene(&f);
   baum_simulation_options o = options_of(baum_rk4());

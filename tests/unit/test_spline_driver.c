@@ -41,8 +41,6 @@ static baum_spline_driver_def along(const double *times, const double *values, i
   return def;
 }
 
-#if BAUM_HAVE_GSL
-
 /* A pin with a driver as joint 2, open at the design configuration. */
 static void open_cam(test_point *p, baum_spline_driver_def def)
 {
@@ -376,30 +374,3 @@ int main(void)
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
-
-#else
-
-static void without_gsl_it_is_refused_by_name(void **state)
-{
-  (void)state;
-  const double times[3] = {0.0, 1.0, 2.0};
-  const double values[3] = {0.0, 0.5, 0.0};
-  planar_scene scene = planar_scene_make();
-  baum_spline_driver_def def = along(times, values, 3, false);
-  def.joint = pin_between(&scene, scene.link, scene.crank);
-  assert_int_equal(add(scene.mechanism, &def), BAUM_ERR_UNSUPPORTED);
-  assert_string_equal(baum_message(),
-                      "joint 2 \"cam\": a spline driver needs GSL, which this build does not have");
-  assert_int_equal(scene.mechanism->joint_count, 1);
-  baum_mechanism_destroy(scene.mechanism);
-}
-
-int main(void)
-{
-  const struct CMUnitTest tests[] = {
-    cmocka_unit_test(without_gsl_it_is_refused_by_name),
-  };
-  return cmocka_run_group_tests(tests, NULL, NULL);
-}
-
-#endif

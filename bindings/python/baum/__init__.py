@@ -46,7 +46,7 @@ def __getattr__(name):
 
 
 def has(feature):
-    """Whether the library was built with "sundials" or "gsl"."""
+    """Whether the library was built with "sundials"."""
     return _lib.lib.baum_has(feature.encode())
 
 

@@ -268,8 +268,7 @@ class Adding:
     def spline_driver(self, name, joint, times, values, *, periodic=None):
         """Prescribe a coordinate as driver() does, by a cubic spline through `values` [rad] or [m]
         at rising `times` [s], at least 3. It goes on straight before the first and after the last
-        time; periodic: it repeats itself, and first and last value are the same. One row. Needs a
-        library with GSL, see baum.has()."""
+        time; periodic: it repeats itself, and first and last value are the same. One row."""
         return self._add(
             "spline_driver", name, joint=joint, times=times, values=values, periodic=periodic
         )

@@ -1,31 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver along a cubic spline: GSL's, natural (s'' = 0 at both ends) or periodic. On the interval
- * from t_i to t_i+1 with d = t - t_i
- *
- *   s = y_i + b_i d + c_i d^2 + D_i d^3
- *
- * The natural one goes on with its end slopes, so that s'' stays continuous.
- *
- * GSL's error handler ends the program; it is never reached: the definition is checked before, and
- * only functions that return codes are called. What GSL allocates is tried beforehand.
- */
+/* Driver along a cubic spline, natural or periodic. The natural one goes on with its end slopes, so
+ * that s'' stays continuous. */
 #include <baum/spline.h>
-
-#if BAUM_HAVE_GSL
 
 #include <math.h>
 #include <stddef.h>
 #include <string.h>
 
-#include <gsl/gsl_interp.h>
-
 #include "base/alloc.h"
+#include "base/cubic_spline.h"
 #include "base/message.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/driven.h"
 #include "mechanism/general/user_function.h"
 
-/* Fewer leave a natural spline a line, and GSL no periodic one. */
+/* Fewer leave a natural spline a line, and a periodic one constant. */
 enum { COUNT_MIN = 3 };
 
 /* A motion that is closed but for rounding. */
@@ -96,9 +85,9 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
 
 /* ---- what a copy owns ---- */
 
-/* The copy's times and values point to the numbers, one after the other. */
+/* The copy's times and values point to the first numbers, followed by the bends. */
 typedef struct curve {
-  gsl_interp *spline;
+  baum_i_cubic_spline spline;
   double numbers[];
 } curve;
 
@@ -108,48 +97,24 @@ static curve *curve_of(const baum_spline_driver_def *def)
   return (curve *)(void *)(numbers - offsetof(curve, numbers));
 }
 
-/* Somewhat more than GSL takes: four vectors to keep and five to find them. */
-static bool memory_suffices(size_t count)
-{
-  double *block = baum_i_alloc(12 * count + 64, sizeof *block);
-  baum_i_free(block);
-  return block != NULL;
-}
-
-/* NULL when out of memory. */
-static gsl_interp *make_spline(const double *times, const double *values, size_t count,
-                               bool periodic)
-{
-  if (!memory_suffices(count)) {
-    return NULL;
-  }
-  gsl_interp *spline =
-    gsl_interp_alloc(periodic ? gsl_interp_cspline_periodic : gsl_interp_cspline, count);
-  if (spline && gsl_interp_init(spline, times, values, count) != 0) {
-    gsl_interp_free(spline);
-    return NULL;
-  }
-  return spline;
-}
-
 static baum_status own(void *copy)
 {
   baum_spline_driver_def *def = copy;
   size_t count = (size_t)def->count;
-  curve *c = baum_i_alloc(1, sizeof *c + 2 * count * sizeof *c->numbers);
+  curve *c = baum_i_alloc(1, sizeof *c + 3 * count * sizeof *c->numbers);
   if (!c) {
     return BAUM_ERR_MEMORY;
   }
-  double *times = c->numbers;
   double *values = c->numbers + count;
-  memcpy(times, def->times, count * sizeof *times);
+  memcpy(c->numbers, def->times, count * sizeof *values);
   memcpy(values, def->values, count * sizeof *values);
-  c->spline = make_spline(times, values, count, def->periodic);
-  if (!c->spline) {
+  c->spline = (baum_i_cubic_spline){def->count, c->numbers, values, values + count};
+  baum_status status = baum_i_cubic_spline_fit(&c->spline, def->periodic);
+  if (status != BAUM_OK) {
     baum_i_free(c);
-    return BAUM_ERR_MEMORY;
+    return status;
   }
-  def->times = times;
+  def->times = c->numbers;
   def->values = values;
   return BAUM_OK;
 }
@@ -167,9 +132,7 @@ static void digest(const void *given, baum_i_digest *sum)
 static void release(void *copy)
 {
   baum_spline_driver_def *def = copy;
-  curve *c = curve_of(def);
-  gsl_interp_free(c->spline);
-  baum_i_free(c);
+  baum_i_free(curve_of(def));
   def->times = NULL;
   def->values = NULL;
 }
@@ -188,15 +151,11 @@ static double time_within(const baum_spline_driver_def *def, double t)
   return fmin(fmax(t, first), last);
 }
 
-/* GSL's functions set NaN where they fail, which is looked for. */
 static baum_status motion(const baum_i_joint *driver, baum_i_point *point, double s[3])
 {
   const baum_spline_driver_def *def = driver->element.def;
-  const gsl_interp *spline = curve_of(def)->spline;
   double t = time_within(def, point->t);
-  (void)gsl_interp_eval_e(spline, def->times, def->values, t, NULL, &s[0]);
-  (void)gsl_interp_eval_deriv_e(spline, def->times, def->values, t, NULL, &s[1]);
-  (void)gsl_interp_eval_deriv2_e(spline, def->times, def->values, t, NULL, &s[2]);
+  baum_i_cubic_spline_evaluate(&curve_of(def)->spline, t, s);
   if (!def->periodic && t != point->t) {
     s[0] += s[1] * (point->t - t);
     s[2] = 0.0;
@@ -234,5 +193,3 @@ static const baum_i_joint_type type = {
 };
 
 BAUM_I_DEFINE(joint, spline_driver, type)
-
-#endif
