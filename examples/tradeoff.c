@@ -12,7 +12,7 @@ static baum_study *make_study(const slider_crank *s)
   CHECK(baum_study_create(s->mechanism, 0.0, reference_time(REFERENCE_SAMPLES - 1), &study));
   baum_study_options options = baum_study_options_default();
   options.repeats = 2;
-  options.row_limit = 0.06;
+  options.entry_limit = 0.06;
   CHECK(baum_study_set_options(study, &options));
   baum_study_grid grid = baum_study_grid_default();
   grid.settings = 6;
@@ -23,27 +23,27 @@ static baum_study *make_study(const slider_crank *s)
 
 enum { COLUMNS = 9, SHOWN = 6 };
 
-static void tell_row(const baum_study *study, int32_t k, int columns)
+static void tell_entry(const baum_study *study, int32_t k, int columns)
 {
-  baum_study_row row;
+  baum_study_entry entry;
   baum_study_method method;
-  CHECK(baum_study_row_at(study, k, &row, sizeof row));
-  CHECK(baum_study_method_at(study, row.method, &method, sizeof method));
-  example_text(row.name);
-  example_number(row.error);
-  example_number(row.work);
-  example_number(1e3 * row.cpu);
-  example_number(row.max_phi);
-  example_number(row.energy_error);
+  CHECK(baum_study_entry_at(study, k, &entry, sizeof entry));
+  CHECK(baum_study_method_at(study, entry.method, &method, sizeof method));
+  example_text(entry.name);
+  example_number(entry.error);
+  example_number(entry.work);
+  example_number(1e3 * entry.cpu);
+  example_number(entry.max_phi);
+  example_number(entry.energy_error);
   if (columns > SHOWN) {
     example_text(method.name);
     example_text(method.fixed_step ? "step" : "rtol");
-    example_text(baum_study_state_name(row.state));
+    example_text(baum_study_state_name(entry.state));
   }
 }
 
-/* The front on the screen, all rows in the files. */
-static void tell_rows(const baum_study *study)
+/* The front on the screen, all entries in the files. */
+static void tell_entries(const baum_study *study)
 {
   enum { MOST = 100 };
   static const example_column columns[COLUMNS] = {
@@ -63,11 +63,11 @@ static void tell_rows(const baum_study *study)
   printf("the front: what no other setting beats in both work and error\n");
   example_table("front", columns, SHOWN, true);
   for (int k = 0; k < count && k < MOST; k++) {
-    tell_row(study, front[k], SHOWN);
+    tell_entry(study, front[k], SHOWN);
   }
-  example_table("rows", columns, COLUMNS, false);
-  for (int k = 0; k < baum_study_row_count(study); k++) {
-    tell_row(study, k, COLUMNS);
+  example_table("entries", columns, COLUMNS, false);
+  for (int k = 0; k < baum_study_entry_count(study); k++) {
+    tell_entry(study, k, COLUMNS);
   }
 }
 
@@ -115,9 +115,9 @@ int main(int argc, char **argv)
   baum_study_reference reference;
   CHECK(baum_study_reference_read(study, &reference, sizeof reference));
   printf("tradeoff: %s, 0.2 s; %d settings of %d methods\nerror     %s\nreference %s\n\n", TITLE,
-         (int)baum_study_row_count(study), (int)baum_study_method_count(study),
+         (int)baum_study_entry_count(study), (int)baum_study_method_count(study),
          baum_study_error_text(study), reference.text);
-  tell_rows(study);
+  tell_entries(study);
   recommend(study, &s);
   example_expect("uncertainty of the reference", reference.uncertainty, 1e-9);
   if (example.page) {

@@ -40,24 +40,24 @@ def main():
     report = Report("tradeoff", page="write the study there, as a page for a browser")
     m = slider_crank()
     study = baum.study(m, 0, SPAN, error=["crank.pose", "rod.pose", "slider.pose"], repeats=2,
-                       row_limit=0.1)
+                       entry_limit=0.1)
     for name in INTEGRATORS:
         study.add_standard(name, settings=5, constants=1)
     study.run()
     print(f"{study}\nerror      {study.error_text}\nreference  {study.reference.text}\n")
 
-    rows = study.rows
-    front = [rows[k] for k in study.front()]
-    table = [(row.name, row.error, row.work, 1e3 * row.cpu, row.max_phi) for row in front]
+    entries = study.entries
+    front = [entries[k] for k in study.front()]
+    table = [(entry.name, entry.error, entry.work, 1e3 * entry.cpu, entry.max_phi) for entry in front]
     report.table("front", COLUMNS, table)
     wanted = {error: study.recommend(error) for error in (1e-2, 1e-4, 1e-6, 1e-8)}
     for error, best in wanted.items():
         print(f"for an error of {error:.0e}: {best.why}\n")
     for error, best in wanted.items():
         report.expect(f"error of what is taken for {error:.0e}", error_of(m, study, best), error)
-    exact = [row.error for row in rows if not np.isnan(row.error)]
+    exact = [entry.error for entry in entries if not np.isnan(entry.error)]
     least = study.reference.uncertainty
-    report.expect("no row is graded better than the reference", least, min(exact))
+    report.expect("no entry is graded better than the reference", least, min(exact))
     if report.options.page:
         study.write(report.options.page, "Slider-crank, let go at 150 rad/s")
     return report.end()

@@ -37,15 +37,15 @@ def wire():
 def main():
     report = Report("wire")
     m = wire()
-    study = baum.study(m, 0, SPAN, samples=30, repeats=1, row_limit=2.0, energy_account=False)
+    study = baum.study(m, 0, SPAN, samples=30, repeats=1, entry_limit=2.0, energy_account=False)
     for name, way in METHODS.items():
         if name not in baum.integrators() or name == "cvode_adams" and not baum.has("sundials"):
             continue
         for setting in (4e-2, 2e-2, 1e-2, 5e-3) if way == "step" else (1e-4, 1e-6, 1e-8, 1e-10):
             study.add(name, **{way: setting})
     study.run()
-    rows = [(row.name, row.error, row.work, 1e3 * row.cpu, row.max_phi) for row in study.rows]
-    report.table("rows", COLUMNS, rows)
+    entries = [(entry.name, entry.error, entry.work, 1e3 * entry.cpu, entry.max_phi) for entry in study.entries]
+    report.table("entries", COLUMNS, entries)
     best = study.recommend(1e-6)
     print(f"for an error of 1e-06: {best.why}\n")
 

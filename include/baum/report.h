@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  A study on paper: its rows, its front, what it recommends, its reference and where it was made.
+ *  A study on paper: its entries, its front, what it recommends, its reference and where it was made.
  *
  *    baum_study_write(study, BAUM_REPORT_PAGE, "slider-crank", "slider_crank.html");
  *
- *  What is not known, as figures of rows that have failed, is a dash for people, empty in CSV and null in JSON. Texts are
+ *  What is not known, as figures of entries that have failed, is a dash for people, empty in CSV and null in JSON. Texts are
  *  UTF-8; numbers have a point whatever the locale is. Reading only: a study may be reported at any time.
  */
 #ifndef BAUM_REPORT_H
@@ -22,7 +22,7 @@ extern "C" {
 typedef enum baum_report_form {
   BAUM_REPORT_TEXT = 0, /**< Aligned columns for a screen. */
   BAUM_REPORT_CSV =
-    1, /**< The rows, one line each, below a line of keys; comma separated, RFC 4180. */
+    1, /**< The entries, one line each, below a line of keys; comma separated, RFC 4180. */
   BAUM_REPORT_JSON =
     2, /**< All there is; "units" has the unit of every key. Keys stay as they are. */
   BAUM_REPORT_PAGE = 3 /**< One HTML page with charts and a table to sort, which loads nothing. */

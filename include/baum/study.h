@@ -1,22 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Speed against accuracy, measured: one mechanism, one time span, many settings of a run; what each of them costs, how
- *  exact it is, and which one to take.
+ *  Speed against accuracy, measured: one mechanism, one time span, many settings of a run; what
+ *  each of them costs, how exact it is, and which one to take.
  *
  *    baum_study_create(mechanism, 0.0, 2.0, &study);
  *    baum_study_add_standard(study, NULL);
  *    baum_study_run(study);
  *    baum_study_recommend(study, 1e-6, BAUM_STUDY_WORK, &options, sizeof options, why, sizeof why);
  *
- *  A setting is a row. Rows with the same integrator, formulation and gains, which differ in step or rtol, are a method.
- *  Errors are differences from a reference at samples t0 + k (t1 - t0) / n, k = 1 to n. The study makes its own reference or
- *  is given one; no row is graded better than the reference is known. docs/theory/trade.md says how all of it is done.
+ *  A setting is an entry. Entries with the same integrator, formulation and gains, which differ in
+ *  step or rtol, are a method. Errors are differences from a reference at samples t0 + k (t1 - t0)
+ *  / n, k = 1 to n. The study makes its own reference or is given one; no entry is graded better
+ *  than the reference is known. docs/theory/work-precision.md says how all of it is done.
  *
- *  Threads: one study is used by one thread at a time, but for baum_study_cancel(). baum_study_run() uses the threads of the
- *  options, and calls functions of the user, those of the mechanism too, from each of them.
- *  While baum_study_run() is under way, its progress function may cancel it and, with one thread, read it: what would change it
- *  fails with BAUM_ERR_STATE, and it cannot be destroyed.
- *  Texts are owned by the study and stay as they are until the next call that is not reading, or its end.
+ *  Threads: one study is used by one thread at a time, but for baum_study_cancel().
+ *  baum_study_run() uses the threads of the options, and calls functions of the user, those of the
+ *  mechanism too, from each of them. While baum_study_run() is under way, its progress function may
+ *  cancel it and, with one thread, read it: what would change it fails with BAUM_ERR_STATE, and it
+ *  cannot be destroyed. Texts are owned by the study and stay as they are until the next call that
+ *  is not reading, or its end.
  */
 #ifndef BAUM_STUDY_H
 #define BAUM_STUDY_H
@@ -52,9 +54,11 @@ BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t
  */
 BAUM_API void baum_study_destroy(baum_study *study);
 
-/** Called after each row, and for the reference; by one thread at a time, not always the caller's.
- *  @param done   rows that are done, timed ones twice: half of `total` after all errors are known
- *  @param total  2 x rows
+/** Called after each entry, and for the reference; by one thread at a time, not always the
+ *  caller's.
+ *  @param done   entries that are done, timed ones twice: half of `total` after all errors are
+ *                known
+ *  @param total  2 x entries
  *  @return       non-zero to cancel */
 typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_t total,
                                    void *user);
@@ -65,10 +69,10 @@ typedef struct baum_study_options {
   int32_t
     samples; /**< [-] 2 to 1e6, at which errors are taken; at most 1e8 / (nq + nv + nc) for large mechanisms. Default: 100. */
   int32_t threads; /**< [-] 1 to 1024, for errors; times are always taken one by one. Default: 1. */
-  int32_t repeats; /**< [-] 1 to 1e6, most runs for the time of a row; fewer where they are long.
+  int32_t repeats; /**< [-] 1 to 1e6, most runs for the time of an entry; fewer where they are long.
                             Default: 5. */
   double
-    row_limit; /**< [s] > 0 of CPU time, longest run of a row; may be infinite. The reference may
+    entry_limit; /**< [s] > 0 of CPU time, longest run of an entry; may be infinite. The reference may
                             take a minute, or five times that. Default: 10. */
   double time_budget;  /**< [s] > 0 of wall time, of one baum_study_run(); may be infinite. Default:
                             infinity. */
@@ -79,7 +83,7 @@ typedef struct baum_study_options {
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress, not owned. Default: NULL. */
   bool
-    rehearse; /**< Run rows that may be recommended over twice the span and from other starts, too,
+    validate; /**< Run entries that may be recommended over twice the span and from other starts, too,
                       so that recommendations hold there. Default: true. */
 } baum_study_options;
 
@@ -97,17 +101,20 @@ static inline baum_study_options baum_study_options_default(void)
   return options;
 }
 
-/** Set the options. Once rows have been run samples, energy_account and file stay as they are.
+/** Set the options. Once entries have been run samples, energy_account and file stay as they are.
  *  @param[in] options  copied
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; unchanged on failure
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY;
+ *             unchanged on failure
  */
 BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_options *options);
 
 /* ---- settings -------------------------------------------------------------------------------- */
 
-/** Add one setting. Whether it can be run is found out by running it: one that is refused is a row.
+/** Add one setting. Whether it can be run is found out by running it: one that is refused is an
+ *  entry.
  *  @param[in] options  copied; start_time, progress and user are the study's whatever they say
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
+ *             BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
@@ -144,29 +151,33 @@ static inline baum_study_grid baum_study_grid_default(void)
   return grid;
 }
 
-/** Add the standard grid: every integrator that the build has, with each of its formulations, gains by its own rule, auto and
- *  some constants, each with some steps or tolerances from coarse to fine.
+/** Add the standard grid: every integrator that the build has, with each of its formulations, gains
+ *  by its own rule, auto and some constants, each with some steps or tolerances from coarse to
+ *  fine.
  *  @param[in] grid  NULL: the default
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has no such integrator with that formulation), BAUM_ERR_STRUCT,
- *             BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the mechanism cannot be started, whose
- *             rate is looked for, what baum_simulation_create() returns. Unchanged on failure
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has no such integrator with that
+ *             formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the
+ *             mechanism cannot be started, whose rate is looked for, what baum_simulation_create()
+ *             returns. Unchanged on failure
  */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
-/** Add the extremes of settings: steps of 1e-1 to 1e-9 of a period of the motion, rtol of 1e-2 to 1e-14, and with BAUMGARTE
- *  gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a period or rtol 1e-7. Every row is to meet its
- *  tolerance, or to say why not. The row limit bounds what tiny steps take.
+/** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, rtol of 1e-2 to 1e-14, and
+ *  with BAUMGARTE gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a period or
+ *  rtol 1e-7. Every entry is to meet its tolerance, or to say why not. The entry limit bounds what
+ *  tiny steps take.
  *  @param[in] integrator  NULL: all of the build that take a step or a tolerance
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator), BAUM_ERR_STATE, BAUM_ERR_MEMORY;
- *             and when the mechanism cannot be started, what baum_simulation_create() returns. Unchanged on failure
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator),
+ *             BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the mechanism cannot be started, what
+ *             baum_simulation_create() returns. Unchanged on failure
  */
-BAUM_API baum_status baum_study_add_extremes(baum_study *study, const baum_integrator *integrator);
+BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
 
 /* ---- what error means ------------------------------------------------------------------------ */
 
-/** Say what error means: the largest |difference from the reference| / unit over all columns of some channels. Without
- *  this call it is that of all positions, lengths by the scale of the mechanism and angles in radians. Before rows have
- *  been run.
+/** Say what error means: the largest |difference from the reference| / unit over all columns of
+ *  some channels. Without this call it is that of all positions, lengths by the scale of the
+ *  mechanism and angles in radians. Before entries have been run.
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
  *  @param     unit      [of the channels] > 0, finite: a difference of that size is an error of 1
@@ -175,14 +186,15 @@ BAUM_API baum_status baum_study_add_extremes(baum_study *study, const baum_integ
 BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel *channels,
                                           int32_t count, double unit);
 
-/** Give a reference as samples, in place of the study's own; the option samples does not apply then. Before rows have been
- *  run. An entry that is NaN is not compared.
+/** Give a reference as samples, in place of the study's own; the option samples does not apply
+ *  then. Before entries have been run. A number that is NaN is not compared.
  *  @param[in] times   (n) [s] strictly monotone from t0 to t1, t0 excluded
  *  @param     n       [-] >= 1
  *  @param[in] q       (n x nq) copied
  *  @param[in] v       (n x nv) copied. NULL: not known
  *  @param[in] lambda  (n x nc) copied. NULL: not known
- *  @param     digits  [-] > 0, to which it can be trusted: errors below 10^-digits are not told apart
+ *  @param     digits  [-] > 0, to which it can be trusted: errors below 10^-digits are not told
+ *                     apart
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; unchanged on failure
  */
 BAUM_API baum_status baum_study_set_reference(baum_study *study, const double *times, int32_t n,
@@ -208,44 +220,47 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
 
 /* ---- running --------------------------------------------------------------------------------- */
 
-/** Make the reference and run the rows that are not done: first all errors, by several threads, coarse settings first, then
- *  all times, one after the other. Rows that fail, are refused or reach the limit are rows like others. A finer setting of a
- *  method that has reached the row limit is not tried. Another call goes on where one has stopped, with rows that were
- *  added since.
- *  With the option file every result is appended to it as a line of text when it is known, and all are on the disk when
- *  this returns; a study of the same mechanism, span, samples, error and reference takes its rows from there, also where a
- *  line is cut off. What functions of the user do is not compared. One process at a time.
- *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also the time budget is
- *           spent), BAUM_ERR_STATE (no rows, or under way), BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another
- *           study's: the sentence says what differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what
+/** Make the reference and run the entries that are not done: first all errors, by several threads,
+ *  coarse settings first, then all times, one after the other. Entries that fail, are refused or
+ *  reach the limit are entries like others. A finer setting of a method that has reached the entry
+ *  limit is not tried. Another call goes on where one has stopped, with entries that were added
+ *  since. With the option file every result is appended to it as a line of text when it is known,
+ *  and all are on the disk when this returns; a study of the same mechanism, span, samples, error
+ *  and reference takes its entries from there, also where a line is cut off. What functions of the
+ *  user do is not compared. One process at a time.
+ *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also
+ *           the time budget is spent), BAUM_ERR_STATE (no entries, or under way), BAUM_ERR_MEMORY,
+ *           BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another study's: the sentence says what
+ *           differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what
  *           baum_simulation_create() returns for the mechanism
  */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop; rows under way are not kept. From any thread or signal handler.
+/** Ask baum_study_run() to stop; entries under way are not kept. From any thread or signal handler.
  *  @param study  may be NULL
  */
 BAUM_API void baum_study_cancel(baum_study *study);
 
-/* ---- rows ------------------------------------------------------------------------------------ */
+/* ---- entries --------------------------------------------------------------------------------- */
 
-/** How far a row has come. */
+/** How far an entry has come. */
 typedef enum baum_study_state {
   BAUM_STUDY_WAITING = 0,  /**< Not run, or not to its end. */
   BAUM_STUDY_DONE = 1,     /**< Has reached the end of the span. */
   BAUM_STUDY_REFUSED = 2,  /**< Could not be started. */
   BAUM_STUDY_FAILED = 3,   /**< Stopped on its way. */
-  BAUM_STUDY_TIMED_OUT = 4 /**< Reached the row limit, or a coarser setting of its method did. */
+  BAUM_STUDY_TIMED_OUT = 4 /**< Reached the entry limit, or a coarser setting of its method did. */
 } baum_study_state;
 
 /** Name of a state such as "done"; NULL for an unknown value. */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** What a setting costs and how exact it is. Errors are the largest over all samples, `final` ones those at the last; where
- *  they would be below the uncertainty of the reference they are that uncertainty. NaN: not known, as everything of
- *  rows that are not done but what they are, state, status and message. */
-typedef struct baum_study_row {
-  size_t struct_size;  /**< Set by baum_study_row_at(). */
+/** What a setting costs and how exact it is. Errors are the largest over all samples, `final` ones
+ *  those at the last; where they would be below the uncertainty of the reference they are that
+ *  uncertainty. NaN: not known, as everything of entries that are not done but what they are,
+ *  state, status and message. */
+typedef struct baum_study_entry {
+  size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
   const char *message; /**< Why it is refused or failed, else its first warning, else "". */
   const baum_integrator *integrator; /**< Of the options. */
@@ -298,35 +313,36 @@ typedef struct baum_study_row {
   double cpu_spread; /**< [s] second least less least; NaN when there was one repeat. */
   int32_t repeats;   /**< [-] of the time. */
   double
-    error_rehearsed; /**< [-] largest error over twice the span and from starts nearby; infinite
-                               where it fails there. NaN: not rehearsed, as rows that cost far more than
+    error_validated; /**< [-] largest error over twice the span and from starts nearby; infinite
+                               where it fails there. NaN: not validated, as entries that cost far more than
                                others that are as exact. */
   double
     alpha; /**< [1/s] of the gains that the run used, whatever their rule; 0: none, NaN: not run. */
   double beta;           /**< [1/s] likewise. */
   int64_t doubts;        /**< [-] kinds of warnings that doubt the motion. */
   double error_estimate; /**< [-] as in baum_counters. */
-} baum_study_row;
+} baum_study_entry;
 
-/** Number of rows; 0 for NULL. */
-BAUM_API int32_t baum_study_row_count(const baum_study *study);
+/** Number of entries; 0 for NULL. */
+BAUM_API int32_t baum_study_entry_count(const baum_study *study);
 
-/** Read a row.
- *  @param      k            0 to baum_study_row_count() - 1, in the order of adding
+/** Read an entry.
+ *  @param      k            0 to baum_study_entry_count() - 1, in the order of adding
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
  */
-BAUM_API baum_status baum_study_row_at(const baum_study *study, int32_t k, baum_study_row *out,
-                                       size_t caller_size);
+BAUM_API baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_entry *out,
+                                         size_t caller_size);
 
-/** The options of a row, ready for baum_simulation_create(). row_gains, if any, are owned by the study.
+/** The options of an entry, ready for baum_simulation_create(). row_gains, if any, are owned by the
+ *  study.
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
  */
-BAUM_API baum_status baum_study_row_options(const baum_study *study, int32_t k,
-                                            baum_simulation_options *out, size_t caller_size);
+BAUM_API baum_status baum_study_entry_options(const baum_study *study, int32_t k,
+                                              baum_simulation_options *out, size_t caller_size);
 
 /* ---- reference ------------------------------------------------------------------------------- */
 
@@ -366,8 +382,8 @@ BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_stu
  *  @param[out] q       (nq)
  *  @param[out] v       (nv) NaN where not known
  *  @param[out] lambda  (nc) NaN where not known
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not made; one that goes on from a complete file does not make
- *              it again)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not made; one that goes on from a
+ *              complete file does not make it again)
  */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
                                                  double *q, double *v, double *lambda);
@@ -381,7 +397,8 @@ BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_
 BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, double *t1,
                                          baum_study_options *options, size_t caller_size);
 
-/** In words what error means, such as "largest error of all positions, lengths by 0.51 m, angles in rad"; NULL for NULL. */
+/** In words what error means, such as "largest error of all positions, lengths by 0.51 m, angles in
+ *  rad"; NULL for NULL. */
 BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
@@ -394,23 +411,24 @@ typedef enum baum_study_cost {
   BAUM_STUDY_CPU = 1 /**< [s] as measured. */
 } baum_study_cost;
 
-/** Rows with the same integrator, formulation and gains, of which each has a step, or each an rtol. */
+/** Entries with the same integrator, formulation and gains, of which each has a step, or each an
+ *  rtol. */
 typedef struct baum_study_method {
   size_t struct_size;                /**< Set by baum_study_method_at(). */
   const char *name;                  /**< Such as "rk8 projection". */
-  const baum_integrator *integrator; /**< Of its rows. */
-  baum_formulation formulation;      /**< Of its rows. */
-  baum_gains gains;                  /**< Of its rows. */
+  const baum_integrator *integrator; /**< Of its entries. */
+  baum_formulation formulation;      /**< Of its entries. */
+  baum_gains gains;                  /**< Of its entries. */
   bool fixed_step;                   /**< Of steps rather than tolerances. */
-  int32_t rows;                      /**< [-] it has. */
+  int32_t entries;                   /**< [-] it has. */
   int32_t usable;                    /**< [-] of these those that are done and not `off`. */
   double least_error;                /**< [-] that it reaches; NaN when none is usable. */
   double slope; /**< [-] d log error / d log step or rtol where errors fall; NaN: not known. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN likewise. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN likewise. */
   double
-    growth; /**< [-] error_rehearsed over error of its rows, on geometric average; NaN: none was
-                      rehearsed to the end. */
+    growth; /**< [-] error_validated over error of its entries, on geometric average; NaN: none was
+                      validated to the end. */
 } baum_study_method;
 
 /** Number of methods; 0 for NULL. */
@@ -425,22 +443,24 @@ BAUM_API int32_t baum_study_method_count(const baum_study *study);
 BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
-/** The Pareto front: rows than which none is both cheaper and more exact. Rows at the floor of the reference count as equally
- *  exact.
+/** The Pareto front: entries than which none is both cheaper and more exact. Entries at the floor
+ *  of the reference count as equally exact.
  *  @param      cost      what is cheap
- *  @param      capacity  of rows; >= 0
- *  @param[out] rows      (capacity) the first ones, from cheap to exact. NULL when capacity is 0
+ *  @param      capacity  of `entries`; >= 0
+ *  @param[out] entries   (capacity) the first ones, from cheap to exact. NULL when capacity is 0
  *  @param[out] count     receives how many there are, which may exceed the capacity
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
-                                      int32_t capacity, int32_t *rows, int32_t *count);
+                                      int32_t capacity, int32_t *entries, int32_t *count);
 
-/** What a method costs at an error, on the line through the logarithms of its rows; up to one setting beyond its ends.
+/** What a method costs at an error, on the line through the logarithms of its entries; up to one
+ *  setting beyond its ends.
  *  @param      method  see baum_study_method_at()
  *  @param      error   [-] > 0
  *  @param[out] out     [- or s]
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the sentence says how far it comes)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the sentence
+ *              says how far it comes)
  */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
@@ -452,16 +472,19 @@ BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method,
 BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                         baum_study_cost cost, double *ratio);
 
-/** The cheapest setting for an error. It is chosen so that it holds for starts nearby and for twice the span, by what rows
- *  have shown there (error_rehearsed) and a margin. Its step or rtol may lie between those of rows of its method. Where no row
- *  keeps the error with all that, one that keeps it as measured is taken, and `why` says that nothing is left.
+/** The cheapest setting for an error. It is chosen so that it holds for starts nearby and for twice
+ *  the span, by what entries have shown there (error_validated) and a margin. Its step or rtol may
+ *  lie between those of entries of its method. Where no entry keeps the error with all that, one
+ *  that keeps it as measured is taken, and `why` says that nothing is left.
  *  @param      error        [-] > 0, wanted; see baum_study_set_error()
  *  @param      cost         what is cheap
  *  @param[out] best         options for baum_simulation_create()
  *  @param      caller_size  sizeof *best
- *  @param[out] why          (size) a sentence with the measured figures, cut if too long. May be NULL
- *  @return     BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_ERR_ARGUMENT (also when no row is so
- *              exact, or the reference is not known so well), BAUM_ERR_STATE (no row is timed); `best` is unchanged on failure
+ *  @param[out] why          (size) a sentence with the measured figures, cut if too long. May be
+ *                           NULL
+ *  @return     BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_ERR_ARGUMENT (also
+ *              when no entry is so exact, or the reference is not known so well), BAUM_ERR_STATE
+ *              (no entry is timed); `best` is unchanged on failure
  */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
@@ -469,7 +492,7 @@ BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
 
 /** The most exact setting for a CPU time, otherwise as baum_study_recommend().
  *  @param seconds  [s] > 0, finite, for a run over the span of the study on this machine
- *  @return         as baum_study_recommend(); BAUM_ERR_ARGUMENT also when no row is so fast
+ *  @return         as baum_study_recommend(); BAUM_ERR_ARGUMENT also when no entry is so fast
  */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
                                                  baum_simulation_options *best, size_t caller_size,

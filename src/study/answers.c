@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What rows say: front, cost at an error, recommendation.
+/* What entries say: front, cost at an error, recommendation.
  *
- * Between two rows of a method error and cost are taken to lie on straight lines over the logarithm of step or rtol.
- * A recommendation for the error E asks for
+ * Between two entries of a method error and cost are taken to lie on straight lines over the
+ * logarithm of step or rtol. A recommendation for the error E asks for
  *
- *   error_rehearsed x margin <= E
+ *   error_validated x margin <= E
  *
- * of a row and the next finer one: a lucky row does not count. The margin is what MORE_WORK buys with the method. Where there is none, error <= E of both.
+ * of an entry and the next finer one: a lucky entry does not count. The margin is what MORE_WORK
+ * buys with the method. Where there is none, error <= E of both.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,19 +26,20 @@ static const double SPEED_MARGIN = 1.25;     /* on times, which vary from run to
 
 /* ---- front ---- */
 
-static double cost_of(const baum_i_row *row, baum_study_cost cost)
+static double cost_of(const baum_i_entry *entry, baum_study_cost cost)
 {
-  return cost == BAUM_STUDY_CPU ? row->out.cpu : row->out.work;
+  return cost == BAUM_STUDY_CPU ? entry->out.cpu : entry->out.work;
 }
 
-/* Is there a row that is as good in both and better in one? Of equal rows the first is the better. */
+/* Is there an entry that is as good in both and better in one? Of equal entries the first is the
+ * better. */
 static bool is_beaten(const baum_study *study, int k, baum_study_cost cost)
 {
-  const baum_i_row *row = study->rows[k];
-  double c = cost_of(row, cost);
-  double e = row->out.error;
-  for (int i = 0; i < study->row_count; i++) {
-    const baum_i_row *other = study->rows[i];
+  const baum_i_entry *entry = study->entries[k];
+  double c = cost_of(entry, cost);
+  double e = entry->out.error;
+  for (int i = 0; i < study->entry_count; i++) {
+    const baum_i_entry *other = study->entries[i];
     double oc = cost_of(other, cost);
     double oe = other->out.error;
     if (i != k && baum_i_study_is_answer(other) && oc <= c && oe <= e &&
@@ -59,9 +61,9 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* Rows from cheap to dear, as many as there is room for. */
+/* Entries from cheap to dear, as many as there is room for. */
 typedef struct list {
-  int32_t *rows;
+  int32_t *entries;
   int capacity;
   int count; /* may be more than the capacity */
 } list;
@@ -69,35 +71,35 @@ typedef struct list {
 /* What is dearer moves up, and out beyond the capacity. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
-  double c = cost_of(study->rows[k], cost);
+  double c = cost_of(study->entries[k], cost);
   int at = l->count < l->capacity ? l->count : l->capacity;
-  for (; at > 0 && cost_of(study->rows[l->rows[at - 1]], cost) > c; at--) {
+  for (; at > 0 && cost_of(study->entries[l->entries[at - 1]], cost) > c; at--) {
     if (at < l->capacity) {
-      l->rows[at] = l->rows[at - 1];
+      l->entries[at] = l->entries[at - 1];
     }
   }
   if (at < l->capacity) {
-    l->rows[at] = k;
+    l->entries[at] = k;
   }
   l->count++;
 }
 
 baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int32_t capacity,
                              /* NOLINTNEXTLINE(readability-non-const-parameter): by the list. */
-                             int32_t *rows, int32_t *count)
+                             int32_t *entries, int32_t *count)
 {
   const char *call = "baum_study_front";
   baum_status status = check_cost(study, cost, call);
   if (status != BAUM_OK) {
     return status;
   }
-  if (!count || capacity < 0 || (capacity > 0 && !rows)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count or rows are NULL, or capacity is negative",
+  if (!count || capacity < 0 || (capacity > 0 && !entries)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count or entries are NULL, or capacity is negative",
                        call);
   }
-  list found = {.rows = rows, .capacity = capacity};
-  for (int k = 0; k < study->row_count; k++) {
-    if (baum_i_study_is_answer(study->rows[k]) && !is_beaten(study, k, cost)) {
+  list found = {.entries = entries, .capacity = capacity};
+  for (int k = 0; k < study->entry_count; k++) {
+    if (baum_i_study_is_answer(study->entries[k]) && !is_beaten(study, k, cost)) {
       insert(study, &found, k, cost);
     }
   }
@@ -107,10 +109,10 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
 
 /* ---- a place on the ladder of a method ---- */
 
-/* Between two rows; the same twice is on one. */
+/* Between two entries; the same twice is on one. */
 typedef struct place {
-  const baum_i_row *coarse;
-  const baum_i_row *fine;
+  const baum_i_entry *coarse;
+  const baum_i_entry *fine;
   double share;  /* of the way from coarse to fine, in logarithms */
   double margin; /* that is left for other starts and spans; 1: none */
 } place;
@@ -139,15 +141,15 @@ static double share_at(double coarse, double fine, double wanted)
 /* ---- cost at an error ---- */
 
 /* The line may go on by one setting at both ends. */
-static bool find_error(const baum_i_row *const *rows, int count, double error, place *out)
+static bool find_error(const baum_i_entry *const *entries, int count, double error, place *out)
 {
   for (int k = 0; k + 1 < count; k++) {
-    double e[2] = {rows[k]->out.error, rows[k + 1]->out.error};
+    double e[2] = {entries[k]->out.error, entries[k + 1]->out.error};
     double share = share_at(e[0], e[1], error);
     bool first = k == 0;
     bool last = k + 2 == count;
     if (e[1] < e[0] && share >= (first ? -1.0 : 0.0) && share <= (last ? 2.0 : 1.0)) {
-      *out = (place){rows[k], rows[k + 1], share, 1.0};
+      *out = (place){entries[k], entries[k + 1], share, 1.0};
       return true;
     }
   }
@@ -182,15 +184,15 @@ static baum_status find_cost(const levelled *at, int32_t method, double *out)
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: there is no method %d, of %d", at->call, (int)method,
                        study->method_count);
   }
-  const baum_i_row *rows[BAUM_I_METHOD_ROWS];
-  int count = baum_i_study_usable(study, method, rows);
+  const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
+  int count = baum_i_study_usable(study, method, entries);
   place p;
-  if (!find_error(rows, count, at->error, &p)) {
+  if (!find_error(entries, count, at->error, &p)) {
     double least = (double)INFINITY;
     double most = 0.0;
     for (int k = 0; k < count; k++) {
-      least = fmin(least, rows[k]->out.error);
-      most = fmax(most, rows[k]->out.error);
+      least = fmin(least, entries[k]->out.error);
+      most = fmax(most, entries[k]->out.error);
     }
     return baum_i_fail(BAUM_ERR_ARGUMENT,
                        "%s: %s has been measured with errors from %.2g to %.2g, not near %.2g",
@@ -229,47 +231,47 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 
 /* ---- recommendation ---- */
 
-/* What an error is expected to be at most: for twice the span and starts nearby, or as measured. A row that has not been
- * rehearsed does as one beside it of the same method has done. */
-static double expected(const baum_i_row *row, const baum_i_row *beside, bool with_margin)
+/* What an error is expected to be at most: for twice the span and starts nearby, or as measured. An
+ * entry that has not been validated does as one beside it of the same method has done. */
+static double expected(const baum_i_entry *entry, const baum_i_entry *beside, bool with_margin)
 {
   if (!with_margin) {
-    return row->out.error;
+    return entry->out.error;
   }
-  double rehearsed = row->out.error_rehearsed;
-  if (isnan(rehearsed)) {
-    rehearsed = row->out.error * beside->out.error_rehearsed / beside->out.error;
+  double validated = entry->out.error_validated;
+  if (isnan(validated)) {
+    validated = entry->out.error * beside->out.error_validated / beside->out.error;
   }
-  return isnan(rehearsed) ? (double)INFINITY : rehearsed;
+  return isnan(validated) ? (double)INFINITY : validated;
 }
 
-/* What a little more work buys at a row: much with high orders, little with low ones. */
-static double margin_at(const baum_i_row *const *rows, int count, int k)
+/* What a little more work buys at an entry: much with high orders, little with low ones. */
+static double margin_at(const baum_i_entry *const *entries, int count, int k)
 {
   int fine = k > 0 || count == 1 ? k : 1;
   int coarse = fine > 0 ? fine - 1 : 0;
-  double errors = rows[coarse]->out.error / rows[fine]->out.error;
-  double works = rows[fine]->out.work / rows[coarse]->out.work;
+  double errors = entries[coarse]->out.error / entries[fine]->out.error;
+  double works = entries[fine]->out.work / entries[coarse]->out.work;
   double power = works > 1.0 && errors > 1.0 ? log(errors) / log(works) : 0.0;
   return fmin(fmax(pow(MORE_WORK, power), MARGINS[0]), MARGINS[1]);
 }
 
-/* The coarsest place of a method where the error is kept; the next finer row keeps it too. */
-static bool find_place(const baum_i_row *const *rows, int count, double error, bool with_margin,
-                       place *out)
+/* The coarsest place of a method where the error is kept; the next finer entry keeps it too. */
+static bool find_place(const baum_i_entry *const *entries, int count, double error,
+                       bool with_margin, place *out)
 {
   for (int k = 0; k < count; k++) {
-    double margin = with_margin ? margin_at(rows, count, k) : 1.0;
+    double margin = with_margin ? margin_at(entries, count, k) : 1.0;
     double wanted = error / margin;
-    double here = expected(rows[k], rows[k], with_margin);
-    bool next = k + 1 == count || expected(rows[k + 1], rows[k], with_margin) <= wanted;
+    double here = expected(entries[k], entries[k], with_margin);
+    bool next = k + 1 == count || expected(entries[k + 1], entries[k], with_margin) <= wanted;
     if (here > wanted || !next) {
       continue;
     }
-    *out = (place){rows[k], rows[k], 0.0, margin};
-    double before = k > 0 ? expected(rows[k - 1], rows[k], with_margin) : 0.0;
+    *out = (place){entries[k], entries[k], 0.0, margin};
+    double before = k > 0 ? expected(entries[k - 1], entries[k], with_margin) : 0.0;
     if (before > wanted && isfinite(before)) {
-      *out = (place){rows[k - 1], rows[k], share_at(before, here, wanted), margin};
+      *out = (place){entries[k - 1], entries[k], share_at(before, here, wanted), margin};
     }
     return true;
   }
@@ -289,13 +291,13 @@ static bool find_best(const baum_study *study, const question *q, place *best)
 {
   *best = (place){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
-    const baum_i_row *rows[BAUM_I_METHOD_ROWS];
-    int count = baum_i_study_usable(study, m, rows);
+    const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
+    int count = baum_i_study_usable(study, m, entries);
     place p;
-    if (count == 0 || rows[0]->out.unstable || rows[0]->options.integrator == q->without) {
+    if (count == 0 || entries[0]->out.unstable || entries[0]->options.integrator == q->without) {
       continue;
     }
-    if (find_place(rows, count, q->error, q->with_margin, &p) &&
+    if (find_place(entries, count, q->error, q->with_margin, &p) &&
         (!best->fine || place_cost(&p, q->cost) < place_cost(best, q->cost))) {
       *best = p;
     }
@@ -378,11 +380,11 @@ static void add_margin(const baum_study *study, const place *p, const question *
     why, size,
     "; over twice the span and from starts nearby %s has an error of %.2g, and a factor "
     "of %.2g is left",
-    p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_rehearsed, p->margin);
+    p->coarse == p->fine ? "it" : "the finer of these", p->fine->out.error_validated, p->margin);
   add_rival(study, p, *q, why, size);
 }
 
-/* Within the span of the rows it may well be the cheapest. */
+/* Within the span of the entries it may well be the cheapest. */
 static void add_drift(const baum_simulation_options *o, char *why, size_t size)
 {
   if (o->formulation == BAUM_FORMULATION_UNSTABILIZED) {
@@ -407,29 +409,30 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or best are NULL, or caller_size is too small",
                        call);
   }
-  for (int k = 0; k < study->row_count; k++) {
-    if (study->rows[k]->timed) {
+  for (int k = 0; k < study->entry_count; k++) {
+    if (study->entries[k]->timed) {
       return BAUM_OK;
     }
   }
-  return baum_i_fail(BAUM_ERR_STATE, "%s: no row is done and timed", call);
+  return baum_i_fail(BAUM_ERR_STATE, "%s: no entry is done and timed", call);
 }
 
 static baum_status refuse_error(const baum_study *study, double error, const char *call)
 {
-  const baum_i_row *best = NULL;
-  for (int k = 0; k < study->row_count; k++) {
-    const baum_i_row *row = study->rows[k];
-    if (baum_i_study_is_answer(row) && (!best || row->out.error < best->out.error)) {
-      best = row;
+  const baum_i_entry *best = NULL;
+  for (int k = 0; k < study->entry_count; k++) {
+    const baum_i_entry *entry = study->entries[k];
+    if (baum_i_study_is_answer(entry) && (!best || entry->out.error < best->out.error)) {
+      best = entry;
     }
   }
   if (!best) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row that is done has followed the motion", call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done has followed the motion",
+                       call);
   }
   return baum_i_fail(
     BAUM_ERR_ARGUMENT,
-    "%s: no row keeps an error of %.2g; the least is %.2g, of %s, and the reference is "
+    "%s: no entry keeps an error of %.2g; the least is %.2g, of %s, and the reference is "
     "known to %.2g",
     call, error, best->out.error, best->name, study->reference.out.uncertainty);
 }
@@ -480,14 +483,15 @@ static bool beats(const place *p, const place *other)
 }
 
 /* The most exact place of a method whose time is within the budget. */
-static void find_affordable(const baum_i_row *const *rows, int count, double seconds, place *best)
+static void find_affordable(const baum_i_entry *const *entries, int count, double seconds,
+                            place *best)
 {
   for (int k = 0; k < count; k++) {
-    place p = {rows[k], rows[k], 0.0, 1.0};
-    double here = rows[k]->out.cpu;
-    double before = k > 0 ? rows[k - 1]->out.cpu : (double)INFINITY;
-    if (here > seconds && before <= seconds && rows[k]->out.error < rows[k - 1]->out.error) {
-      p = (place){rows[k - 1], rows[k], share_at(before, here, seconds), 1.0};
+    place p = {entries[k], entries[k], 0.0, 1.0};
+    double here = entries[k]->out.cpu;
+    double before = k > 0 ? entries[k - 1]->out.cpu : (double)INFINITY;
+    if (here > seconds && before <= seconds && entries[k]->out.error < entries[k - 1]->out.error) {
+      p = (place){entries[k - 1], entries[k], share_at(before, here, seconds), 1.0};
     } else if (here > seconds) {
       continue;
     }
@@ -497,17 +501,17 @@ static void find_affordable(const baum_i_row *const *rows, int count, double sec
   }
 }
 
-/* The same of all methods; returns the least time of any row. */
+/* The same of all methods; returns the least time of any entry. */
 static double find_most_exact(const baum_study *study, double seconds, place *best)
 {
   double quickest = (double)INFINITY;
   *best = (place){.coarse = NULL};
   for (int m = 0; m < study->method_count; m++) {
-    const baum_i_row *rows[BAUM_I_METHOD_ROWS];
-    int count = baum_i_study_usable(study, m, rows);
-    if (count > 0 && !rows[0]->out.unstable) {
-      quickest = fmin(quickest, rows[0]->out.cpu);
-      find_affordable(rows, count, seconds, best);
+    const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
+    int count = baum_i_study_usable(study, m, entries);
+    if (count > 0 && !entries[0]->out.unstable) {
+      quickest = fmin(quickest, entries[0]->out.cpu);
+      find_affordable(entries, count, seconds, best);
     }
   }
   return quickest;
@@ -529,12 +533,13 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
   place p;
   double quickest = find_most_exact(study, seconds / SPEED_MARGIN, &p);
   if (!isfinite(quickest)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no row that is done has followed the motion", call);
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no entry that is done has followed the motion",
+                       call);
   }
   if (!p.fine) {
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
-      "%s: no row is done in %.3g s, with a fifth of it to spare; the quickest takes "
+      "%s: no entry is done in %.3g s, with a fifth of it to spare; the quickest takes "
       "%.3g s",
       call, seconds, quickest);
   }

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The standard grid.
  *
- * Steps go down from h0 by a factor, (t1 - t0) / N with whole N, and tolerances from 1e-2 to the finest by equal ratios, rounded
- * to one digit:
+ * Steps go down from h0 by a factor, (t1 - t0) / N with whole N, and tolerances from 1e-2 to the
+ * finest by equal ratios, rounded to one digit:
  *
  *   order      1      2      3 to 5   8
  *   h0 rate    0.1    0.3    0.5      0.8       rate: of the motion, baum_i_study_rate()
@@ -107,7 +107,8 @@ static double step_at(const grid *g, int order, int k)
   return span / ceil(span / first_step(g, order) * pow(factor, k));
 }
 
-/* Below the noise of differences, which stand for derivatives that constraints lack, tolerances cannot be met. */
+/* Below the noise of differences, which stand for derivatives that constraints lack, tolerances
+ * cannot be met. */
 static double finest_of(const grid *g)
 {
   double finest = g->wanted->finest;
@@ -233,19 +234,19 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   if (status == BAUM_OK) {
     status = baum_i_study_rate(study, &g.rate);
   }
-  int rows = study->row_count;
+  int entries = study->entry_count;
   int methods = study->method_count;
   if (status == BAUM_OK) {
     status = add_all(&g);
   }
-  if (status == BAUM_OK && study->row_count == rows) {
+  if (status == BAUM_OK && study->entry_count == entries) {
     const char *formulation = baum_formulation_name(wanted.formulation);
     status = baum_i_fail(BAUM_ERR_ARGUMENT,
                          "study grid: this build has no such integrator with the formulation %s",
                          formulation ? formulation : "that is asked for");
   }
   if (status != BAUM_OK) {
-    baum_i_study_drop_rows(study, rows, methods);
+    baum_i_study_truncate(study, entries, methods);
   }
   return status;
 }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows by method, and what one more digit costs with it.
+/* Entries by method, and what one more digit costs with it.
  *
- * Errors of a method fall as a power of its step or rtol, error = C h^p, until they meet the reference or rounding; cost
- * rises as a power of it. Lines are fitted to the logarithms of the rows before: from the coarsest on, that of the least error
- * and those whose error is at least FLOOR times that.
+ * Errors of a method fall as a power of its step or rtol, error = C h^p, until they meet the
+ * reference or rounding; cost rises as a power of it. Lines are fitted to the logarithms of the
+ * entries before: from the coarsest on, that of the least error and those whose error is at least
+ * FLOOR times that.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -15,7 +16,7 @@
 
 static const double FLOOR = 3.0;
 
-int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row)
+int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int entry)
 {
   uint64_t key = baum_i_options_key(options, false);
   for (int k = 0; k < study->method_count; k++) {
@@ -30,42 +31,42 @@ int baum_i_study_find_method(baum_study *study, const baum_simulation_options *o
   }
   study->methods = methods;
   baum_i_study_method *method = &methods[study->method_count];
-  *method = (baum_i_study_method){.key = key, .first = row};
+  *method = (baum_i_study_method){.key = key, .first = entry};
   baum_i_name_method(options, method->name, sizeof method->name);
   return study->method_count++;
 }
 
 static int by_setting(const void *a, const void *b)
 {
-  double x = baum_i_setting(&(*(const baum_i_row *const *)a)->options);
-  double y = baum_i_setting(&(*(const baum_i_row *const *)b)->options);
+  double x = baum_i_setting(&(*(const baum_i_entry *const *)a)->options);
+  double y = baum_i_setting(&(*(const baum_i_entry *const *)b)->options);
   return (x < y) - (x > y);
 }
 
-static bool is_usable(const baum_i_row *row)
+static bool is_usable(const baum_i_entry *entry)
 {
-  const baum_study_row *r = &row->out;
-  return r->state == BAUM_STUDY_DONE && row->timed && !r->off && isfinite(r->error) &&
+  const baum_study_entry *r = &entry->out;
+  return r->state == BAUM_STUDY_DONE && entry->timed && !r->off && isfinite(r->error) &&
          r->error > 0.0;
 }
 
-bool baum_i_study_is_answer(const baum_i_row *row)
+bool baum_i_study_is_answer(const baum_i_entry *entry)
 {
-  return is_usable(row) && !row->out.unstable;
+  return is_usable(entry) && !entry->out.unstable;
 }
 
 int baum_i_study_usable(const baum_study *study, int method,
-                        const baum_i_row *rows[BAUM_I_METHOD_ROWS])
+                        const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES])
 {
   int count = 0;
-  for (int k = 0; k < study->row_count && count < BAUM_I_METHOD_ROWS; k++) {
-    const baum_i_row *row = study->rows[k];
-    if (row->out.method == method && is_usable(row)) {
-      rows[count++] = row;
+  for (int k = 0; k < study->entry_count && count < BAUM_I_METHOD_ENTRIES; k++) {
+    const baum_i_entry *entry = study->entries[k];
+    if (entry->out.method == method && is_usable(entry)) {
+      entries[count++] = entry;
     }
   }
   /* NOLINTNEXTLINE(bugprone-sizeof-expression): pointers are sorted. */
-  qsort(rows, (size_t)count, sizeof *rows, by_setting);
+  qsort(entries, (size_t)count, sizeof *entries, by_setting);
   return count;
 }
 
@@ -87,23 +88,23 @@ static double slope_of(const double *x, const double *y, int count)
   return count >= 2 && xx > 0.0 ? xy / xx : (double)NAN;
 }
 
-/* Slopes over the rows between coarse and floor. */
-static void fit(const baum_i_row *const *rows, int count, baum_study_method *out)
+/* Slopes over the entries between coarse and floor. */
+static void fit(const baum_i_entry *const *entries, int count, baum_study_method *out)
 {
-  double setting[BAUM_I_METHOD_ROWS];
-  double error[BAUM_I_METHOD_ROWS];
-  double work[BAUM_I_METHOD_ROWS];
-  double cpu[BAUM_I_METHOD_ROWS];
+  double setting[BAUM_I_METHOD_ENTRIES];
+  double error[BAUM_I_METHOD_ENTRIES];
+  double work[BAUM_I_METHOD_ENTRIES];
+  double cpu[BAUM_I_METHOD_ENTRIES];
   int used = 0;
   for (int k = 0; k < count; k++) {
-    const baum_study_row *row = &rows[k]->out;
-    if (row->error >= FLOOR * out->least_error || row->error == out->least_error) {
-      setting[used] = log10(baum_i_setting(&rows[k]->options));
-      error[used] = log10(row->error);
-      work[used] = log10(row->work);
-      cpu[used++] = log10(row->cpu);
+    const baum_study_entry *entry = &entries[k]->out;
+    if (entry->error >= FLOOR * out->least_error || entry->error == out->least_error) {
+      setting[used] = log10(baum_i_setting(&entries[k]->options));
+      error[used] = log10(entry->error);
+      work[used] = log10(entry->work);
+      cpu[used++] = log10(entry->cpu);
     }
-    if (row->error == out->least_error) {
+    if (entry->error == out->least_error) {
       break;
     }
   }
@@ -112,13 +113,13 @@ static void fit(const baum_i_row *const *rows, int count, baum_study_method *out
   out->cpu_per_digit = pow(10.0, -slope_of(error, cpu, used));
 }
 
-static double growth_of(const baum_i_row *const *rows, int count)
+static double growth_of(const baum_i_entry *const *entries, int count)
 {
   double sum = 0.0;
   int used = 0;
   for (int k = 0; k < count; k++) {
-    if (isfinite(rows[k]->out.error_rehearsed)) {
-      sum += log(rows[k]->out.error_rehearsed / rows[k]->out.error);
+    if (isfinite(entries[k]->out.error_validated)) {
+      sum += log(entries[k]->out.error_validated / entries[k]->out.error);
       used++;
     }
   }
@@ -143,7 +144,7 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
     return status;
   }
   const baum_i_study_method *method = &study->methods[k];
-  const baum_simulation_options *o = &study->rows[method->first]->options;
+  const baum_simulation_options *o = &study->entries[method->first]->options;
   const double none = (double)NAN;
   baum_study_method whole = {.name = method->name,
                              .integrator = o->integrator,
@@ -154,16 +155,16 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
                              .slope = none,
                              .work_per_digit = none,
                              .cpu_per_digit = none};
-  const baum_i_row *rows[BAUM_I_METHOD_ROWS];
-  whole.usable = baum_i_study_usable(study, k, rows);
-  for (int i = 0; i < study->row_count; i++) {
-    whole.rows += study->rows[i]->out.method == k;
+  const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES];
+  whole.usable = baum_i_study_usable(study, k, entries);
+  for (int i = 0; i < study->entry_count; i++) {
+    whole.entries += study->entries[i]->out.method == k;
   }
   for (int i = 0; i < whole.usable; i++) {
-    whole.least_error = fmin(whole.least_error, rows[i]->out.error);
+    whole.least_error = fmin(whole.least_error, entries[i]->out.error);
   }
-  fit(rows, whole.usable, &whole);
-  whole.growth = growth_of(rows, whole.usable);
+  fit(entries, whole.usable, &whole);
+  whole.growth = growth_of(entries, whole.usable);
   baum_i_give_sized(out, caller_size, &whole, sizeof whole);
   return BAUM_OK;
 }

@@ -9,7 +9,7 @@
 #include "integrate/integrator.h"
 #include "study/study.h"
 
-static const double LOOK = 0.005; /* [s] of wall time between two looks at the watch */
+static const double LOOK = 0.005; /* [s] of wall time between two looks at the deadline */
 
 static double seconds(clockid_t clock)
 {
@@ -28,9 +28,10 @@ double baum_i_wall_seconds(void)
   return seconds(CLOCK_MONOTONIC);
 }
 
-bool baum_i_watch_stops(const baum_i_watch *watch)
+bool baum_i_deadline_stops(const baum_i_deadline *deadline)
 {
-  return atomic_load(&watch->study->cancelled) != 0 || baum_i_wall_seconds() >= watch->deadline;
+  return atomic_load(&deadline->study->cancelled) != 0 ||
+         baum_i_wall_seconds() >= deadline->wall_end;
 }
 
 void baum_i_say_too_long(double limit, char *text, size_t size)
@@ -42,13 +43,13 @@ static int look(const baum_simulation *simulation, double t, void *user)
 {
   (void)simulation;
   (void)t;
-  baum_i_watch *watch = user;
-  watch->timed_out = baum_i_thread_seconds() - watch->begin >= watch->limit;
-  return watch->timed_out || baum_i_watch_stops(watch);
+  baum_i_deadline *deadline = user;
+  deadline->timed_out = baum_i_thread_seconds() - deadline->begin >= deadline->limit;
+  return deadline->timed_out || baum_i_deadline_stops(deadline);
 }
 
-/* Those of the row, with what is the study's. */
-static baum_simulation_options complete(const baum_i_task *task, baum_i_watch *watch)
+/* Those of the entry, with what is the study's. */
+static baum_simulation_options complete(const baum_i_task *task, baum_i_deadline *deadline)
 {
   const baum_study *study = task->study;
   baum_simulation_options o = *task->options;
@@ -56,16 +57,16 @@ static baum_simulation_options complete(const baum_i_task *task, baum_i_watch *w
   o.check_derivatives = false;
   o.progress = look;
   o.progress_interval = LOOK;
-  o.user = watch;
+  o.user = deadline;
   o.energy_account =
     task->with_account && study->options.energy_account && !o.integrator->without_freedom;
   return o;
 }
 
-static baum_status sample(const baum_i_task *task, baum_simulation *run, double *rows)
+static baum_status sample(const baum_i_task *task, baum_simulation *run, double *values)
 {
   const baum_study *study = task->study;
-  const baum_i_course *course = task->course;
+  const baum_i_samples *samples = task->samples;
   baum_i_layout l = baum_i_study_layout(study);
   baum_channel *channels =
     baum_i_alloc((size_t)study->channel_count + BAUM_I_CHANNELS, sizeof *channels);
@@ -73,13 +74,13 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
     return baum_i_fail_memory();
   }
   int count = baum_i_study_channels(study, channels);
-  for (int k = 0; k < course->n * l.width; k++) {
-    rows[k] = (double)NAN;
+  for (int k = 0; k < samples->n * l.width; k++) {
+    values[k] = (double)NAN;
   }
   baum_status status =
-    baum_simulation_sample(run, course->times, course->n, channels, count, rows, NULL);
+    baum_simulation_sample(run, samples->times, samples->n, channels, count, values, NULL);
   baum_i_free(channels);
-  bool goes_on = status >= BAUM_OK && status != BAUM_STOP_CANCELLED && !course->q;
+  bool goes_on = status >= BAUM_OK && status != BAUM_STOP_CANCELLED && !samples->q;
   baum_status rest = goes_on ? baum_simulation_advance_to(run, study->t1) : BAUM_OK;
   return rest == BAUM_OK ? status : rest;
 }
@@ -87,11 +88,11 @@ static baum_status sample(const baum_i_task *task, baum_simulation *run, double 
 /* Kinematics solves poses at the times asked for: these are its cost. */
 static baum_status advance(const baum_i_task *task, baum_simulation *run)
 {
-  const baum_i_course *course = task->course;
+  const baum_i_samples *samples = task->samples;
   baum_status status = BAUM_OK;
-  for (int k = 0; task->options->integrator->without_freedom && k < course->n && status >= BAUM_OK;
+  for (int k = 0; task->options->integrator->without_freedom && k < samples->n && status >= BAUM_OK;
        k++) {
-    status = baum_simulation_advance_to(run, course->times[k]);
+    status = baum_simulation_advance_to(run, samples->times[k]);
     if (status == BAUM_STOP_CANCELLED) {
       return status;
     }
@@ -114,7 +115,7 @@ static void tell_warning(const baum_simulation *run, const baum_counters *counte
   baum_i_print(text, size, "%s", warning.text);
 }
 
-static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool with_account,
+static void read_outcome(baum_simulation *run, const baum_i_deadline *deadline, bool with_account,
                          baum_i_outcome *out)
 {
   const double none = (double)NAN;
@@ -123,8 +124,8 @@ static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool w
   if (with_account) {
     (void)baum_simulation_energy_account(run, &out->account, sizeof out->account);
   }
-  if (watch->timed_out) {
-    baum_i_say_too_long(watch->limit, out->message, sizeof out->message);
+  if (deadline->timed_out) {
+    baum_i_say_too_long(deadline->limit, out->message, sizeof out->message);
   } else if (out->status < BAUM_OK) {
     (void)snprintf(out->message, sizeof out->message, "%s", baum_simulation_message(run));
   } else if (out->counters.warnings > 0) {
@@ -132,18 +133,18 @@ static void read_outcome(baum_simulation *run, const baum_i_watch *watch, bool w
   }
 }
 
-void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
+void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, double *values,
                           baum_i_outcome *out)
 {
   const baum_study *study = task->study;
   *out = (baum_i_outcome){0};
-  baum_simulation_options o = complete(task, watch);
+  baum_simulation_options o = complete(task, deadline);
   baum_simulation *run = NULL;
-  watch->timed_out = false;
-  watch->begin = baum_i_thread_seconds();
+  deadline->timed_out = false;
+  deadline->begin = baum_i_thread_seconds();
   out->status = baum_simulation_create(study->mechanism, &o, &run);
-  if (out->status == BAUM_OK && task->course->q) {
-    out->status = baum_simulation_set_state(run, study->t0, task->course->q, task->course->v);
+  if (out->status == BAUM_OK && task->samples->q) {
+    out->status = baum_simulation_set_state(run, study->t0, task->samples->q, task->samples->v);
   }
   out->created = out->status == BAUM_OK;
   if (!out->created) {
@@ -151,8 +152,8 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *
     baum_simulation_destroy(run);
     return;
   }
-  out->status = rows ? sample(task, run, rows) : advance(task, run);
-  read_outcome(run, watch, o.energy_account, out);
+  out->status = values ? sample(task, run, values) : advance(task, run);
+  read_outcome(run, deadline, o.energy_account, out);
   baum_simulation_destroy(run);
-  out->cpu = baum_i_thread_seconds() - watch->begin;
+  out->cpu = baum_i_thread_seconds() - deadline->begin;
 }

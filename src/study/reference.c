@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What runs are compared with: given samples, a solution by formulas, or a reference of the study's own.
+/* What runs are compared with: given samples, a solution by formulas, or a reference of the study's
+ * own.
  *
- * Its own is made by two formulations that have nothing in common but the equations of motion, one of them with
- * projection, each at a tight tolerance and at half of it: four runs, of which the first formulation's tighter one is the
- * reference and the largest difference of the others from it the uncertainty. Where they cannot be run, or differ by more
- * than CLOSE, looser tolerances and implicit methods are tried too, and those that agree best are taken.
- * Past singular poses, where violations are blown up, the last of them goes: RK4 with STEPS and twice as many steps.
+ * Its own is made by two formulations that have nothing in common but the equations of motion, one
+ * of them with projection, each at a tight tolerance and at half of it: four runs, of which the
+ * first formulation's tighter one is the reference and the largest difference of the others from it
+ * the uncertainty. Where they cannot be run, or differ by more than CLOSE, looser tolerances and
+ * implicit methods are tried too, and those that agree best are taken. Past singular poses, where
+ * violations are blown up, the last of them goes: RK4 with STEPS and twice as many steps.
  */
 #include <math.h>
 #include <stdio.h>
@@ -20,7 +22,7 @@
 static const double CLOSE = 1e-9;     /* a difference with which nothing else is tried */
 static const double TRUSTED = 1e-3;   /* the largest with which a reference is trusted */
 static const double ROUNDING = 1e-15; /* nothing is known better than that */
-static const double PATIENCE = 5.0;   /* row limits that a run of the reference may take */
+static const double PATIENCE = 5.0;   /* entry limits that a run of the reference may take */
 
 enum { PARTIES = 2, RUNS = 4, STEPS = 5000 };
 
@@ -51,7 +53,7 @@ static const attempt WITHOUT_FREEDOM[] = {
 
 /* What came of one. */
 typedef struct found {
-  double *rows; /* of the reference, or NULL */
+  double *values; /* of the reference, or NULL */
   baum_i_differences most;
   bool singular;                   /* a run was near a singular pose */
   bool failed;                     /* a run did not reach the end */
@@ -99,14 +101,14 @@ static void describe_failure(const baum_simulation_options *o, const baum_i_outc
                  outcome->message);
 }
 
-/* One run into rows; the first becomes the reference to the others. */
-static baum_status join(baum_study *study, const baum_simulation_options *o, baum_i_watch *watch,
-                        double *rows, found *out)
+/* One run into values; the first becomes the reference to the others. */
+static baum_status join(baum_study *study, const baum_simulation_options *o,
+                        baum_i_deadline *deadline, double *values, found *out)
 {
   baum_i_outcome outcome;
-  const baum_i_task task = {study, o, &study->reference.course, false};
-  baum_i_study_run_one(&task, watch, rows, &outcome);
-  if (outcome.status == BAUM_ERR_MEMORY || baum_i_watch_stops(watch)) {
+  const baum_i_task task = {study, o, &study->reference.samples, false};
+  baum_i_study_run_one(&task, deadline, values, &outcome);
+  if (outcome.status == BAUM_ERR_MEMORY || baum_i_deadline_stops(deadline)) {
     return outcome.status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : BAUM_STOP_CANCELLED;
   }
   if (outcome.status < BAUM_OK || outcome.status == BAUM_STOP_CANCELLED) {
@@ -115,11 +117,11 @@ static baum_status join(baum_study *study, const baum_simulation_options *o, bau
     return BAUM_OK;
   }
   out->singular = out->singular || outcome.counters.near_singular_intervals > 0;
-  if (!study->reference.course.rows) {
-    study->reference.course.rows = rows;
+  if (!study->reference.samples.values) {
+    study->reference.samples.values = values;
     return baum_i_study_weigh(study);
   }
-  baum_i_differences d = baum_i_study_compare(study, &study->reference.course, rows);
+  baum_i_differences d = baum_i_study_compare(study, &study->reference.samples, values);
   keep_most(&out->most, &d);
   return BAUM_OK;
 }
@@ -135,31 +137,31 @@ static void describe(const baum_study *study, const attempt *a, found *out)
                names[1], a->rtol);
 }
 
-/* Four runs, the reference first. Leaves study->reference.rows as it was. */
-static baum_status try(baum_study *study, const attempt *a, baum_i_watch *watch, found *out)
+/* Four runs, the reference first. Leaves study->reference.values as it was. */
+static baum_status try(baum_study *study, const attempt *a, baum_i_deadline *deadline, found *out)
 {
-  baum_i_course *r = &study->reference.course;
+  baum_i_samples *r = &study->reference.samples;
   size_t size = (size_t)r->n * (size_t)baum_i_study_layout(study).width;
   *out = (found){.most = {.error = {ROUNDING, ROUNDING, ROUNDING}}};
-  double *rows[2] = {baum_i_alloc(size, sizeof(double)), baum_i_alloc(size, sizeof(double))};
-  baum_status status = rows[0] && rows[1] ? BAUM_OK : baum_i_fail_memory();
-  r->rows = NULL;
+  double *values[2] = {baum_i_alloc(size, sizeof(double)), baum_i_alloc(size, sizeof(double))};
+  baum_status status = values[0] && values[1] ? BAUM_OK : baum_i_fail_memory();
+  r->values = NULL;
   for (int k = 0; k < RUNS && status == BAUM_OK && !out->failed; k++) {
     baum_simulation_options o = setting(study, a, k / 2, k % 2 == 0);
     if (k % 2 == 0 || !o.integrator->without_freedom) {
-      status = join(study, &o, watch, rows[k > 0], out);
+      status = join(study, &o, deadline, values[k > 0], out);
     }
   }
   if (!out->failed) {
     describe(study, a, out);
     out->options = setting(study, a, 0, 1);
   }
-  r->rows = NULL;
-  baum_i_free(rows[1]);
+  r->values = NULL;
+  baum_i_free(values[1]);
   bool kept = status == BAUM_OK && !out->failed;
-  out->rows = kept ? rows[0] : NULL;
+  out->values = kept ? values[0] : NULL;
   if (!kept) {
-    baum_i_free(rows[0]);
+    baum_i_free(values[0]);
   }
   return status;
 }
@@ -168,8 +170,8 @@ static baum_status try(baum_study *study, const attempt *a, baum_i_watch *watch,
 
 static bool better(const found *a, const found *b)
 {
-  if (!a->rows || !b->rows) {
-    return a->rows != NULL;
+  if (!a->values || !b->values) {
+    return a->values != NULL;
   }
   return a->singular != b->singular ? b->singular : a->most.error[0] < b->most.error[0];
 }
@@ -185,9 +187,9 @@ static void settle(baum_study *study, const found *best)
   out->uncertainty_energy = best->most.energy[0];
   out->digits = -log10(out->uncertainty);
   r->options = best->options;
-  out->trusted = best->rows && !best->singular && out->uncertainty <= TRUSTED;
+  out->trusted = best->values && !best->singular && out->uncertainty <= TRUSTED;
   (void)snprintf(r->text, sizeof r->text, "%s", best->text);
-  if (!best->rows) {
+  if (!best->values) {
     out->uncertainty = out->uncertainty_q = out->uncertainty_v = (double)NAN;
     out->uncertainty_lambda = out->uncertainty_energy = out->digits = (double)NAN;
     baum_i_append(r->text, sizeof r->text, "; there is no reference");
@@ -213,27 +215,27 @@ static const attempt *attempts_for(const baum_mechanism *mechanism, int *count)
   return is_free ? ATTEMPTS : WITHOUT_FREEDOM;
 }
 
-static baum_status make_own(baum_study *study, baum_i_watch *watch)
+static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
 {
   int count = 0;
   const attempt *attempts = attempts_for(study->mechanism, &count);
-  found best = {.rows = NULL};
+  found best = {.values = NULL};
   bool done = false;
   baum_status status = BAUM_OK;
   for (int k = 0; k < count && !done && status == BAUM_OK; k++) {
     found now;
-    status = try(study, &attempts[k], watch, &now);
+    status = try(study, &attempts[k], deadline, &now);
     bool take = status == BAUM_OK && (k == 0 || better(&now, &best));
-    baum_i_free(take ? best.rows : now.rows);
+    baum_i_free(take ? best.values : now.values);
     best = take ? now : best;
-    done = best.rows && !best.singular && best.most.error[0] <= CLOSE;
+    done = best.values && !best.singular && best.most.error[0] <= CLOSE;
   }
-  study->reference.course.rows = best.rows;
+  study->reference.samples.values = best.values;
   if (status != BAUM_OK) {
     return status;
   }
   settle(study, &best);
-  return best.rows ? baum_i_study_weigh(study) : BAUM_OK;
+  return best.values ? baum_i_study_weigh(study) : BAUM_OK;
 }
 
 /* ---- given ---- */
@@ -267,27 +269,27 @@ static bool is_of_pose(baum_quantity quantity)
 
 /* Energy and the user's channels of a sample whose q, v and lambda are there. */
 static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_simulation *probe,
-                          double t, double *row)
+                          double t, double *sample)
 {
   baum_status status = BAUM_OK;
-  bool has_v = all_known(row + l->v, l->nv);
+  bool has_v = all_known(sample + l->v, l->nv);
   for (int i = l->energy; i < l->width; i++) {
-    row[i] = (double)NAN;
+    sample[i] = (double)NAN;
   }
-  if (!all_known(row, l->nq)) {
+  if (!all_known(sample, l->nq)) {
     return BAUM_OK;
   }
-  double *v = row + l->v;
+  double *v = sample + l->v;
   double *still = baum_i_alloc((size_t)l->nv, sizeof *still);
-  baum_i_state at = {.t = t, .q = row, .v = has_v ? v : still};
+  baum_i_state at = {.t = t, .q = sample, .v = has_v ? v : still};
   const baum_channel energy = {.quantity = BAUM_ENERGY};
   if (!still) {
     return baum_i_fail_memory();
   }
   if (has_v) {
-    status = baum_i_output(probe, &at, &energy, 1, row + l->energy);
+    status = baum_i_output(probe, &at, &energy, 1, sample + l->energy);
   }
-  double *next = row + l->user;
+  double *next = sample + l->user;
   for (int k = 0; k < study->channel_count && status == BAUM_OK; k++) {
     if (has_v || is_of_pose(study->channels[k].quantity)) {
       status = baum_i_output(probe, &at, &study->channels[k], 1, next);
@@ -305,23 +307,23 @@ static void fill(double *to, const double *from, int count)
   }
 }
 
-static baum_status give_one(const baum_study *study, const baum_i_layout *l, int k, double *row)
+static baum_status give_one(const baum_study *study, const baum_i_layout *l, int k, double *sample)
 {
   const baum_i_study_reference *r = &study->reference;
-  fill(row, NULL, l->width);
+  fill(sample, NULL, l->width);
   if (!r->solution) {
-    fill(row, r->given[0] + (size_t)k * l->nq, l->nq);
-    fill(row + l->v, r->given[1] ? r->given[1] + (size_t)k * l->nv : NULL, l->nv);
-    fill(row + l->lambda, r->given[2] ? r->given[2] + (size_t)k * l->nc : NULL, l->nc);
+    fill(sample, r->given[0] + (size_t)k * l->nq, l->nq);
+    fill(sample + l->v, r->given[1] ? r->given[1] + (size_t)k * l->nv : NULL, l->nv);
+    fill(sample + l->lambda, r->given[2] ? r->given[2] + (size_t)k * l->nc : NULL, l->nc);
     return BAUM_OK;
   }
   baum_i_listen();
-  int answer = r->solution(r->course.times[k], row, row + l->v, row + l->lambda, r->user);
+  int answer = r->solution(r->samples.times[k], sample, sample + l->v, sample + l->lambda, r->user);
   const char *said = baum_i_heard();
   return answer == 0
            ? BAUM_OK
            : baum_i_fail(BAUM_ERR_CALLBACK, "study: the solution returned %d at t = %g s%s%s",
-                         answer, r->course.times[k], said ? ": " : "", said ? said : "");
+                         answer, r->samples.times[k], said ? ": " : "", said ? said : "");
 }
 
 static void trust_given(baum_study *study)
@@ -330,8 +332,8 @@ static void trust_given(baum_study *study)
   baum_i_layout l = baum_i_study_layout(study);
   double least = pow(10.0, -r->digits);
   double kinetic = 0.0;
-  for (int k = 0; k < r->course.n; k++) {
-    kinetic = fmax(kinetic, r->course.rows[(size_t)k * l.width + l.energy]);
+  for (int k = 0; k < r->samples.n; k++) {
+    kinetic = fmax(kinetic, r->samples.values[(size_t)k * l.width + l.energy]);
   }
   r->out.uncertainty = r->out.uncertainty_q = r->out.uncertainty_v = least;
   r->out.uncertainty_lambda = least;
@@ -347,16 +349,16 @@ static baum_status take_given(baum_study *study)
   baum_i_study_reference *r = &study->reference;
   baum_i_layout l = baum_i_study_layout(study);
   baum_simulation *probe = NULL;
-  baum_i_course *course = &r->course;
-  course->rows = baum_i_alloc((size_t)course->n * (size_t)l.width, sizeof *course->rows);
-  if (!course->rows) {
+  baum_i_samples *samples = &r->samples;
+  samples->values = baum_i_alloc((size_t)samples->n * (size_t)l.width, sizeof *samples->values);
+  if (!samples->values) {
     return baum_i_fail_memory();
   }
   baum_status status = baum_i_study_probe(study, &probe);
-  for (int k = 0; k < course->n && status == BAUM_OK; k++) {
-    double *row = course->rows + (size_t)k * l.width;
-    status = give_one(study, &l, k, row);
-    status = status == BAUM_OK ? derive(study, &l, probe, course->times[k], row) : status;
+  for (int k = 0; k < samples->n && status == BAUM_OK; k++) {
+    double *sample = samples->values + (size_t)k * l.width;
+    status = give_one(study, &l, k, sample);
+    status = status == BAUM_OK ? derive(study, &l, probe, samples->times[k], sample) : status;
   }
   baum_simulation_destroy(probe);
   status = status == BAUM_OK ? baum_i_study_weigh(study) : status;
@@ -382,25 +384,25 @@ baum_status baum_i_study_set_times(baum_study *study)
   for (int k = 0; k < n; k++) {
     times[k] = k == n - 1 ? study->t1 : study->t0 + (k + 1) * (study->t1 - study->t0) / n;
   }
-  baum_i_free(r->course.times);
-  r->course.times = times;
-  r->course.n = r->out.samples = n;
+  baum_i_free(r->samples.times);
+  r->samples.times = times;
+  r->samples.n = r->out.samples = n;
   return BAUM_OK;
 }
 
-baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
+baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline)
 {
   baum_i_study_reference *r = &study->reference;
-  if (r->course.rows) {
+  if (r->samples.values) {
     return BAUM_OK;
   }
-  baum_i_watch longer = *watch;
-  longer.limit = PATIENCE * watch->limit;
+  baum_i_deadline longer = *deadline;
+  longer.limit = PATIENCE * deadline->limit;
   bool is_given = r->given[0] || r->solution;
   baum_status status = is_given ? take_given(study) : make_own(study, &longer);
   if (status != BAUM_OK) {
-    baum_i_free(r->course.rows);
-    r->course.rows = NULL;
+    baum_i_free(r->samples.values);
+    r->samples.values = NULL;
   }
   r->known = status == BAUM_OK;
   return status;
@@ -409,7 +411,7 @@ baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch)
 void baum_i_study_clear_reference(baum_study *study)
 {
   baum_i_study_reference *r = &study->reference;
-  baum_i_study_clear_course(&r->course);
+  baum_i_study_clear_samples(&r->samples);
   baum_i_free(r->weight);
   for (int k = 0; k < 3; k++) {
     baum_i_free(r->given[k]);

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-typedef void report_fn(const baum_i_snapshot *survey, baum_i_buffer *out);
+typedef void report_fn(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 
 static report_fn *const FORMS[] = {baum_i_report_text, baum_i_report_csv, baum_i_report_json,
                                    baum_i_report_page};
@@ -21,12 +21,12 @@ static baum_status make(const baum_study *study, baum_report_form form, const ch
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: form is %d, must be one of baum_report_form", call,
                        (int)form);
   }
-  baum_i_snapshot survey;
-  baum_status status = baum_i_snapshot_read(study, title, &survey);
+  baum_i_snapshot snapshot;
+  baum_status status = baum_i_snapshot_read(study, title, &snapshot);
   if (status == BAUM_OK) {
-    FORMS[form](&survey, out);
+    FORMS[form](&snapshot, out);
   }
-  baum_i_snapshot_clear(&survey);
+  baum_i_snapshot_clear(&snapshot);
   return status == BAUM_OK && out->failed ? baum_i_fail_memory() : status;
 }
 

@@ -22,8 +22,8 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2
 /* A text at the left of a column of so many characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 
-/* Texts of users as they are, within HTML, also in attributes in double quotes, and within the quotes of JSON and CSV. Bytes that are no
- * UTF-8 become U+FFFD, control characters spaces. */
+/* Texts of users as they are, within HTML, also in attributes in double quotes, and within the
+ * quotes of JSON and CSV. Bytes that are no UTF-8 become U+FFFD, control characters spaces. */
 void baum_i_put_plain(baum_i_buffer *buffer, const char *text);
 void baum_i_put_html(baum_i_buffer *buffer, const char *text);
 void baum_i_put_json(baum_i_buffer *buffer, const char *text);
@@ -36,11 +36,13 @@ typedef struct baum_i_number {
 
 /* So many digits behind the point, of up to 1e15. */
 baum_i_number baum_i_fixed(double x, int digits);
-/* So many digits in all, but those of whole numbers from 1e3 to 1e7; "-" for what is not a number. */
+/* So many digits in all, but those of whole numbers from 1e3 to 1e7; "-" for what is not a number.
+ * */
 baum_i_number baum_i_short(double x, int digits);
 /* The shortest that is read back as it is; `otherwise` for NaN and infinities. */
 baum_i_number baum_i_exact(double x, const char *otherwise);
-/* Read what baum_i_exact() has written, up to a blank; returns where it ends, or NULL when there is no number. */
+/* Read what baum_i_exact() has written, up to a blank; returns where it ends, or NULL when there is
+ * no number. */
 const char *baum_i_read_number(const char *text, double *out);
 
 /* Characters of a UTF-8 text. */

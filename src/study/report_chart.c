@@ -35,15 +35,15 @@ static const chart CHARTS[] = {
 };
 
 /* NaN: not to be drawn. */
-static double value(const axis *a, const baum_i_report_row *row)
+static double value(const axis *a, const baum_i_report_entry *entry)
 {
-  double x = a->times * baum_i_column_number(a->column, row);
+  double x = a->times * baum_i_column_number(a->column, entry);
   return isfinite(x) && x > 0.0 ? log10(x) : (double)NAN;
 }
 
-static bool is_drawn(const baum_i_report_row *row, const axis *x, const axis *y)
+static bool is_drawn(const baum_i_report_entry *entry, const axis *x, const axis *y)
 {
-  return row->row.error <= LARGEST_ERROR && !isnan(value(x, row)) && !isnan(value(y, row));
+  return entry->entry.error <= LARGEST_ERROR && !isnan(value(x, entry)) && !isnan(value(y, entry));
 }
 
 static double place(const axis *a, double decades)
@@ -52,14 +52,14 @@ static double place(const axis *a, double decades)
 }
 
 /* Whole decades around what is drawn. */
-static void span(const baum_i_snapshot *survey, axis *a, const axis *x, const axis *y)
+static void span(const baum_i_snapshot *snapshot, axis *a, const axis *x, const axis *y)
 {
   double least = INFINITY;
   double largest = -INFINITY;
-  for (int k = 0; k < survey->row_count; k++) {
-    if (is_drawn(&survey->rows[k], x, y)) {
-      least = fmin(least, value(a, &survey->rows[k]));
-      largest = fmax(largest, value(a, &survey->rows[k]));
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    if (is_drawn(&snapshot->entries[k], x, y)) {
+      least = fmin(least, value(a, &snapshot->entries[k]));
+      largest = fmax(largest, value(a, &snapshot->entries[k]));
     }
   }
   bool any = least <= largest;
@@ -113,46 +113,46 @@ static void put_axes(baum_i_buffer *out, const axis *x, const axis *y, const cha
 
 /* The next point of a path. */
 static void put_point(baum_i_buffer *out, const axis *x, const axis *y,
-                      const baum_i_report_row *row, bool first)
+                      const baum_i_report_entry *entry, bool first)
 {
-  baum_i_putf(out, "%s%s %s", first ? "M" : "L", baum_i_fixed(place(x, value(x, row)), 1).text,
-              baum_i_fixed(place(y, value(y, row)), 1).text);
+  baum_i_putf(out, "%s%s %s", first ? "M" : "L", baum_i_fixed(place(x, value(x, entry)), 1).text,
+              baum_i_fixed(place(y, value(y, entry)), 1).text);
 }
 
 /* A mark whose title, which browsers show above it, has the figures. */
-static void put_mark(baum_i_buffer *out, const axis *x, const axis *y, const baum_i_report_row *row,
-                     int mark)
+static void put_mark(baum_i_buffer *out, const axis *x, const axis *y,
+                     const baum_i_report_entry *entry, int mark)
 {
-  const baum_study_row *r = &row->row;
+  const baum_study_entry *r = &entry->entry;
   baum_i_putf(out, "<use href=\"#k%d\" x=\"%s\" y=\"%s\"><title>", mark,
-              baum_i_fixed(place(x, value(x, row)), 1).text,
-              baum_i_fixed(place(y, value(y, row)), 1).text);
+              baum_i_fixed(place(x, value(x, entry)), 1).text,
+              baum_i_fixed(place(y, value(y, entry)), 1).text);
   baum_i_put_html(out, r->name);
   baum_i_putf(out, "\nerror %s, work %s, %s ms, |Φ| %s</title></use>",
               baum_i_short(r->error, 2).text, baum_i_short(r->work, 3).text,
               baum_i_short(1e3 * r->cpu, 3).text, baum_i_short(r->max_phi, 2).text);
 }
 
-/* The rows of a method from survey->order[first] on; returns the first behind them. */
-static int put_line(const baum_i_snapshot *survey, int first, int colour, const axis *x,
+/* The entries of a method from snapshot->order[first] on; returns the first behind them. */
+static int put_line(const baum_i_snapshot *snapshot, int first, int colour, const axis *x,
                     const axis *y, baum_i_buffer *out)
 {
-  int method = survey->order[first]->row.method;
+  int method = snapshot->order[first]->entry.method;
   int end = first;
   bool begun = false;
   baum_i_putf(out, "<g class=\"line %s%d\" data-m=\"%d\" data-i=\"%s\"><path d=\"",
               colour < 0 ? "grey" : "c", colour < 0 ? 0 : colour, method,
-              survey->order[first]->integrator);
-  for (; end < survey->row_count && survey->order[end]->row.method == method; end++) {
-    if (is_drawn(survey->order[end], x, y)) {
-      put_point(out, x, y, survey->order[end], !begun);
+              snapshot->order[first]->integrator);
+  for (; end < snapshot->entry_count && snapshot->order[end]->entry.method == method; end++) {
+    if (is_drawn(snapshot->order[end], x, y)) {
+      put_point(out, x, y, snapshot->order[end], !begun);
       begun = true;
     }
   }
   baum_i_put(out, begun ? "\"/>" : "M0 0\"/>");
   for (int k = first; k < end; k++) {
-    if (is_drawn(survey->order[k], x, y)) {
-      put_mark(out, x, y, survey->order[k], colour < 0 ? BAUM_I_HIGHLIGHTS : colour);
+    if (is_drawn(snapshot->order[k], x, y)) {
+      put_mark(out, x, y, snapshot->order[k], colour < 0 ? BAUM_I_HIGHLIGHTS : colour);
     }
   }
   baum_i_put(out, "</g>\n");
@@ -160,18 +160,18 @@ static int put_line(const baum_i_snapshot *survey, int first, int colour, const 
 }
 
 /* First the grey ones, so that the others lie above them. */
-static void put_lines(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
+static void put_lines(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
                       const axis *x, const axis *y, baum_i_buffer *out)
 {
   for (int above = 0; above < 2; above++) {
     int k = 0;
-    while (k < survey->row_count) {
-      int colour = baum_i_highlight_of(highlights, survey->order[k]->row.method);
+    while (k < snapshot->entry_count) {
+      int colour = baum_i_highlight_of(highlights, snapshot->order[k]->entry.method);
       if ((colour >= 0) == (above == 1)) {
-        k = put_line(survey, k, colour, x, y, out);
+        k = put_line(snapshot, k, colour, x, y, out);
       } else {
-        int method = survey->order[k]->row.method;
-        while (k < survey->row_count && survey->order[k]->row.method == method) {
+        int method = snapshot->order[k]->entry.method;
+        while (k < snapshot->entry_count && snapshot->order[k]->entry.method == method) {
           k++;
         }
       }
@@ -179,15 +179,15 @@ static void put_lines(const baum_i_snapshot *survey, const baum_i_highlights *hi
   }
 }
 
-static void put_front(const baum_i_snapshot *survey, baum_study_cost cost, const axis *x,
+static void put_front(const baum_i_snapshot *snapshot, baum_study_cost cost, const axis *x,
                       const axis *y, baum_i_buffer *out)
 {
   bool begun = false;
   baum_i_put(out, "<path class=\"front\" d=\"");
-  for (int k = 0; k < survey->front_count[cost]; k++) {
-    const baum_i_report_row *row = &survey->rows[survey->front[cost][k]];
-    if (is_drawn(row, x, y)) {
-      put_point(out, x, y, row, !begun);
+  for (int k = 0; k < snapshot->front_count[cost]; k++) {
+    const baum_i_report_entry *entry = &snapshot->entries[snapshot->front[cost][k]];
+    if (is_drawn(entry, x, y)) {
+      put_point(out, x, y, entry, !begun);
       begun = true;
     }
   }
@@ -195,9 +195,9 @@ static void put_front(const baum_i_snapshot *survey, baum_study_cost cost, const
 }
 
 /* Left of it errors are not told apart. */
-static void put_floor(const baum_i_snapshot *survey, const axis *x, baum_i_buffer *out)
+static void put_floor(const baum_i_snapshot *snapshot, const axis *x, baum_i_buffer *out)
 {
-  double floor = log10(survey->reference.uncertainty);
+  double floor = log10(snapshot->reference.uncertainty);
   if (floor >= x->from && floor <= x->to) {
     baum_i_putf(
       out,
@@ -206,13 +206,13 @@ static void put_floor(const baum_i_snapshot *survey, const axis *x, baum_i_buffe
   }
 }
 
-static void put_chart(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
+static void put_chart(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
                       const chart *c, baum_i_buffer *out)
 {
   axis x = {.column = baum_i_column_by_key("error"), .times = 1.0};
   axis y = {.column = baum_i_column_by_key(c->key), .times = c->times};
-  span(survey, &x, &x, &y);
-  span(survey, &y, &x, &y);
+  span(snapshot, &x, &x, &y);
+  span(snapshot, &y, &x, &y);
   x.begin = LEFT;
   x.end = WIDTH - RIGHT;
   y.begin = HEIGHT - BOTTOM;
@@ -222,11 +222,11 @@ static void put_chart(const baum_i_snapshot *survey, const baum_i_highlights *hi
               "role=\"img\" aria-label=\"%s against the largest error, both logarithmic\">\n",
               c->title, WIDTH, HEIGHT, c->label);
   put_axes(out, &x, &y, c->label);
-  put_floor(survey, &x, out);
+  put_floor(snapshot, &x, out);
   if (c->front >= 0) {
-    put_front(survey, (baum_study_cost)c->front, &x, &y, out);
+    put_front(snapshot, (baum_study_cost)c->front, &x, &y, out);
   }
-  put_lines(survey, highlights, &x, &y, out);
+  put_lines(snapshot, highlights, &x, &y, out);
   baum_i_put(out, "</svg></figure>\n");
 }
 
@@ -251,7 +251,7 @@ static void put_marks(baum_i_buffer *out)
   baum_i_put(out, "</defs></svg>\n");
 }
 
-static void put_legend(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
+static void put_legend(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
                        baum_i_buffer *out)
 {
   baum_i_put(out, "<ul class=\"legend\">\n");
@@ -260,28 +260,28 @@ static void put_legend(const baum_i_snapshot *survey, const baum_i_highlights *h
                 "<li><svg viewBox=\"-16 -8 32 16\" aria-hidden=\"true\" class=\"line c%d\">"
                 "<path d=\"M-16 0H16\"/><use href=\"#k%d\"/></svg>",
                 k, k);
-    const baum_study_method *method = &survey->methods[highlights->methods[k]];
+    const baum_study_method *method = &snapshot->methods[highlights->methods[k]];
     baum_i_put_html(out, method->name);
     baum_i_putf(out, "%s</li>\n", baum_i_way(method));
   }
-  if (survey->method_count > highlights->count) {
+  if (snapshot->method_count > highlights->count) {
     baum_i_putf(out,
                 "<li><svg viewBox=\"-16 -8 32 16\" aria-hidden=\"true\" class=\"line grey0\">"
                 "<path d=\"M-16 0H16\"/><use href=\"#k%d\"/></svg>%d others</li>\n",
-                BAUM_I_HIGHLIGHTS, survey->method_count - highlights->count);
+                BAUM_I_HIGHLIGHTS, snapshot->method_count - highlights->count);
   }
   baum_i_put(out, "<li><svg viewBox=\"-16 -8 32 16\" aria-hidden=\"true\"><path class=\"front\" "
                   "d=\"M-16 0H16\"/></svg>the front</li></ul>\n");
 }
 
-void baum_i_put_charts(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
+void baum_i_put_charts(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
                        baum_i_buffer *out)
 {
   put_marks(out);
-  put_legend(survey, highlights, out);
+  put_legend(snapshot, highlights, out);
   baum_i_put(out, "<div class=\"charts\">\n");
   for (size_t k = 0; k < sizeof CHARTS / sizeof CHARTS[0]; k++) {
-    put_chart(survey, highlights, &CHARTS[k], out);
+    put_chart(snapshot, highlights, &CHARTS[k], out);
   }
   baum_i_put(out, "</div>\n");
 }

@@ -1,44 +1,44 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is known of every row, under names that stay. */
+/* What is known of every entry, under names that stay. */
 #include <math.h>
 #include <string.h>
 
 #include "study/report.h"
 
-#define AT(member) offsetof(baum_i_report_row, member)
-/* Known of every row; known of rows that are done. */
+#define AT(member) offsetof(baum_i_report_entry, member)
+/* Known of every entry; known of entries that are done. */
 #define IS(key, unit, title, meaning, kind, member)                         \
   {                                                                         \
     key, unit, title, meaning, BAUM_I_COLUMN_##kind, AT(member), 1.0, false \
   }
-#define MEASURED(key, unit, title, meaning, kind, member)                      \
-  {                                                                            \
-    key, unit, title, meaning, BAUM_I_COLUMN_##kind, AT(row.member), 1.0, true \
+#define MEASURED(key, unit, title, meaning, kind, member)                        \
+  {                                                                              \
+    key, unit, title, meaning, BAUM_I_COLUMN_##kind, AT(entry.member), 1.0, true \
   }
 
 const baum_i_column baum_i_columns[] = {
-  IS("name", "", "setting", "method and step or tolerance", TEXT, row.name),
+  IS("name", "", "setting", "method and step or tolerance", TEXT, entry.name),
   IS("state", "", "state", "done, refused, failed, timed_out or waiting", TEXT, state),
   IS("integrator", "", NULL, "", TEXT, integrator),
   IS("formulation", "", NULL, "", TEXT, formulation),
   IS("gains", "", NULL, "rule of the gains", TEXT, gains),
   IS("gain_1", "of the rule", NULL, "first number of the rule", NUMBER, gain[0]),
   IS("gain_2", "of the rule", NULL, "second number of the rule", NUMBER, gain[1]),
-  IS("alpha", "1/s", NULL, "of the gains in use", NUMBER, row.alpha),
-  IS("beta", "1/s", NULL, "likewise", NUMBER, row.beta),
-  IS("method", "", NULL, "index in methods", INDEX, row.method),
-  IS("step", "s", NULL, "", NUMBER, row.step),
-  IS("rtol", "1", NULL, "", NUMBER, row.rtol),
+  IS("alpha", "1/s", NULL, "of the gains in use", NUMBER, entry.alpha),
+  IS("beta", "1/s", NULL, "likewise", NUMBER, entry.beta),
+  IS("method", "", NULL, "index in methods", INDEX, entry.method),
+  IS("step", "s", NULL, "", NUMBER, entry.step),
+  IS("rtol", "1", NULL, "", NUMBER, entry.rtol),
   MEASURED("error", "1", "error", "largest over all samples, of what the study calls error", NUMBER,
            error),
   MEASURED("error_final", "1", "at the end", "error at the last sample", NUMBER, error_final),
   MEASURED("error_half", "1", NULL, "error over the first half", NUMBER, error_half),
   MEASURED("work", "evaluations", "work", "cost that is the same on every machine, in evaluations",
            NUMBER, work),
-  {"cpu", "s", "CPU [ms]", "least CPU time of the repeats", BAUM_I_COLUMN_NUMBER, AT(row.cpu), 1e3,
-   true},
+  {"cpu", "s", "CPU [ms]", "least CPU time of the repeats", BAUM_I_COLUMN_NUMBER, AT(entry.cpu),
+   1e3, true},
   {"cpu_spread", "s", "± [ms]", "second least CPU time less the least", BAUM_I_COLUMN_NUMBER,
-   AT(row.cpu_spread), 1e3, true},
+   AT(entry.cpu_spread), 1e3, true},
   MEASURED("repeats", "1", NULL, "runs for the time", INDEX, repeats),
   MEASURED("evaluations", "1", "evaluations", "right-hand sides or residuals", COUNT, evaluations),
   MEASURED("factorizations", "1", "factorizations", "of matrices", COUNT, factorizations),
@@ -69,11 +69,11 @@ const baum_i_column baum_i_columns[] = {
   MEASURED("branch_warnings", "1", NULL, "", COUNT, branch_warnings),
   MEASURED("doubts", "1", "doubts", "kinds of warnings that doubt the motion", COUNT, doubts),
   MEASURED("error_estimate", "1", NULL, "", NUMBER, error_estimate),
-  IS("at_floor", "", NULL, "as good as can be told", FLAG, row.at_floor),
-  IS("untrusted", "", NULL, "the reference is not to be trusted", FLAG, row.untrusted),
-  IS("off", "", NULL, "another motion", FLAG, row.off),
-  IS("unstable", "", NULL, "its gains do not damp with this step", FLAG, row.unstable),
-  IS("on_front_work", "", NULL, "no row is both cheaper by work and more exact", FLAG, front[0]),
+  IS("at_floor", "", NULL, "as good as can be told", FLAG, entry.at_floor),
+  IS("untrusted", "", NULL, "the reference is not to be trusted", FLAG, entry.untrusted),
+  IS("off", "", NULL, "another motion", FLAG, entry.off),
+  IS("unstable", "", NULL, "its gains do not damp with this step", FLAG, entry.unstable),
+  IS("on_front_work", "", NULL, "no entry is both cheaper by work and more exact", FLAG, front[0]),
   IS("on_front_cpu", "", NULL, "likewise by CPU time", FLAG, front[1]),
   IS("status", "", NULL, "of its run", TEXT, status),
   IS("message", "", NULL, "why it is refused or failed, or its first warning", TEXT, message),
@@ -81,32 +81,33 @@ const baum_i_column baum_i_columns[] = {
 const int baum_i_column_count = sizeof baum_i_columns / sizeof baum_i_columns[0];
 
 /* The member that a column is. */
-static void take(const baum_i_column *column, const baum_i_report_row *row, void *to, size_t size)
+static void take(const baum_i_column *column, const baum_i_report_entry *entry, void *to,
+                 size_t size)
 {
-  memcpy(to, (const char *)row + column->offset, size);
+  memcpy(to, (const char *)entry + column->offset, size);
 }
 
-const char *baum_i_column_text(const baum_i_column *column, const baum_i_report_row *row)
+const char *baum_i_column_text(const baum_i_column *column, const baum_i_report_entry *entry)
 {
   const char *text = NULL;
-  take(column, row, &text, sizeof text);
+  take(column, entry, &text, sizeof text);
   return text;
 }
 
-double baum_i_column_number(const baum_i_column *column, const baum_i_report_row *row)
+double baum_i_column_number(const baum_i_column *column, const baum_i_report_entry *entry)
 {
   double number = (double)NAN;
   int64_t count = 0;
   int32_t index = 0;
   bool flag = false;
-  if (column->when_is_run && row->row.state != BAUM_STUDY_DONE) {
+  if (column->when_is_run && entry->entry.state != BAUM_STUDY_DONE) {
     return number;
   }
   switch (column->kind) {
-  case BAUM_I_COLUMN_NUMBER: take(column, row, &number, sizeof number); return number;
-  case BAUM_I_COLUMN_COUNT: take(column, row, &count, sizeof count); return (double)count;
-  case BAUM_I_COLUMN_INDEX: take(column, row, &index, sizeof index); return index;
-  case BAUM_I_COLUMN_FLAG: take(column, row, &flag, sizeof flag); return flag;
+  case BAUM_I_COLUMN_NUMBER: take(column, entry, &number, sizeof number); return number;
+  case BAUM_I_COLUMN_COUNT: take(column, entry, &count, sizeof count); return (double)count;
+  case BAUM_I_COLUMN_INDEX: take(column, entry, &index, sizeof index); return index;
+  case BAUM_I_COLUMN_FLAG: take(column, entry, &flag, sizeof flag); return flag;
   case BAUM_I_COLUMN_TEXT: break;
   }
   return number;
@@ -121,11 +122,11 @@ const baum_i_column *baum_i_column_by_key(const char *key)
   return column;
 }
 
-const char *baum_i_remark(const baum_i_report_row *row, int k)
+const char *baum_i_remark(const baum_i_report_entry *entry, int k)
 {
-  const baum_study_row *r = &row->row;
-  const bool holds[BAUM_I_REMARKS] = {row->front[BAUM_STUDY_WORK],
-                                      row->front[BAUM_STUDY_CPU],
+  const baum_study_entry *r = &entry->entry;
+  const bool holds[BAUM_I_REMARKS] = {entry->front[BAUM_STUDY_WORK],
+                                      entry->front[BAUM_STUDY_CPU],
                                       r->at_floor,
                                       r->off,
                                       r->unstable,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A file that is there as a whole or not at all: it is written beside the old one, which it then replaces. */
+/* A file that is there as a whole or not at all: it is written beside the old one, which it then
+ * replaces. */
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -23,7 +24,8 @@ static baum_status fail(const char *path, const char *what, int reason)
   return baum_i_fail(BAUM_ERR_FILE, "%s: cannot be %s: %s", path, what, strerror(reason));
 }
 
-/* Is the name all that the file has? Replacing would lose devices, pipes, links, other names and another owner. */
+/* Is the name all that the file has? Replacing would lose devices, pipes, links, other names and
+ * another owner. */
 static bool is_replaceable(const struct stat *found)
 {
   return S_ISREG(found->st_mode) && found->st_nlink == 1 && found->st_uid == geteuid();
@@ -55,7 +57,8 @@ static baum_status write_in_place(const char *path, const char *bytes, size_t si
   return reason ? fail(path, "written", reason) : BAUM_OK;
 }
 
-/* Create a file in the folder of `path`, the first `folder` characters of it, under a name that nothing has. */
+/* Create a file in the folder of `path`, the first `folder` characters of it, under a name that
+ * nothing has. */
 static FILE *create_part(const char *path, size_t folder, mode_t mode, char *part, size_t capacity)
 {
   for (int k = 0; k < TRIES; k++) {

@@ -12,44 +12,44 @@
 enum { ERRORS = 6 }; /* 1e-1, 1e-3, ... 1e-11 */
 static const double MISSED = 3.0;
 
-static double work_at(const baum_i_snapshot *survey, int method, int k)
+static double work_at(const baum_i_snapshot *snapshot, int method, int k)
 {
   double work = (double)NAN;
   double error = pow(10.0, -1.0 - 2.0 * k);
-  baum_status status = baum_study_cost_at(survey->study, method, error, BAUM_STUDY_WORK, &work);
+  baum_status status = baum_study_cost_at(snapshot->study, method, error, BAUM_STUDY_WORK, &work);
   return status == BAUM_OK ? work : (double)NAN;
 }
 
-static void find_cheapest(const baum_i_snapshot *survey, double cheapest[ERRORS])
+static void find_cheapest(const baum_i_snapshot *snapshot, double cheapest[ERRORS])
 {
   for (int k = 0; k < ERRORS; k++) {
     cheapest[k] = (double)NAN;
-    for (int m = 0; m < survey->method_count; m++) {
-      cheapest[k] = fmin(cheapest[k], work_at(survey, m, k));
+    for (int m = 0; m < snapshot->method_count; m++) {
+      cheapest[k] = fmin(cheapest[k], work_at(snapshot, m, k));
     }
   }
 }
 
 /* Decades of work above the cheapest, summed over the errors that anyone reaches. */
-static double score(const baum_i_snapshot *survey, int method, const double cheapest[ERRORS])
+static double score(const baum_i_snapshot *snapshot, int method, const double cheapest[ERRORS])
 {
   double sum = 0.0;
   for (int k = 0; k < ERRORS; k++) {
     if (!isnan(cheapest[k])) {
-      double decades = log10(work_at(survey, method, k) / cheapest[k]);
+      double decades = log10(work_at(snapshot, method, k) / cheapest[k]);
       sum += isnan(decades) ? MISSED : decades;
     }
   }
   return sum;
 }
 
-static bool is_taken(const baum_i_snapshot *survey, const baum_i_highlights *taken, int method,
+static bool is_taken(const baum_i_snapshot *snapshot, const baum_i_highlights *taken, int method,
                      bool by_integrator)
 {
   for (int k = 0; k < taken->count; k++) {
-    const baum_study_method *other = &survey->methods[taken->methods[k]];
+    const baum_study_method *other = &snapshot->methods[taken->methods[k]];
     if (taken->methods[k] == method ||
-        (by_integrator && other->integrator == survey->methods[method].integrator)) {
+        (by_integrator && other->integrator == snapshot->methods[method].integrator)) {
       return true;
     }
   }
@@ -57,14 +57,14 @@ static bool is_taken(const baum_i_snapshot *survey, const baum_i_highlights *tak
 }
 
 /* -1: there is none left. */
-static int best_left(const baum_i_snapshot *survey, const double cheapest[ERRORS],
+static int best_left(const baum_i_snapshot *snapshot, const double cheapest[ERRORS],
                      const baum_i_highlights *taken, bool by_integrator)
 {
   int best = -1;
   double least = INFINITY;
-  for (int m = 0; m < survey->method_count; m++) {
-    if (survey->methods[m].usable > 0 && !is_taken(survey, taken, m, by_integrator)) {
-      double s = score(survey, m, cheapest);
+  for (int m = 0; m < snapshot->method_count; m++) {
+    if (snapshot->methods[m].usable > 0 && !is_taken(snapshot, taken, m, by_integrator)) {
+      double s = score(snapshot, m, cheapest);
       if (s < least) {
         least = s;
         best = m;
@@ -74,17 +74,17 @@ static int best_left(const baum_i_snapshot *survey, const double cheapest[ERRORS
   return best;
 }
 
-baum_i_highlights baum_i_choose_highlights(const baum_i_snapshot *survey)
+baum_i_highlights baum_i_choose_highlights(const baum_i_snapshot *snapshot)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   double cheapest[ERRORS];
-  find_cheapest(survey, cheapest);
+  find_cheapest(snapshot, cheapest);
   baum_i_highlights out = {.count = 0};
   for (int pass = 0; pass < 2; pass++) {
     int best = 0;
     while (out.count < BAUM_I_HIGHLIGHTS && best >= 0) {
-      best = best_left(survey, cheapest, &out, pass == 0);
+      best = best_left(snapshot, cheapest, &out, pass == 0);
       if (best >= 0) {
         out.methods[out.count++] = best;
       }

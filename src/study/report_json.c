@@ -36,9 +36,9 @@ static void put_flag(baum_i_buffer *out, const char *key, bool flag)
   baum_i_put(out, flag ? "true" : "false");
 }
 
-static void put_heading(const baum_i_snapshot *survey, baum_i_buffer *out)
+static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
-  const baum_i_environment *e = &survey->environment;
+  const baum_i_environment *e = &snapshot->environment;
   baum_i_put(out, "{\"report\": \"baum study\"");
   put_number(out, "version", VERSION, false);
   baum_i_put(out, ",\n\"environment\": {");
@@ -48,13 +48,13 @@ static void put_heading(const baum_i_snapshot *survey, baum_i_buffer *out)
   put_text(out, "cpu", e->cpu, false);
   put_text(out, "date", e->date, false);
   baum_i_put(out, "},\n\"study\": {");
-  put_text(out, "title", survey->title, true);
-  put_number(out, "t0", survey->t0, false);
-  put_number(out, "t1", survey->t1, false);
-  put_text(out, "error", survey->error, false);
-  put_number(out, "samples", survey->options.samples, false);
-  put_number(out, "repeats", survey->options.repeats, false);
-  put_number(out, "row_limit", survey->options.row_limit, false);
+  put_text(out, "title", snapshot->title, true);
+  put_number(out, "t0", snapshot->t0, false);
+  put_number(out, "t1", snapshot->t1, false);
+  put_text(out, "error", snapshot->error, false);
+  put_number(out, "samples", snapshot->options.samples, false);
+  put_number(out, "repeats", snapshot->options.repeats, false);
+  put_number(out, "entry_limit", snapshot->options.entry_limit, false);
 }
 
 static void put_reference(const baum_study_reference *r, baum_i_buffer *out)
@@ -73,11 +73,11 @@ static void put_reference(const baum_study_reference *r, baum_i_buffer *out)
   put_text(out, "text", r->text, false);
 }
 
-/* Of every key whose value has one; what is no number of rows is named here. */
+/* Of every key whose value has one; what is no number of entries is named here. */
 static void put_units(baum_i_buffer *out)
 {
   static const char *const OTHERS[][2] = {
-    {"t0", "s"},           {"t1", "s"},          {"row_limit", "s"},
+    {"t0", "s"},           {"t1", "s"},          {"entry_limit", "s"},
     {"digits", "1"},       {"uncertainty", "1"}, {"uncertainty_energy", "J"},
     {"least_error", "1"},  {"slope", "1"},       {"work_per_digit", "1"},
     {"cpu_per_digit", "1"}};
@@ -94,16 +94,16 @@ static void put_units(baum_i_buffer *out)
   }
 }
 
-static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
+static void put_entry(const baum_i_report_entry *entry, baum_i_buffer *out)
 {
   for (int c = 0; c < baum_i_column_count; c++) {
     const baum_i_column *column = &baum_i_columns[c];
     if (column->kind == BAUM_I_COLUMN_TEXT) {
-      put_text(out, column->key, baum_i_column_text(column, row), c == 0);
+      put_text(out, column->key, baum_i_column_text(column, entry), c == 0);
     } else if (column->kind == BAUM_I_COLUMN_FLAG) {
-      put_flag(out, column->key, baum_i_column_number(column, row) != 0.0);
+      put_flag(out, column->key, baum_i_column_number(column, entry) != 0.0);
     } else {
-      put_number(out, column->key, baum_i_column_number(column, row), c == 0);
+      put_number(out, column->key, baum_i_column_number(column, entry), c == 0);
     }
   }
 }
@@ -114,7 +114,7 @@ static void put_method(const baum_study_method *method, baum_i_buffer *out)
   put_text(out, "integrator", baum_integrator_name(method->integrator), false);
   put_text(out, "formulation", baum_formulation_name(method->formulation), false);
   put_flag(out, "fixed_step", method->fixed_step);
-  put_number(out, "rows", method->rows, false);
+  put_number(out, "entries", method->entries, false);
   put_number(out, "usable", method->usable, false);
   put_number(out, "least_error", method->least_error, false);
   put_number(out, "slope", method->slope, false);
@@ -139,38 +139,38 @@ static void put_advice(const baum_i_advice *advice, baum_study_cost cost, baum_i
   put_text(out, "why", advice->why, false);
 }
 
-static void put_front(const baum_i_snapshot *survey, baum_study_cost cost, baum_i_buffer *out)
+static void put_front(const baum_i_snapshot *snapshot, baum_study_cost cost, baum_i_buffer *out)
 {
-  for (int k = 0; k < survey->front_count[cost]; k++) {
-    baum_i_putf(out, "%s%d", k ? ", " : "", (int)survey->front[cost][k]);
+  for (int k = 0; k < snapshot->front_count[cost]; k++) {
+    baum_i_putf(out, "%s%d", k ? ", " : "", (int)snapshot->front[cost][k]);
   }
 }
 
-void baum_i_report_json(const baum_i_snapshot *survey, baum_i_buffer *out)
+void baum_i_report_json(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
-  put_heading(survey, out);
-  put_reference(&survey->reference, out);
+  put_heading(snapshot, out);
+  put_reference(&snapshot->reference, out);
   put_units(out);
   baum_i_put(out, "},\n\"recommendations\": [");
   for (int k = 0; k < BAUM_I_COSTS * BAUM_I_ADVICE; k++) {
     baum_study_cost cost = (baum_study_cost)(k / BAUM_I_ADVICE);
     baum_i_putf(out, "%s{", k ? "},\n  " : "\n  ");
-    put_advice(&survey->advice[cost][k % BAUM_I_ADVICE], cost, out);
+    put_advice(&snapshot->advice[cost][k % BAUM_I_ADVICE], cost, out);
   }
   baum_i_put(out, "}],\n\"front\": {\"work\": [");
-  put_front(survey, BAUM_STUDY_WORK, out);
+  put_front(snapshot, BAUM_STUDY_WORK, out);
   baum_i_put(out, "], \"cpu\": [");
-  put_front(survey, BAUM_STUDY_CPU, out);
+  put_front(snapshot, BAUM_STUDY_CPU, out);
   baum_i_put(out, "]},\n\"methods\": [");
-  for (int k = 0; k < survey->method_count; k++) {
+  for (int k = 0; k < snapshot->method_count; k++) {
     baum_i_put(out, k ? ",\n  {" : "\n  {");
-    put_method(&survey->methods[k], out);
+    put_method(&snapshot->methods[k], out);
     baum_i_put(out, "}");
   }
-  baum_i_put(out, "],\n\"rows\": [");
-  for (int k = 0; k < survey->row_count; k++) {
+  baum_i_put(out, "],\n\"entries\": [");
+  for (int k = 0; k < snapshot->entry_count; k++) {
     baum_i_put(out, k ? ",\n  {" : "\n  {");
-    put_row(&survey->rows[k], out);
+    put_entry(&snapshot->entries[k], out);
     baum_i_put(out, "}");
   }
   baum_i_put(out, "]}\n");

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the gains of the rows lie in the regions of stability of their methods (Fig. 1 of Flores et al. 2008), one map for
- * each integrator of fixed step whose rows have gains. What lies outside of a map is drawn at its edge. Drawn are
- * the gains that a run has used; those of rows that were refused by their rule, but for auto, which is of a run. */
+/* Where the gains of the entries lie in the regions of stability of their methods (Fig. 1 of Flores et al. 2008), one map for
+ * each integrator of fixed step whose entries have gains. What lies outside of a map is drawn at its edge. Drawn are
+ * the gains that a run has used; those of entries that were refused by their rule, but for auto, which is of a run. */
 #include <math.h>
 #include <stdint.h>
 
@@ -38,17 +38,17 @@ static bool give(double a, double b, double out[2])
   return true;
 }
 
-/* (alpha h, beta^2 h^2) of a row; false where they are not known. */
-static bool find_gains(const map *m, const baum_study_row *row, double out[2])
+/* (alpha h, beta^2 h^2) of an entry; false where they are not known. */
+static bool find_gains(const map *m, const baum_study_entry *entry, double out[2])
 {
-  const double h = fabs(row->step);
-  if (isfinite(row->alpha)) {
-    return give(fabs(row->alpha) * h, row->beta * h * row->beta * h, out);
+  const double h = fabs(entry->step);
+  if (isfinite(entry->alpha)) {
+    return give(fabs(entry->alpha) * h, entry->beta * h * entry->beta * h, out);
   }
-  const double *value = row->gains.value;
+  const double *value = entry->gains.value;
   double beta_h = 2.0 * PI * value[0] * h;
-  bool is_default = row->gains.rule == BAUM_GAINS_DEFAULT;
-  switch (is_default ? row->integrator->gains : (baum_gain_rule)row->gains.rule) {
+  bool is_default = entry->gains.rule == BAUM_GAINS_DEFAULT;
+  switch (is_default ? entry->integrator->gains : (baum_gain_rule)entry->gains.rule) {
   case BAUM_GAINS_FIXED: return give(value[0] * h, value[1] * h * value[1] * h, out);
   case BAUM_GAINS_SCALED: return give(value[0], value[1], out);
   case BAUM_GAINS_FREQUENCY: return give(value[1] * beta_h, beta_h * beta_h, out);
@@ -61,10 +61,10 @@ static bool find_gains(const map *m, const baum_study_row *row, double out[2])
   return false;
 }
 
-static bool has_point(const baum_study_row *row, const baum_integrator *integrator)
+static bool has_point(const baum_study_entry *entry, const baum_integrator *integrator)
 {
-  return row->integrator == integrator && row->formulation == BAUM_FORMULATION_BAUMGARTE &&
-         !isnan(row->step) && row->state != BAUM_STUDY_WAITING;
+  return entry->integrator == integrator && entry->formulation == BAUM_FORMULATION_BAUMGARTE &&
+         !isnan(entry->step) && entry->state != BAUM_STUDY_WAITING;
 }
 
 /* Points of an outline, of which those that are kept. */
@@ -155,17 +155,17 @@ static void put_axes(const map *m, baum_i_buffer *out)
   baum_i_putf(out, "<text x=\"%d\" y=\"%d\">β²h²</text>\n", LEFT + 5, TOP + 10);
 }
 
-/* What has become of a row, those that are drawn first first. */
+/* What has become of an entry, those that are drawn first first. */
 typedef enum fate { ELSEWHERE, STOPPED, RIGHT_MOTION, FATES } fate;
 
 static const char *const FATE_CLASS[FATES] = {"off", "bad", "good"};
 static const int FATE_MARK[FATES] = {3, 6, 0};
 
 /* FATES: not known. */
-static fate find_fate(const baum_study_row *row)
+static fate find_fate(const baum_study_entry *entry)
 {
-  switch (row->state) {
-  case BAUM_STUDY_DONE: return row->off ? ELSEWHERE : RIGHT_MOTION;
+  switch (entry->state) {
+  case BAUM_STUDY_DONE: return entry->off ? ELSEWHERE : RIGHT_MOTION;
   case BAUM_STUDY_REFUSED:
   case BAUM_STUDY_FAILED: return STOPPED;
   case BAUM_STUDY_WAITING:
@@ -174,25 +174,27 @@ static fate find_fate(const baum_study_row *row)
   return FATES;
 }
 
-static void put_points(const baum_i_snapshot *survey, const map *m, fate wanted, baum_i_buffer *out)
+static void put_points(const baum_i_snapshot *snapshot, const map *m, fate wanted,
+                       baum_i_buffer *out)
 {
-  for (int k = 0; k < survey->row_count; k++) {
-    const baum_study_row *row = &survey->rows[k].row;
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    const baum_study_entry *entry = &snapshot->entries[k].entry;
     double at[2];
-    if (!has_point(row, m->integrator) || find_fate(row) != wanted || !find_gains(m, row, at)) {
+    if (!has_point(entry, m->integrator) || find_fate(entry) != wanted ||
+        !find_gains(m, entry, at)) {
       continue;
     }
     baum_i_putf(out, "<use class=\"%s\" href=\"#k%d\" x=\"%s\" y=\"%s\"><title>",
                 FATE_CLASS[wanted], FATE_MARK[wanted], across(m, at[0]).text,
                 upwards(m, at[1]).text);
-    baum_i_put_html(out, row->name);
+    baum_i_put_html(out, entry->name);
     baum_i_putf(out, "\nαh %s, β²h² %s: %s</title></use>", baum_i_short(at[0], 3).text,
                 baum_i_short(at[1], 3).text,
-                wanted == ELSEWHERE ? "another motion" : survey->rows[k].state);
+                wanted == ELSEWHERE ? "another motion" : snapshot->entries[k].state);
   }
 }
 
-static void put_map(const baum_i_snapshot *survey, const map *m, baum_i_buffer *out)
+static void put_map(const baum_i_snapshot *snapshot, const map *m, baum_i_buffer *out)
 {
   baum_i_putf(out,
               "<figure><figcaption>%s</figcaption><svg class=\"map\" viewBox=\"0 0 %d %d\" "
@@ -203,21 +205,21 @@ static void put_map(const baum_i_snapshot *survey, const map *m, baum_i_buffer *
     put_outline(m, level, out);
   }
   for (int f = 0; f < FATES; f++) {
-    put_points(survey, m, (fate)f, out);
+    put_points(snapshot, m, (fate)f, out);
   }
   baum_i_put(out, "</svg></figure>\n");
 }
 
-/* Row k is the first with gains of its integrator. */
-static bool is_first(const baum_i_snapshot *survey, int k)
+/* Entry k is the first with gains of its integrator. */
+static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
-  const baum_integrator *integrator = survey->rows[k].row.integrator;
+  const baum_integrator *integrator = snapshot->entries[k].entry.integrator;
   for (int j = 0; j < k; j++) {
-    if (has_point(&survey->rows[j].row, integrator)) {
+    if (has_point(&snapshot->entries[j].entry, integrator)) {
       return false;
     }
   }
-  return has_point(&survey->rows[k].row, integrator);
+  return has_point(&snapshot->entries[k].entry, integrator);
 }
 
 static const char HEADING[] =
@@ -227,7 +229,7 @@ static const char HEADING[] =
   "with steps that are too long for the motion, however stable the gains. Crosses: refused or "
   "failed. What lies outside of a map is drawn at its edge.</p>\n<div class=\"maps\">\n";
 
-void baum_i_put_stability_maps(const baum_i_snapshot *survey, baum_i_buffer *out)
+void baum_i_put_stability_maps(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   map m = {.points = baum_i_alloc((size_t)2 * POINTS, sizeof(double))};
   if (!m.points) {
@@ -237,12 +239,12 @@ void baum_i_put_stability_maps(const baum_i_snapshot *survey, baum_i_buffer *out
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   bool begun = false;
-  for (int k = 0; k < survey->row_count; k++) {
-    m.integrator = survey->rows[k].row.integrator;
-    if (is_first(survey, k) && measure(&m)) {
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    m.integrator = snapshot->entries[k].entry.integrator;
+    if (is_first(snapshot, k) && measure(&m)) {
       baum_i_put(out, begun ? "" : HEADING);
       begun = true;
-      put_map(survey, &m, out);
+      put_map(snapshot, &m, out);
     }
   }
   baum_i_put(out, begun ? "</div>\n</section>\n" : "");

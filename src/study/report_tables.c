@@ -39,7 +39,7 @@ static void put_choice(const baum_i_advice *advice, baum_i_buffer *out)
   }
 }
 
-void baum_i_put_advice_table(const baum_i_snapshot *survey, baum_i_buffer *out)
+void baum_i_put_advice_table(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   baum_i_put(out, "<section>\n<h2>What to take</h2>\n<p>Work is what was counted, evaluations and "
                   "factorizations together: the same on every machine. CPU time is that of the "
@@ -48,11 +48,11 @@ void baum_i_put_advice_table(const baum_i_snapshot *survey, baum_i_buffer *out)
                   "<thead><tr><th scope=\"col\">error</th><th scope=\"col\">cheapest by work</th>"
                   "<th scope=\"col\">by CPU time</th></tr></thead>\n");
   for (int k = 0; k < BAUM_I_ADVICE; k++) {
-    const baum_i_advice *work = &survey->advice[BAUM_STUDY_WORK][k];
+    const baum_i_advice *work = &snapshot->advice[BAUM_STUDY_WORK][k];
     baum_i_putf(out, "<tbody><tr><th scope=\"rowgroup\" rowspan=\"2\">10<sup>%.0f</sup></th>",
                 log10(work->error));
     put_choice(work, out);
-    put_choice(&survey->advice[BAUM_STUDY_CPU][k], out);
+    put_choice(&snapshot->advice[BAUM_STUDY_CPU][k], out);
     baum_i_put(out, "</tr>\n<tr><td colspan=\"2\" class=\"why\">");
     baum_i_put_html(out, work->why);
     baum_i_put(out, "</td></tr></tbody>\n");
@@ -64,7 +64,7 @@ void baum_i_put_advice_table(const baum_i_snapshot *survey, baum_i_buffer *out)
 
 static void put_method(const baum_study_method *m, int number, int colour, baum_i_buffer *out)
 {
-  baum_i_putf(out, "<tr data-m=\"%d\"><th scope=\"row\">", number);
+  baum_i_putf(out, "<tr data-m=\"%d\"><th scope=\"entry\">", number);
   if (colour >= 0) {
     baum_i_putf(out,
                 "<svg viewBox=\"-8 -8 16 16\" aria-hidden=\"true\" class=\"line c%d\">"
@@ -73,7 +73,7 @@ static void put_method(const baum_study_method *m, int number, int colour, baum_
   }
   baum_i_put_html(out, m->name);
   baum_i_putf(out, "%s</th>", baum_i_way(m));
-  put_number_cell(out, m->rows, DIGITS);
+  put_number_cell(out, m->entries, DIGITS);
   put_number_cell(out, m->usable, DIGITS);
   put_number_cell(out, m->least_error, 2);
   put_number_cell(out, m->slope, 2);
@@ -83,7 +83,7 @@ static void put_method(const baum_study_method *m, int number, int colour, baum_
   baum_i_put(out, "</tr>\n");
 }
 
-void baum_i_put_method_table(const baum_i_snapshot *survey, const baum_i_highlights *highlights,
+void baum_i_put_method_table(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
                              baum_i_buffer *out)
 {
   baum_i_put(out,
@@ -102,21 +102,21 @@ void baum_i_put_method_table(const baum_i_snapshot *survey, const baum_i_highlig
               "of the error over twice the span and from starts nearby; infinite: it fails there",
               false);
   baum_i_put(out, "</tr></thead>\n<tbody>\n");
-  for (int k = 0; k < survey->method_count; k++) {
-    put_method(&survey->methods[k], k, baum_i_highlight_of(highlights, k), out);
+  for (int k = 0; k < snapshot->method_count; k++) {
+    put_method(&snapshot->methods[k], k, baum_i_highlight_of(highlights, k), out);
   }
   baum_i_put(out, "</tbody></table></div>\n</section>\n");
 }
 
-/* ---- rows ---- */
+/* ---- entries ---- */
 
-static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
+static void put_entry(const baum_i_report_entry *entry, baum_i_buffer *out)
 {
   baum_i_putf(
-    out, "<tr data-m=\"%d\" data-i=\"%s\" data-front=\"%d\" data-done=\"%d\"><th scope=\"row\">",
-    (int)row->row.method, row->integrator, row->front[0] || row->front[1],
-    row->row.state == BAUM_STUDY_DONE);
-  baum_i_put_html(out, row->row.name);
+    out, "<tr data-m=\"%d\" data-i=\"%s\" data-front=\"%d\" data-done=\"%d\"><th scope=\"entry\">",
+    (int)entry->entry.method, entry->integrator, entry->front[0] || entry->front[1],
+    entry->entry.state == BAUM_STUDY_DONE);
+  baum_i_put_html(out, entry->entry.name);
   baum_i_put(out, "</th>");
   for (int c = 1; c < baum_i_column_count; c++) {
     const baum_i_column *column = &baum_i_columns[c];
@@ -124,22 +124,22 @@ static void put_row(const baum_i_report_row *row, baum_i_buffer *out)
       continue;
     }
     if (column->kind == BAUM_I_COLUMN_TEXT) {
-      put_text_cell(out, baum_i_column_text(column, row));
+      put_text_cell(out, baum_i_column_text(column, entry));
     } else {
       int digits = column->kind == BAUM_I_COLUMN_NUMBER ? DIGITS : 15;
-      put_number_cell(out, column->times * baum_i_column_number(column, row), digits);
+      put_number_cell(out, column->times * baum_i_column_number(column, entry), digits);
     }
   }
   baum_i_put(out, "<td>");
   for (int k = 0; k < BAUM_I_REMARKS; k++) {
-    if (baum_i_remark(row, k)) {
-      baum_i_putf(out, "<span class=\"remark r%d\">%s</span> ", k, baum_i_remark(row, k));
+    if (baum_i_remark(entry, k)) {
+      baum_i_putf(out, "<span class=\"remark r%d\">%s</span> ", k, baum_i_remark(entry, k));
     }
   }
   baum_i_put(out, "</td></tr>\n");
 }
 
-void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out)
+void baum_i_put_entry_table(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   baum_i_put(out,
              "<section>\n<h2>All settings</h2>\n"
@@ -148,7 +148,7 @@ void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out)
              "<label><input type=\"checkbox\" id=\"done\"> done</label>"
              "<output id=\"shown\"></output></form>\n"
              "<div class=\"scroll tall\" tabindex=\"0\" role=\"region\" aria-label=\"settings\">\n"
-             "<table class=\"sortable\" id=\"rows\">\n<thead><tr>");
+             "<table class=\"sortable\" id=\"entries\">\n<thead><tr>");
   for (int c = 0; c < baum_i_column_count; c++) {
     if (baum_i_columns[c].title) {
       put_heading(out, baum_i_columns[c].title, baum_i_columns[c].meaning,
@@ -157,8 +157,8 @@ void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out)
   }
   put_heading(out, "remarks", "see below", true);
   baum_i_put(out, "</tr></thead>\n<tbody>\n");
-  for (int k = 0; k < survey->row_count; k++) {
-    put_row(&survey->rows[k], out);
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    put_entry(&snapshot->entries[k], out);
   }
   baum_i_put(
     out, "</tbody></table></div>\n<p class=\"key\"><span class=\"remark r0\">front</span> no "
@@ -172,34 +172,34 @@ void baum_i_put_row_table(const baum_i_snapshot *survey, baum_i_buffer *out)
 
 /* ---- what was said ---- */
 
-/* The first row of which this was said. */
-static bool is_first(const baum_i_snapshot *survey, int k)
+/* The first entry of which this was said. */
+static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
   for (int j = 0; j < k; j++) {
-    const char *message = survey->rows[j].message;
-    if (message && strcmp(message, survey->rows[k].message) == 0) {
+    const char *message = snapshot->entries[j].message;
+    if (message && strcmp(message, snapshot->entries[k].message) == 0) {
       return false;
     }
   }
   return true;
 }
 
-/* What was said of row k, and of which settings it was. */
-static void put_message(const baum_i_snapshot *survey, int k, baum_i_buffer *out)
+/* What was said of entry k, and of which settings it was. */
+static void put_message(const baum_i_snapshot *snapshot, int k, baum_i_buffer *out)
 {
-  const char *message = survey->rows[k].message;
+  const char *message = snapshot->entries[k].message;
   int count = 0;
-  baum_i_putf(out, "<tr><td>%s</td><td>", survey->rows[k].state);
+  baum_i_putf(out, "<tr><td>%s</td><td>", snapshot->entries[k].state);
   baum_i_put_html(out, message);
   baum_i_put(out, "</td><td>");
-  for (int j = k; j < survey->row_count; j++) {
-    const char *other = survey->rows[j].message;
+  for (int j = k; j < snapshot->entry_count; j++) {
+    const char *other = snapshot->entries[j].message;
     if (!other || strcmp(message, other) != 0) {
       continue;
     }
     if (count < NAMED) {
       baum_i_put(out, count ? "; " : "");
-      baum_i_put_html(out, survey->rows[j].row.name);
+      baum_i_put_html(out, snapshot->entries[j].entry.name);
     }
     count++;
   }
@@ -209,11 +209,11 @@ static void put_message(const baum_i_snapshot *survey, int k, baum_i_buffer *out
   baum_i_put(out, "</td></tr>\n");
 }
 
-void baum_i_put_messages(const baum_i_snapshot *survey, baum_i_buffer *out)
+void baum_i_put_messages(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   bool begun = false;
-  for (int k = 0; k < survey->row_count; k++) {
-    if (survey->rows[k].message && is_first(survey, k)) {
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    if (snapshot->entries[k].message && is_first(snapshot, k)) {
       baum_i_put(out, begun
                         ? ""
                         : "<section>\n<h2>What was said</h2>\n"
@@ -222,7 +222,7 @@ void baum_i_put_messages(const baum_i_snapshot *survey, baum_i_buffer *out)
                           "<thead><tr><th scope=\"col\">state</th><th scope=\"col\">sentence</th>"
                           "<th scope=\"col\">of</th></tr></thead>\n<tbody>\n");
       begun = true;
-      put_message(survey, k, out);
+      put_message(snapshot, k, out);
     }
   }
   baum_i_put(out, begun ? "</tbody></table></div>\n</section>\n" : "");

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Running a study: the reference, then all errors by several threads, then all times one after the other. */
+/* Running a study: the reference, then all errors by several threads, then all times one after the
+ * other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,24 +9,24 @@
 #include "study/study.h"
 
 static const double OFF = 0.1;           /* [-] error of positions of another motion */
-static const double REHEARSED_FOR = 5.0; /* row limits */
-static const double TIMED_FOR = 0.2;     /* [s] a row is not repeated beyond that */
+static const double VALIDATED_FOR = 5.0; /* entry limits */
+static const double TIMED_FOR = 0.2;     /* [s] an entry is not repeated beyond that */
 
 /* What the threads share. */
-typedef struct crew {
+typedef struct workers {
   baum_study *study;
   baum_i_study_file *file;
   baum_i_lock lock;
-  double deadline;
-  baum_i_row **order; /* (count) rows to be measured */
+  double wall_end;
+  baum_i_entry **order; /* (count) entries to be measured */
   int count;
   int next;
-  int done; /* rows measured, and rows timed or not to be */
+  int done; /* entries measured, and entries timed or not to be */
   baum_status status;
   baum_i_sentence sentence; /* of the status */
-} crew;
+} workers;
 
-/* ---- what a run says of its row ---- */
+/* ---- what a run says of its entry ---- */
 
 static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
 {
@@ -44,68 +45,68 @@ static double graded(double difference, double uncertainty)
   return isnan(difference) ? difference : fmax(difference, uncertainty);
 }
 
-static void grade(const baum_study *study, const baum_i_differences *d, baum_study_row *row)
+static void grade(const baum_study *study, const baum_i_differences *d, baum_study_entry *entry)
 {
   const baum_study_reference *r = &study->reference.out;
-  row->at_floor = d->error[0] <= r->uncertainty;
-  row->error = graded(d->error[0], r->uncertainty);
-  row->error_final = graded(d->error[1], r->uncertainty);
-  row->error_half = graded(d->error[2], r->uncertainty);
-  row->error_q = graded(d->q[0], r->uncertainty_q);
-  row->error_q_final = graded(d->q[1], r->uncertainty_q);
-  row->error_v = graded(d->v[0], r->uncertainty_v);
-  row->error_v_final = graded(d->v[1], r->uncertainty_v);
-  row->error_lambda = graded(d->lambda[0], r->uncertainty_lambda);
-  row->error_lambda_final = graded(d->lambda[1], r->uncertainty_lambda);
-  row->energy_error = graded(d->energy[0], r->uncertainty_energy);
-  row->energy_error_final = graded(d->energy[1], r->uncertainty_energy);
+  entry->at_floor = d->error[0] <= r->uncertainty;
+  entry->error = graded(d->error[0], r->uncertainty);
+  entry->error_final = graded(d->error[1], r->uncertainty);
+  entry->error_half = graded(d->error[2], r->uncertainty);
+  entry->error_q = graded(d->q[0], r->uncertainty_q);
+  entry->error_q_final = graded(d->q[1], r->uncertainty_q);
+  entry->error_v = graded(d->v[0], r->uncertainty_v);
+  entry->error_v_final = graded(d->v[1], r->uncertainty_v);
+  entry->error_lambda = graded(d->lambda[0], r->uncertainty_lambda);
+  entry->error_lambda_final = graded(d->lambda[1], r->uncertainty_lambda);
+  entry->energy_error = graded(d->energy[0], r->uncertainty_energy);
+  entry->energy_error_final = graded(d->energy[1], r->uncertainty_energy);
 }
 
-static void take_motion(const baum_i_outcome *outcome, baum_study_row *row)
+static void take_motion(const baum_i_outcome *outcome, baum_study_entry *entry)
 {
   const baum_counters *c = &outcome->counters;
-  row->steps = c->steps;
-  row->rejected = c->rejected;
-  row->nonlinear_iterations = c->nonlinear_iterations;
-  row->forced_steps = c->forced_steps;
-  row->warnings = c->warnings;
-  row->near_singular_intervals = c->near_singular_intervals;
-  row->branch_warnings = c->branch_warnings;
-  row->doubts = c->doubts;
-  row->error_estimate = c->error_estimate;
-  row->unstable = outcome->status == BAUM_ERR_UNSTABLE || c->spectral_radius >= 1.0;
+  entry->steps = c->steps;
+  entry->rejected = c->rejected;
+  entry->nonlinear_iterations = c->nonlinear_iterations;
+  entry->forced_steps = c->forced_steps;
+  entry->warnings = c->warnings;
+  entry->near_singular_intervals = c->near_singular_intervals;
+  entry->branch_warnings = c->branch_warnings;
+  entry->doubts = c->doubts;
+  entry->error_estimate = c->error_estimate;
+  entry->unstable = outcome->status == BAUM_ERR_UNSTABLE || c->spectral_radius >= 1.0;
   if (outcome->created) {
-    row->max_phi = c->max_phi;
-    row->max_phi_rate = c->max_phi_rate;
-    row->violation_work = outcome->account.violation;
-    row->projection_work = outcome->account.projection;
-    row->gains_work = outcome->account.gains;
-    row->alpha = c->alpha;
-    row->beta = c->beta;
+    entry->max_phi = c->max_phi;
+    entry->max_phi_rate = c->max_phi_rate;
+    entry->violation_work = outcome->account.violation;
+    entry->projection_work = outcome->account.projection;
+    entry->gains_work = outcome->account.gains;
+    entry->alpha = c->alpha;
+    entry->beta = c->beta;
   }
 }
 
 static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
-                         const baum_i_watch *watch, const double *samples, baum_i_row *row)
+                         const baum_i_deadline *deadline, const double *values, baum_i_entry *entry)
 {
-  baum_study_row *out = &row->out;
-  out->state = state_of(outcome, watch->timed_out);
+  baum_study_entry *out = &entry->out;
+  out->state = state_of(outcome, deadline->timed_out);
   out->status = outcome->status;
   out->untrusted = !study->reference.out.trusted;
-  (void)snprintf(row->message, sizeof row->message, "%s", outcome->message);
+  (void)snprintf(entry->message, sizeof entry->message, "%s", outcome->message);
   take_motion(outcome, out);
-  if (out->state == BAUM_STUDY_DONE && study->reference.course.rows) {
-    baum_i_differences d = baum_i_study_compare(study, &study->reference.course, samples);
+  if (out->state == BAUM_STUDY_DONE && study->reference.samples.values) {
+    baum_i_differences d = baum_i_study_compare(study, &study->reference.samples, values);
     grade(study, &d, out);
     out->off = d.q[0] > OFF || out->branch_warnings > 0;
   }
-  row->limit = watch->limit;
-  row->measured = true;
+  entry->limit = deadline->limit;
+  entry->measured = true;
 }
 
-/* ---- the crew ---- */
+/* ---- the workers ---- */
 
-static void give_up(crew *c, baum_status status)
+static void give_up(workers *c, baum_status status)
 {
   if (c->status == BAUM_OK) {
     c->status = status;
@@ -113,15 +114,15 @@ static void give_up(crew *c, baum_status status)
   }
 }
 
-/* For runs that take so many row limits at most. */
-static baum_i_watch watch_of(const crew *c, double limits)
+/* For runs that take so many entry limits at most. */
+static baum_i_deadline deadline_of(const workers *c, double limits)
 {
-  return (baum_i_watch){
-    .study = c->study, .limit = limits * c->study->options.row_limit, .deadline = c->deadline};
+  return (baum_i_deadline){
+    .study = c->study, .limit = limits * c->study->options.entry_limit, .wall_end = c->wall_end};
 }
 
-/* As many threads as there are rows, or as the options say. */
-static void run_crew(crew *c, void (*work)(void *user, int k))
+/* As many threads as there are entries, or as the options say. */
+static void run_workers(workers *c, void (*work)(void *user, int k))
 {
   int threads = c->study->options.threads < c->count ? c->study->options.threads : c->count;
   if (threads > 0) {
@@ -129,185 +130,185 @@ static void run_crew(crew *c, void (*work)(void *user, int k))
   }
 }
 
-/* A row has come a stage further. Called by one thread at a time. */
-static void report(crew *c)
+/* An entry has come a stage further. Called by one thread at a time. */
+static void report(workers *c)
 {
   c->done++;
   const baum_study_options *o = &c->study->options;
-  if (o->progress && o->progress(c->study, c->done, 2 * c->study->row_count, o->user) != 0) {
+  if (o->progress && o->progress(c->study, c->done, 2 * c->study->entry_count, o->user) != 0) {
     baum_study_cancel(c->study);
   }
 }
 
 /* A coarser setting of the method has reached the limit. */
-static bool is_too_fine(const crew *c, const baum_i_row *row)
+static bool is_too_fine(const workers *c, const baum_i_entry *entry)
 {
-  double setting = baum_i_setting(&row->options);
-  return setting > 0.0 && setting < c->study->methods[row->out.method].too_fine;
+  double setting = baum_i_setting(&entry->options);
+  return setting > 0.0 && setting < c->study->methods[entry->out.method].too_fine;
 }
 
-static void pass_over(const crew *c, baum_i_row *row)
+static void pass_over(const workers *c, baum_i_entry *entry)
 {
-  row->out.state = BAUM_STUDY_TIMED_OUT;
-  row->out.status = BAUM_STOP_CANCELLED;
-  row->out.untrusted = !c->study->reference.out.trusted;
-  row->limit = c->study->options.row_limit;
-  baum_i_say_too_long(row->limit, row->message, sizeof row->message);
-  row->measured = true;
+  entry->out.state = BAUM_STUDY_TIMED_OUT;
+  entry->out.status = BAUM_STOP_CANCELLED;
+  entry->out.untrusted = !c->study->reference.out.trusted;
+  entry->limit = c->study->options.entry_limit;
+  baum_i_say_too_long(entry->limit, entry->message, sizeof entry->message);
+  entry->measured = true;
 }
 
-/* The next row, or NULL. */
-static baum_i_row *next_row(crew *c)
+/* The next entry, or NULL. */
+static baum_i_entry *next_entry(workers *c)
 {
-  const baum_i_watch watch = watch_of(c, 1.0);
-  baum_i_row *row = NULL;
+  const baum_i_deadline deadline = deadline_of(c, 1.0);
+  baum_i_entry *entry = NULL;
   baum_i_lock_take(&c->lock);
-  if (c->next < c->count && c->status == BAUM_OK && !baum_i_watch_stops(&watch)) {
-    row = c->order[c->next++];
+  if (c->next < c->count && c->status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
+    entry = c->order[c->next++];
   }
   baum_i_lock_give(&c->lock);
-  return row;
+  return entry;
 }
 
-static void finish_row(crew *c, baum_i_row *row)
+static void finish_entry(workers *c, baum_i_entry *entry)
 {
-  if (row->out.state == BAUM_STUDY_TIMED_OUT) {
-    double *too_fine = &c->study->methods[row->out.method].too_fine;
-    *too_fine = fmax(*too_fine, baum_i_setting(&row->options));
+  if (entry->out.state == BAUM_STUDY_TIMED_OUT) {
+    double *too_fine = &c->study->methods[entry->out.method].too_fine;
+    *too_fine = fmax(*too_fine, baum_i_setting(&entry->options));
   }
-  baum_status status = baum_i_study_file_measured(c->file, row);
+  baum_status status = baum_i_study_file_measured(c->file, entry);
   if (status != BAUM_OK) {
     give_up(c, status);
   }
   report(c);
 }
 
-static void measure_row(crew *c, baum_i_row *row, double *samples)
+static void measure_entry(workers *c, baum_i_entry *entry, double *values)
 {
-  baum_i_watch watch = watch_of(c, 1.0);
+  baum_i_deadline deadline = deadline_of(c, 1.0);
   baum_i_lock_take(&c->lock);
-  bool passed = is_too_fine(c, row);
+  bool passed = is_too_fine(c, entry);
   baum_i_lock_give(&c->lock);
   baum_i_outcome outcome = {0};
   if (!passed) {
-    const baum_i_task task = {c->study, &row->options, &c->study->reference.course, true};
-    baum_i_study_run_one(&task, &watch, samples, &outcome);
+    const baum_i_task task = {c->study, &entry->options, &c->study->reference.samples, true};
+    baum_i_study_run_one(&task, &deadline, values, &outcome);
   }
-  bool stopped = outcome.status == BAUM_STOP_CANCELLED && !watch.timed_out;
+  bool stopped = outcome.status == BAUM_STOP_CANCELLED && !deadline.timed_out;
   baum_i_lock_take(&c->lock);
   if (outcome.status == BAUM_ERR_MEMORY) {
     give_up(c, baum_i_fail_memory());
   } else if (!stopped) {
     if (passed) {
-      pass_over(c, row);
+      pass_over(c, entry);
     } else {
-      take_outcome(c->study, &outcome, &watch, samples, row);
+      take_outcome(c->study, &outcome, &deadline, values, entry);
     }
-    finish_row(c, row);
+    finish_entry(c, entry);
   }
   baum_i_lock_give(&c->lock);
 }
 
 /* Memory for the samples of one run, or NULL. */
-static double *samples_of(crew *c)
+static double *samples_of(workers *c)
 {
-  size_t size = (size_t)c->study->reference.course.n * (size_t)baum_i_study_layout(c->study).width;
-  double *samples = baum_i_alloc(size, sizeof *samples);
-  if (!samples) {
+  size_t size = (size_t)c->study->reference.samples.n * (size_t)baum_i_study_layout(c->study).width;
+  double *values = baum_i_alloc(size, sizeof *values);
+  if (!values) {
     baum_i_lock_take(&c->lock);
     give_up(c, baum_i_fail_memory());
     baum_i_lock_give(&c->lock);
   }
-  return samples;
+  return values;
 }
 
 static void measure(void *self, int k)
 {
   (void)k;
-  crew *c = self;
-  double *samples = samples_of(c);
-  if (!samples) {
+  workers *c = self;
+  double *values = samples_of(c);
+  if (!values) {
     return;
   }
-  baum_i_row *row = NULL;
-  while ((row = next_row(c)) != NULL) {
-    measure_row(c, row, samples);
+  baum_i_entry *entry = NULL;
+  while ((entry = next_entry(c)) != NULL) {
+    measure_entry(c, entry, values);
   }
-  baum_i_free(samples);
+  baum_i_free(values);
 }
 
-/* ---- rehearsals ---- */
+/* ---- validations ---- */
 
-static void rehearse(void *self, int k)
+static void validate(void *self, int k)
 {
   (void)k;
-  crew *c = self;
-  double *samples = samples_of(c);
-  baum_i_row *row = NULL;
-  while (samples && (row = next_row(c)) != NULL) {
-    baum_i_watch watch = watch_of(c, REHEARSED_FOR);
+  workers *c = self;
+  double *values = samples_of(c);
+  baum_i_entry *entry = NULL;
+  while (values && (entry = next_entry(c)) != NULL) {
+    baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
     double error = (double)NAN;
-    baum_status status = baum_i_study_rehearse(c->study, row, &watch, samples, &error);
+    baum_status status = baum_i_study_validate(c->study, entry, &deadline, values, &error);
     baum_i_lock_take(&c->lock);
-    if (status == BAUM_OK && !baum_i_watch_stops(&watch)) {
-      row->out.error_rehearsed = error;
-      row->rehearsed = true;
-      status = baum_i_study_file_rehearsed(c->file, row);
+    if (status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
+      entry->out.error_validated = error;
+      entry->validated = true;
+      status = baum_i_study_file_validated(c->file, entry);
     }
     if (status != BAUM_OK) {
       give_up(c, status);
     }
     baum_i_lock_give(&c->lock);
   }
-  baum_i_free(samples);
+  baum_i_free(values);
 }
 
-/* Those that are to be rehearsed into the order; returns whether there are some. */
-static bool order_rehearsals(crew *c)
+/* Those that are to be validated into the order; returns whether there are some. */
+static bool order_validations(workers *c)
 {
   const baum_study *study = c->study;
   c->count = c->next = 0;
-  for (int k = 0; study->options.rehearse && k < study->row_count; k++) {
-    if (baum_i_study_wants_rehearsal(study, study->rows[k])) {
-      c->order[c->count++] = study->rows[k];
+  for (int k = 0; study->options.validate && k < study->entry_count; k++) {
+    if (baum_i_study_wants_validation(study, study->entries[k])) {
+      c->order[c->count++] = study->entries[k];
     }
   }
   return c->count > 0;
 }
 
-static void rehearse_all(crew *c)
+static void validate_all(workers *c)
 {
-  bool known = c->study->reference.course.rows != NULL;
-  if (!known || c->status != BAUM_OK || !order_rehearsals(c)) {
+  bool known = c->study->reference.samples.values != NULL;
+  if (!known || c->status != BAUM_OK || !order_validations(c)) {
     return;
   }
-  baum_i_watch watch = watch_of(c, REHEARSED_FOR);
+  baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
   baum_status status =
-    c->study->rehearsed ? BAUM_OK : baum_i_study_make_rehearsals(c->study, &watch);
+    c->study->validated ? BAUM_OK : baum_i_study_make_validations(c->study, &deadline);
   if (status != BAUM_OK) {
     give_up(c, status);
     return;
   }
-  run_crew(c, rehearse);
+  run_workers(c, validate);
 }
 
 /* ---- order ---- */
 
-/* How many rows of its method are coarser. */
-static int rank_of(const baum_study *study, const baum_i_row *row)
+/* How many entries of its method are coarser. */
+static int rank_of(const baum_study *study, const baum_i_entry *entry)
 {
   int rank = 0;
-  for (int k = 0; k < study->row_count; k++) {
-    const baum_i_row *other = study->rows[k];
-    rank += other->out.method == row->out.method &&
-            baum_i_setting(&other->options) > baum_i_setting(&row->options);
+  for (int k = 0; k < study->entry_count; k++) {
+    const baum_i_entry *other = study->entries[k];
+    rank += other->out.method == entry->out.method &&
+            baum_i_setting(&other->options) > baum_i_setting(&entry->options);
   }
   return rank;
 }
 
-/* A row and its place. */
+/* An entry and its place. */
 typedef struct place {
-  baum_i_row *row;
+  baum_i_entry *entry;
   int rank;
   int k;
 } place;
@@ -321,25 +322,25 @@ static int by_rank(const void *a, const void *b)
 }
 
 /* Coarse settings first, so that what is known when time is over is something of all methods. */
-static baum_status set_order(crew *c)
+static baum_status set_order(workers *c)
 {
   const baum_study *study = c->study;
-  place *places = baum_i_alloc((size_t)study->row_count, sizeof *places);
+  place *places = baum_i_alloc((size_t)study->entry_count, sizeof *places);
   if (!places) {
     return baum_i_fail_memory();
   }
   c->count = 0;
-  for (int k = 0; k < study->row_count; k++) {
-    baum_i_row *row = study->rows[k];
-    if (!row->measured) {
-      places[c->count++] = (place){row, rank_of(study, row), k};
+  for (int k = 0; k < study->entry_count; k++) {
+    baum_i_entry *entry = study->entries[k];
+    if (!entry->measured) {
+      places[c->count++] = (place){entry, rank_of(study, entry), k};
     } else {
       c->done++;
     }
   }
   qsort(places, (size_t)c->count, sizeof *places, by_rank);
   for (int k = 0; k < c->count; k++) {
-    c->order[k] = places[k].row;
+    c->order[k] = places[k].entry;
   }
   baum_i_free(places);
   return BAUM_OK;
@@ -348,30 +349,30 @@ static baum_status set_order(crew *c)
 /* ---- times ---- */
 
 static void take_times(const baum_i_outcome *first, const double least[2], int repeats,
-                       baum_i_row *row)
+                       baum_i_entry *entry)
 {
-  row->out.evaluations = first->counters.evaluations;
-  row->out.factorizations = first->counters.factorizations;
-  row->out.work = baum_i_study_work(row);
-  row->out.cpu = least[0];
-  row->out.cpu_spread = repeats > 1 ? least[1] - least[0] : (double)NAN;
-  row->out.repeats = repeats;
-  row->timed = true;
+  entry->out.evaluations = first->counters.evaluations;
+  entry->out.factorizations = first->counters.factorizations;
+  entry->out.work = baum_i_study_work(entry);
+  entry->out.cpu = least[0];
+  entry->out.cpu_spread = repeats > 1 ? least[1] - least[0] : (double)NAN;
+  entry->out.repeats = repeats;
+  entry->timed = true;
 }
 
-static baum_status time_row(crew *c, baum_i_row *row)
+static baum_status time_entry(workers *c, baum_i_entry *entry)
 {
-  baum_i_watch watch = watch_of(c, (double)INFINITY);
-  const baum_i_task task = {c->study, &row->options, &c->study->reference.course, false};
+  baum_i_deadline deadline = deadline_of(c, (double)INFINITY);
+  const baum_i_task task = {c->study, &entry->options, &c->study->reference.samples, false};
   baum_i_outcome first = {0};
   double least[2] = {(double)INFINITY, (double)INFINITY};
   double sum = 0.0;
   int repeats = 0;
   while (repeats < c->study->options.repeats && sum < TIMED_FOR) {
     baum_i_outcome outcome;
-    baum_i_study_run_one(&task, &watch, NULL, &outcome);
+    baum_i_study_run_one(&task, &deadline, NULL, &outcome);
     if (outcome.status < BAUM_OK) {
-      return baum_i_fail(outcome.status, "study: %s, when it was timed: %s", row->name,
+      return baum_i_fail(outcome.status, "study: %s, when it was timed: %s", entry->name,
                          outcome.message);
     }
     if (outcome.status == BAUM_STOP_CANCELLED) {
@@ -383,20 +384,20 @@ static baum_status time_row(crew *c, baum_i_row *row)
     least[0] = fmin(least[0], outcome.cpu);
     repeats++;
   }
-  take_times(&first, least, repeats, row);
-  return baum_i_study_file_timed(c->file, row);
+  take_times(&first, least, repeats, entry);
+  return baum_i_study_file_timed(c->file, entry);
 }
 
-static void time_rows(crew *c)
+static void time_entries(workers *c)
 {
-  const baum_i_watch watch = watch_of(c, 1.0);
-  for (int k = 0; k < c->study->row_count && c->status == BAUM_OK; k++) {
-    baum_i_row *row = c->study->rows[k];
-    if (baum_i_watch_stops(&watch)) {
+  const baum_i_deadline deadline = deadline_of(c, 1.0);
+  for (int k = 0; k < c->study->entry_count && c->status == BAUM_OK; k++) {
+    baum_i_entry *entry = c->study->entries[k];
+    if (baum_i_deadline_stops(&deadline)) {
       return;
     }
-    if (row->out.state == BAUM_STUDY_DONE && !row->timed) {
-      baum_status status = time_row(c, row);
+    if (entry->out.state == BAUM_STUDY_DONE && !entry->timed) {
+      baum_status status = time_entry(c, entry);
       if (status != BAUM_OK) {
         give_up(c, status);
       }
@@ -407,42 +408,43 @@ static void time_rows(crew *c)
 
 /* ---- all of it ---- */
 
-/* Rows without a result, or without the time of one. */
+/* Entries without a result, or without the time of one. */
 static int waiting(const baum_study *study)
 {
   int count = 0;
-  for (int k = 0; k < study->row_count; k++) {
-    const baum_i_row *row = study->rows[k];
-    count += !row->measured || (row->out.state == BAUM_STUDY_DONE && !row->timed);
+  for (int k = 0; k < study->entry_count; k++) {
+    const baum_i_entry *entry = study->entries[k];
+    count += !entry->measured || (entry->out.state == BAUM_STUDY_DONE && !entry->timed);
   }
   return count;
 }
 
-/* Rows to be measured, or that may have to be rehearsed once they are timed, are compared with it. */
-static bool needs_reference(crew *c)
+/* Entries to be measured, or that may have to be validated once they are timed, are compared with
+ * it. */
+static bool needs_reference(workers *c)
 {
   const baum_study *study = c->study;
-  for (int k = 0; k < study->row_count; k++) {
-    const baum_i_row *row = study->rows[k];
-    bool is_timed_first = row->out.state == BAUM_STUDY_DONE && !row->timed && !row->rehearsed;
-    if (!row->measured || (study->options.rehearse && is_timed_first)) {
+  for (int k = 0; k < study->entry_count; k++) {
+    const baum_i_entry *entry = study->entries[k];
+    bool is_timed_first = entry->out.state == BAUM_STUDY_DONE && !entry->timed && !entry->validated;
+    if (!entry->measured || (study->options.validate && is_timed_first)) {
       return true;
     }
   }
-  return order_rehearsals(c);
+  return order_validations(c);
 }
 
 static bool wants_check(const baum_study *study)
 {
-  for (int k = 0; k < study->row_count; k++) {
-    if (study->rows[k]->options.check_derivatives) {
+  for (int k = 0; k < study->entry_count; k++) {
+    if (study->entries[k]->options.check_derivatives) {
       return true;
     }
   }
   return false;
 }
 
-static baum_status prepare(crew *c)
+static baum_status prepare(workers *c)
 {
   baum_study *study = c->study;
   baum_status status = BAUM_OK;
@@ -453,26 +455,26 @@ static baum_status prepare(crew *c)
     status = baum_mechanism_check_derivatives(study->mechanism);
   }
   bool was_known = study->reference.known;
-  baum_i_watch watch = watch_of(c, 1.0);
+  baum_i_deadline deadline = deadline_of(c, 1.0);
   if (status == BAUM_OK) {
-    status = baum_i_study_make_reference(study, &watch);
+    status = baum_i_study_make_reference(study, &deadline);
   }
   return status == BAUM_OK && !was_known ? baum_i_study_file_reference(c->file, study) : status;
 }
 
-static void run_rows(crew *c)
+static void run_entries(workers *c)
 {
   if (!baum_i_lock_make(&c->lock)) {
     give_up(c, baum_i_fail_memory());
     return;
   }
-  run_crew(c, measure);
-  time_rows(c);
-  rehearse_all(c);
+  run_workers(c, measure);
+  time_entries(c);
+  validate_all(c);
   baum_i_lock_end(&c->lock);
 }
 
-static baum_status conclude(crew *c)
+static baum_status conclude(workers *c)
 {
   const baum_study *study = c->study;
   if (c->status != BAUM_OK) {
@@ -481,20 +483,20 @@ static baum_status conclude(crew *c)
   int left = waiting(study);
   if (left > 0) {
     bool cancelled = atomic_load(&study->cancelled) != 0;
-    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d rows not done and timed",
+    return baum_i_fail(BAUM_STOP_CANCELLED, "study: %s with %d of %d entries not done and timed",
                        cancelled ? "cancelled" : "the time budget is spent", left,
-                       study->row_count);
+                       study->entry_count);
   }
   return study->reference.out.trusted
            ? BAUM_OK
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
-/* Memory, samples, file and reference, then all rows. */
-static baum_status run_all(crew *c)
+/* Memory, samples, file and reference, then all entries. */
+static baum_status run_all(workers *c)
 {
   baum_study *study = c->study;
-  c->order = baum_i_alloc((size_t)study->row_count, sizeof(baum_i_row *));
+  c->order = baum_i_alloc((size_t)study->entry_count, sizeof(baum_i_entry *));
   baum_status status = c->order ? baum_i_study_set_times(study) : baum_i_fail_memory();
   if (status == BAUM_OK) {
     status = baum_i_study_file_open(study, &c->file);
@@ -507,7 +509,7 @@ static baum_status run_all(crew *c)
     status = set_order(c);
   }
   if (status == BAUM_OK) {
-    run_rows(c);
+    run_entries(c);
   }
   return status == BAUM_OK || status == BAUM_STOP_CANCELLED ? conclude(c) : status;
 }
@@ -517,15 +519,15 @@ baum_status baum_study_run(baum_study *study)
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_study_run: the study is NULL");
   }
-  if (study->row_count == 0) {
-    return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no rows; add settings");
+  if (study->entry_count == 0) {
+    return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no entries; add settings");
   }
   baum_status status = baum_i_study_check_idle(study, "baum_study_run");
   if (status != BAUM_OK) {
     return status;
   }
   study->running = true;
-  crew c = {.study = study, .deadline = baum_i_wall_seconds() + study->options.time_budget};
+  workers c = {.study = study, .wall_end = baum_i_wall_seconds() + study->options.time_budget};
   status = run_all(&c);
   baum_status closed = baum_i_study_file_close(c.file);
   baum_i_free(c.order);

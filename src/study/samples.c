@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How far samples of a run are from the reference.
  *
- *   q       |dq_i| / s_i                               s: scales of the mechanism, L for lengths and 1 for angles
- *   v       |dv_i| / (s_i V)                           V: largest |v_j| / s_j over all samples of the reference [1/s]
- *   lambda  |dlambda_i| n_i / E                        n_i: displacement of row i for changes of q by s, E: largest
- *                                                      |lambda_j| n_j over all samples of the reference [J]
+ *   q       |dq_i| / s_i                               s: scales of the mechanism, L for lengths
+ *   and 1 for angles
+ *   v       |dv_i| / (s_i V)                           V: largest |v_j| / s_j over all samples of
+ *   the reference [1/s]
+ *   lambda  |dlambda_i| n_i / E                        n_i: displacement of row i for changes of q
+ *   by s, E: largest
+ *                                                      |lambda_j| n_j over all samples of the
+ *                                                      reference [J]
  *   energy  |d(T + U)|
  *   user    |dx_i| / unit, or as q
  *
- * Entries that the reference does not know are not compared; what a run does not have is infinitely far.
+ * Entries that the reference does not know are not compared; what a run does not have is infinitely
+ * far.
  */
 #include <math.h>
 #include <string.h>
@@ -57,7 +62,7 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   baum_status status = baum_workspace_create(study->mechanism, &w);
   if (status == BAUM_OK) {
     status =
-      baum_i_position_stage(w, study->reference.course.times[0], study->reference.course.rows);
+      baum_i_position_stage(w, study->reference.samples.times[0], study->reference.samples.values);
   }
   if (status == BAUM_OK) {
     baum_i_row_displacements(w, rows);
@@ -66,15 +71,16 @@ static baum_status measure_rows(const baum_study *study, double *rows)
   return status;
 }
 
-/* Divide the weights of some columns by the largest weighed value of the reference in any of them. */
+/* Divide the weights of some columns by the largest weighed value of the reference in any of them.
+ * */
 static void normalize(const baum_study *study, const baum_i_layout *l, int first, int count)
 {
-  const baum_i_course *course = &study->reference.course;
+  const baum_i_samples *samples = &study->reference.samples;
   double *weight = study->reference.weight;
   double largest = 0.0;
-  for (int k = 0; k < course->n; k++) {
+  for (int k = 0; k < samples->n; k++) {
     for (int i = first; i < first + count; i++) {
-      largest = fmax(largest, fabs(course->rows[(size_t)k * l->width + i]) * weight[i]);
+      largest = fmax(largest, fabs(samples->values[(size_t)k * l->width + i]) * weight[i]);
     }
   }
   for (int i = first; i < first + count && largest > 0.0; i++) {
@@ -137,22 +143,22 @@ static void take(double of[2], double value)
   of[1] = value;
 }
 
-baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_course *course,
-                                        const double *rows)
+baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
+                                        const double *values)
 {
   baum_i_layout l = baum_i_study_layout(study);
   double none = (double)NAN;
   baum_i_differences d = {
     {none, none, none}, {none, none}, {none, none}, {none, none}, {none, none}};
-  for (int k = 0; k < course->n; k++) {
-    const double *got = rows + (size_t)k * l.width;
-    const double *wanted = course->rows + (size_t)k * l.width;
+  for (int k = 0; k < samples->n; k++) {
+    const double *got = values + (size_t)k * l.width;
+    const double *wanted = samples->values + (size_t)k * l.width;
     take(d.q, largest_of(study, got, wanted, 0, l.nq));
     take(d.v, largest_of(study, got, wanted, l.v, l.v + l.nv));
     take(d.lambda, largest_of(study, got, wanted, l.lambda, l.lambda + l.nc));
     take(d.energy, of_energy(got, wanted, l.energy));
     take(d.error, l.user < l.width ? largest_of(study, got, wanted, l.user, l.width) : d.q[1]);
-    if (fabs(course->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
+    if (fabs(samples->times[k] - study->t0) <= 0.5 * fabs(study->t1 - study->t0)) {
       d.error[2] = d.error[0];
     }
   }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Making a study, saying what is studied, and reading rows. */
+/* Making a study, saying what is studied, and reading entries. */
 #include <baum/study.h>
 
 #include <math.h>
@@ -80,14 +80,14 @@ void baum_study_destroy(baum_study *study)
   if (!study || study->running) {
     return;
   }
-  baum_i_study_drop_rows(study, 0, 0);
-  baum_i_free(study->rows);
+  baum_i_study_truncate(study, 0, 0);
+  baum_i_free(study->entries);
   baum_i_free(study->methods);
   baum_i_free(study->channels);
   baum_i_free(study->options.file);
   baum_i_study_clear_reference(study);
-  for (int k = 0; k < BAUM_I_REHEARSALS; k++) {
-    baum_i_study_clear_course(&study->rehearsals[k]);
+  for (int k = 0; k < BAUM_I_VALIDATIONS; k++) {
+    baum_i_study_clear_samples(&study->validations[k]);
   }
   baum_mechanism_destroy(baum_i_mutable(study->mechanism));
   baum_i_free(study);
@@ -118,10 +118,10 @@ void baum_study_options_init(baum_study_options *options, size_t caller_size)
     .samples = SAMPLES,
     .threads = 1,
     .repeats = 5,
-    .row_limit = 10.0,
+    .entry_limit = 10.0,
     .time_budget = INFINITY,
     .energy_account = true,
-    .rehearse = true,
+    .validate = true,
   };
   if (baum_i_takes_sized(options, caller_size)) {
     baum_i_give_sized(options, caller_size, &defaults, sizeof defaults);
@@ -144,8 +144,8 @@ static baum_status check_options(const baum_study *study, const baum_study_optio
                          counts[k].name, (int)counts[k].value, counts[k].least, counts[k].most);
     }
   }
-  const char *const times[2] = {"row_limit", "time_budget"};
-  const double time[2] = {o->row_limit, o->time_budget};
+  const char *const times[2] = {"entry_limit", "time_budget"};
+  const double time[2] = {o->entry_limit, o->time_budget};
   for (int k = 0; k < 2; k++) {
     if (!(time[k] > 0.0)) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "study options: %s is %g s, must be > 0", times[k],
@@ -160,7 +160,7 @@ static baum_status check_options(const baum_study *study, const baum_study_optio
 
 static baum_status begun(const char *call, const char *what)
 {
-  return baum_i_fail(BAUM_ERR_STATE, "%s: rows have been run, %s stays as it is", call, what);
+  return baum_i_fail(BAUM_ERR_STATE, "%s: entries have been run, %s stays as it is", call, what);
 }
 
 static bool same_file(const char *a, const char *b)
@@ -320,8 +320,8 @@ static bool copy_given(const baum_study *study, const double *times, int32_t n,
 {
   const baum_mechanism *m = study->mechanism;
   const int widths[3] = {m->nq, m->nv, m->nc};
-  out->course.times = baum_i_copy(times, (size_t)n, sizeof *times);
-  bool fine = out->course.times != NULL;
+  out->samples.times = baum_i_copy(times, (size_t)n, sizeof *times);
+  bool fine = out->samples.times != NULL;
   for (int k = 0; k < 3 && fine; k++) {
     if (given[k]) {
       size_t count = (size_t)n * (size_t)widths[k];
@@ -359,11 +359,11 @@ baum_status baum_study_set_reference(baum_study *study, const double *times, int
     return status;
   }
   baum_i_study_reference r = {
-    .course = {.n = n}, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
+    .samples = {.n = n}, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
   r.out.samples = n;
   const double *const given[3] = {q, v, lambda};
   if (!copy_given(study, times, n, given, &r)) {
-    baum_i_free(r.course.times);
+    baum_i_free(r.samples.times);
     for (int k = 0; k < 3; k++) {
       baum_i_free(r.given[k]);
     }
@@ -426,18 +426,18 @@ baum_status baum_study_reference_sample(const baum_study *study, int32_t k, doub
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
-  const baum_i_course *r = &study->reference.course;
-  if (!r->rows) {
+  const baum_i_samples *r = &study->reference.samples;
+  if (!r->values) {
     return baum_i_fail(BAUM_ERR_STATE, "%s: the reference has not been made", call);
   }
   if (k < 0 || k >= r->n) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k, r->n - 1);
   }
   baum_i_layout l = baum_i_study_layout(study);
-  const double *row = r->rows + (size_t)k * l.width;
+  const double *values = r->values + (size_t)k * l.width;
   give(t, &r->times[k], 1);
-  give(q, row, l.nq);
-  give(v, row + l.v, l.nv);
-  give(lambda, row + l.lambda, l.nc);
+  give(q, values, l.nq);
+  give(v, values + l.v, l.nv);
+  give(lambda, values + l.lambda, l.nc);
   return BAUM_OK;
 }

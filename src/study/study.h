@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study from the inside: settings and their rows, the reference they are compared with, and how rows are run.
+/* A study from the inside: settings and their entries, the reference they are compared with, and
+ * how entries are run.
  *
  * A run is compared by its samples: a matrix of one line per sample with the columns of a layout
  *
@@ -29,7 +30,7 @@ typedef struct baum_i_layout {
   int width;
 } baum_i_layout;
 
-/* Largest differences from the reference, as in baum_study_row. */
+/* Largest differences from the reference, as in baum_study_entry. */
 typedef struct baum_i_differences {
   double error[3]; /* whole span, last sample, first half */
   double q[2];     /* whole span, last sample */
@@ -38,41 +39,41 @@ typedef struct baum_i_differences {
   double energy[2];
 } baum_i_differences;
 
-typedef struct baum_i_row {
-  baum_study_row out; /* name and message are those below */
+typedef struct baum_i_entry {
+  baum_study_entry out; /* name and message are those below */
   baum_simulation_options options;
   double *row_gains; /* own copy of the option */
   char name[BAUM_I_NAME_SIZE];
   char message[BAUM_I_NOTE_SIZE];
   uint64_t key;   /* of the options */
-  double limit;   /* [s] the row limit when it was measured */
+  double limit;   /* [s] the entry limit when it was measured */
   bool measured;  /* errors and all that belongs to the motion are known */
   bool timed;     /* so are its counts of work and its time, where it is done */
-  bool rehearsed; /* error_rehearsed is as well known as it can be */
+  bool validated; /* error_validated is as well known as it can be */
   unsigned filed; /* what of it the study file had when it was opened */
-} baum_i_row;
+} baum_i_entry;
 
 /* A motion, and where it is looked at. */
-typedef struct baum_i_course {
+typedef struct baum_i_samples {
   int n;
-  double *times; /* (n) */
-  double *rows;  /* (n x width) NULL: not known */
-  double *q;     /* (nq) the start, or NULL: as designed */
-  double *v;     /* (nv) likewise */
-} baum_i_course;
+  double *times;  /* (n) */
+  double *values; /* (n x width) NULL: not known */
+  double *q;      /* (nq) the start, or NULL: as drawn */
+  double *v;      /* (nv) likewise */
+} baum_i_samples;
 
-/* Rows that differ in step or rtol alone. */
+/* Entries that differ in step or rtol alone. */
 typedef struct baum_i_study_method {
   uint64_t key;
-  int first;                   /* row, for all they have in common */
-  char name[BAUM_I_NAME_SIZE]; /* of its rows without step or tolerance */
-  double too_fine;             /* step or rtol that has reached the row limit, else 0 */
+  int first;                   /* entry, for all they have in common */
+  char name[BAUM_I_NAME_SIZE]; /* of its entries without step or tolerance */
+  double too_fine;             /* step or rtol that has reached the entry limit, else 0 */
 } baum_i_study_method;
 
 typedef struct baum_i_study_reference {
   baum_study_reference out;
   char text[BAUM_I_TEXT_SIZE];
-  baum_i_course course;            /* rows NULL: not made */
+  baum_i_samples samples;          /* values NULL: not made */
   baum_simulation_options options; /* of its best run; integrator NULL where there is none */
   bool known;                      /* uncertainties are: it has been made, now or before */
 
@@ -85,7 +86,7 @@ typedef struct baum_i_study_reference {
 } baum_i_study_reference;
 
 /* Of other starts, over twice the span. */
-enum { BAUM_I_REHEARSALS = 3 };
+enum { BAUM_I_VALIDATIONS = 3 };
 
 struct baum_study {
   const baum_mechanism *mechanism;
@@ -99,20 +100,20 @@ struct baum_study {
   char error_text[BAUM_I_TEXT_SIZE];
 
   baum_i_study_reference reference;
-  baum_i_course rehearsals[BAUM_I_REHEARSALS];
-  bool rehearsed; /* they have been made */
+  baum_i_samples validations[BAUM_I_VALIDATIONS];
+  bool validated; /* they have been made */
 
-  baum_i_row **rows; /* (row_count) */
-  int row_count;
+  baum_i_entry **entries; /* (entry_count) */
+  int entry_count;
   baum_i_study_method *methods; /* (method_count) */
   int method_count;
 
-  bool begun;   /* rows have been run: what they depend on stays */
+  bool begun;   /* entries have been run: what they depend on stays */
   bool running; /* within baum_study_run(): its progress must change nothing */
   atomic_int cancelled;
 };
 
-/* ---- study.c, rows.c ---- */
+/* ---- study.c, entries.c ---- */
 
 /* A struct of a caller, of this version or an older one, over the default that `to` holds. */
 baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
@@ -120,13 +121,13 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
 /* BAUM_ERR_STATE within baum_study_run(). */
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 
-/* Give up rows and methods from these numbers on. */
-void baum_i_study_drop_rows(baum_study *study, int rows, int methods);
+/* Give up entries and methods from these numbers on. */
+void baum_i_study_truncate(baum_study *study, int entries, int methods);
 
 /* ---- grid.c ---- */
 
-/* [1/s] of the motion: that at the start, or the mean |v| / scale of a rough run where that is more. A rough run that fails
- * tells what it has seen. What baum_simulation_create() returns. */
+/* [1/s] of the motion: that at the start, or the mean |v| / scale of a rough run where that is
+ * more. A rough run that fails tells what it has seen. What baum_simulation_create() returns. */
 baum_status baum_i_study_rate(const baum_study *study, double *rate);
 
 /* Those of SUNDIALS are there by name without it. */
@@ -150,27 +151,28 @@ double baum_i_setting(const baum_simulation_options *options);
 
 baum_i_layout baum_i_study_layout(const baum_study *study);
 
-/* The channels of the layout, which are at most BAUM_I_CHANNELS and the user's; returns their number, the user's being
- * added behind. */
+/* The channels of the layout, which are at most BAUM_I_CHANNELS and the user's; returns their
+ * number, the user's being added behind. */
 int baum_i_study_channels(const baum_study *study, baum_channel *channels);
 
-/* Weights of differences from the reference, whose rows are there. BAUM_ERR_MEMORY and what an evaluation may fail with. */
+/* Weights of differences from the reference, whose entries are there. BAUM_ERR_MEMORY and what an
+ * evaluation may fail with. */
 baum_status baum_i_study_weigh(baum_study *study);
 
 /* Samples of a run against a motion that is known, with the weights of the reference. */
-baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_course *course,
-                                        const double *rows);
+baum_i_differences baum_i_study_compare(const baum_study *study, const baum_i_samples *samples,
+                                        const double *values);
 
 /* ---- one_run.c ---- */
 
 /* When a run has to stop. */
-typedef struct baum_i_watch {
+typedef struct baum_i_deadline {
   const baum_study *study;
   double limit;    /* [s] of CPU time of this thread */
   double begin;    /* [s] likewise */
-  double deadline; /* [s] of wall time, when the budget is spent */
+  double wall_end; /* [s] of wall time, when the budget is spent */
   bool timed_out;
-} baum_i_watch;
+} baum_i_deadline;
 
 typedef struct baum_i_outcome {
   baum_status status;
@@ -188,26 +190,26 @@ double baum_i_wall_seconds(void);
 typedef struct baum_i_task {
   const baum_study *study;
   const baum_simulation_options *options;
-  const baum_i_course *course;
+  const baum_i_samples *samples;
   bool with_account; /* of energy, if the study has it */
 } baum_i_task;
 
-/* Run through the samples of the course, and from the start as designed on to the end of the span; rows (n x width) NULL: no
- * samples are taken. */
-void baum_i_study_run_one(const baum_i_task *task, baum_i_watch *watch, double *rows,
+/* Run through the samples of the samples, and from the start as drawn on to the end of the span;
+ * values (n x width) NULL: no samples are taken. */
+void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, double *values,
                           baum_i_outcome *out);
 
 /* What is said of a run that takes longer than that [s]. */
 void baum_i_say_too_long(double limit, char *text, size_t size);
 
 /* Cancelled, or the budget spent? */
-bool baum_i_watch_stops(const baum_i_watch *watch);
+bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 
 /* ---- reference.c ---- */
 
-/* Make the reference: BAUM_OK, also where it is not to be trusted or there is none; BAUM_ERR_MEMORY, what the
- * solution fails with, and what stops all runs. */
-baum_status baum_i_study_make_reference(baum_study *study, baum_i_watch *watch);
+/* Make the reference: BAUM_OK, also where it is not to be trusted or there is none;
+ * BAUM_ERR_MEMORY, what the solution fails with, and what stops all runs. */
+baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
 
 /* A run that is asked for channels and goes nowhere. */
 baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out);
@@ -217,49 +219,53 @@ baum_status baum_i_study_set_times(baum_study *study);
 
 void baum_i_study_clear_reference(baum_study *study);
 
-/* ---- rehearse.c ---- */
+/* ---- validate.c ---- */
 
-/* Make the motions that are rehearsed with. BAUM_OK, also where some cannot be made; BAUM_ERR_MEMORY. */
-baum_status baum_i_study_make_rehearsals(baum_study *study, baum_i_watch *watch);
+/* Make the motions that are validated with. BAUM_OK, also where some cannot be made;
+ * BAUM_ERR_MEMORY. */
+baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *deadline);
 
-/* Is a row to be rehearsed, all rows being timed? */
-bool baum_i_study_wants_rehearsal(const baum_study *study, const baum_i_row *row);
+/* Is an entry to be validated, all entries being timed? */
+bool baum_i_study_wants_validation(const baum_study *study, const baum_i_entry *entry);
 
-/* Largest error of a row there, NaN where it is not known; samples: (n x width) to work in. BAUM_OK, also for a row that
- * fails there; BAUM_ERR_MEMORY. */
-baum_status baum_i_study_rehearse(const baum_study *study, const baum_i_row *row,
-                                  baum_i_watch *watch, double *samples, double *error);
+/* Largest error of an entry there, NaN where it is not known; samples: (n x width) to work in.
+ * BAUM_OK, also for an entry that fails there; BAUM_ERR_MEMORY. */
+baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *entry,
+                                  baum_i_deadline *deadline, double *values, double *error);
 
-void baum_i_study_clear_course(baum_i_course *course);
+void baum_i_study_clear_samples(baum_i_samples *samples);
 
 /* ---- study_file.c ---- */
 
 typedef struct baum_i_study_file baum_i_study_file;
 
-/* Open the file of the options, take rows and reference from it, and go on behind its end. *out is NULL without one. */
+/* Open the file of the options, take entries and reference from it, and go on behind its end. *out
+ * is NULL without one. */
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
 /* Append what is known; with no file BAUM_OK. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
-baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row);
-baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row);
-baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_row *row);
+baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_entry *entry);
+baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_entry *entry);
+baum_status baum_i_study_file_validated(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
 
 /* ---- work.c ---- */
 
-double baum_i_study_work(const baum_i_row *row);
+double baum_i_study_work(const baum_i_entry *entry);
 
 /* ---- methods.c ---- */
 
-/* The method of a row's options, which is new if need be; -1 without memory. */
-int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int row);
+/* The method of an entry's options, which is new if need be; -1 without memory. */
+int baum_i_study_find_method(baum_study *study, const baum_simulation_options *options, int entry);
 
-/* Done, timed, with an error of the motion that is asked for, and gains that damp: what may be recommended. */
-bool baum_i_study_is_answer(const baum_i_row *row);
+/* Done, timed, with an error of the motion that is asked for, and gains that damp: what may be
+ * recommended. */
+bool baum_i_study_is_answer(const baum_i_entry *entry);
 
-/* Rows of a method that are done, timed and not off, from coarse to fine; returns how many. Of more the first ones count. */
-enum { BAUM_I_METHOD_ROWS = 256 };
+/* Entries of a method that are done, timed and not off, from coarse to fine; returns how many. Of
+ * more the first ones count. */
+enum { BAUM_I_METHOD_ENTRIES = 256 };
 int baum_i_study_usable(const baum_study *study, int method,
-                        const baum_i_row *rows[BAUM_I_METHOD_ROWS]);
+                        const baum_i_entry *entries[BAUM_I_METHOD_ENTRIES]);
 
 #endif

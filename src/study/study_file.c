@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The study file: lines of text, each written at once when its result is known.
  *
- *   baum-study 2 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX reference HEX #SUM
- *   reference DIGITS ... | TEXT #SUM
- *   row KEY STATE STATUS ... | MESSAGE #SUM
+ *   baum-study 3 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX
+ *   reference HEX #SUM reference DIGITS ... | TEXT #SUM
+ *   entry KEY STATE STATUS ... | MESSAGE #SUM
  *   time KEY EVALUATIONS ... #SUM
- *   rehearsed KEY NUMBER #SUM
+ *   validated KEY NUMBER #SUM
  *
- * KEY is a sum over the options of a row, so that rows may be added in any order. SUM is over the line before it and, but
- * for the first line, what that one has: a line that is cut off, damaged or of another study is not a result, and its row is
- * run again. Of two lines of one row the first counts that has not run out of time.
+ * KEY is a sum over the options of an entry, so that entries may be added in any order. SUM is over
+ * the line before it and, but for the first line, what that one has: a line that is cut off,
+ * damaged or of another study is not a result, and its entry is run again. Of two lines of one
+ * entry the first counts that has not run out of time.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -29,9 +30,9 @@
 #include "study/study_line.h"
 
 enum { LINE = BAUM_I_STUDY_LINE, MARKS = 8 };
-enum { FILED_MEASURED = 1, FILED_TIMED = 2, FILED_REHEARSED = 4 };
+enum { FILED_MEASURED = 1, FILED_TIMED = 2, FILED_VALIDATED = 4 };
 static const char HEAD[] = "baum-study ";
-static const char VERSION[] = "baum-study 2";
+static const char VERSION[] = "baum-study 3";
 
 struct baum_i_study_file {
   FILE *stream;
@@ -97,7 +98,7 @@ static uint64_t digest_reference(const baum_study *study)
   uint64_t value = digest_numbers(&r->digits, 1, (uint64_t)r->out.origin);
   for (int k = 0; k < 3; k++) {
     if (r->given[k]) {
-      value = digest_numbers(r->given[k], (size_t)r->course.n * (size_t)widths[k], value);
+      value = digest_numbers(r->given[k], (size_t)r->samples.n * (size_t)widths[k], value);
     }
   }
   return value;
@@ -112,7 +113,7 @@ static void mark_study(const baum_study *study, mark marks[MARKS])
     {"structure", "the elements of the mechanism", print.structure},
     {"numbers", "the numbers of the mechanism", print.numbers},
     {"span", "the time span", digest_numbers(span, 2, 0)},
-    {"samples", "the samples", digest_numbers(r->course.times, (size_t)r->course.n, 0)},
+    {"samples", "the samples", digest_numbers(r->samples.times, (size_t)r->samples.n, 0)},
     {"error", "what error means", digest_error(study)},
     {"account", "the option energy_account", study->options.energy_account},
     {"reference", "the reference", digest_reference(study)},
@@ -178,53 +179,53 @@ static const char *text_at(const char *rest)
   return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-static void take_measured(const baum_study *study, baum_i_row *row, const char *rest)
+static void take_measured(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
-  baum_study_row out = row->out;
+  baum_study_entry out = entry->out;
   double limit = 0.0;
   rest = baum_i_read_number(rest, &limit);
   rest = rest ? baum_i_study_read_fields(rest, &out, &baum_i_measured_fields) : NULL;
   const char *message = text_at(rest);
-  bool too_short = out.state == BAUM_STUDY_TIMED_OUT && !(limit >= study->options.row_limit);
+  bool too_short = out.state == BAUM_STUDY_TIMED_OUT && !(limit >= study->options.entry_limit);
   if (!message || too_short) {
     return;
   }
-  row->filed |= FILED_MEASURED;
-  if (!row->measured || row->out.state == BAUM_STUDY_TIMED_OUT) {
-    row->out = out;
-    row->limit = limit;
-    row->measured = true;
-    (void)snprintf(row->message, sizeof row->message, "%s", message);
+  entry->filed |= FILED_MEASURED;
+  if (!entry->measured || entry->out.state == BAUM_STUDY_TIMED_OUT) {
+    entry->out = out;
+    entry->limit = limit;
+    entry->measured = true;
+    (void)snprintf(entry->message, sizeof entry->message, "%s", message);
   }
 }
 
-static void take_timed(const baum_study *study, baum_i_row *row, const char *rest)
+static void take_timed(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   (void)study;
-  baum_study_row out = row->out;
+  baum_study_entry out = entry->out;
   rest = baum_i_study_read_fields(rest, &out, &baum_i_timed_fields);
-  if (!rest || *rest || !row->measured || row->out.state != BAUM_STUDY_DONE) {
+  if (!rest || *rest || !entry->measured || entry->out.state != BAUM_STUDY_DONE) {
     return;
   }
-  row->filed |= FILED_TIMED;
-  if (!row->timed) {
-    row->out = out;
-    row->timed = true;
+  entry->filed |= FILED_TIMED;
+  if (!entry->timed) {
+    entry->out = out;
+    entry->timed = true;
   }
 }
 
-static void take_rehearsed(const baum_study *study, baum_i_row *row, const char *rest)
+static void take_validated(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   (void)study;
-  baum_study_row out = row->out;
-  rest = baum_i_study_read_fields(rest, &out, &baum_i_rehearsed_fields);
-  if (!rest || *rest || !row->measured || row->out.state != BAUM_STUDY_DONE) {
+  baum_study_entry out = entry->out;
+  rest = baum_i_study_read_fields(rest, &out, &baum_i_validated_fields);
+  if (!rest || *rest || !entry->measured || entry->out.state != BAUM_STUDY_DONE) {
     return;
   }
-  row->filed |= FILED_REHEARSED;
-  if (!row->rehearsed) {
-    row->out = out;
-    row->rehearsed = true;
+  entry->filed |= FILED_VALIDATED;
+  if (!entry->validated) {
+    entry->out = out;
+    entry->validated = true;
   }
 }
 
@@ -240,14 +241,14 @@ static void take_reference(baum_study *study, const char *rest)
   }
 }
 
-/* A line WORD KEY REST of a row, or of several that are the same. */
+/* A line WORD KEY REST of an entry, or of several that are the same. */
 static void take_of_row(const baum_study *study, const char *line)
 {
-  typedef void take_fn(const baum_study *study, baum_i_row *row, const char *rest);
+  typedef void take_fn(const baum_study *study, baum_i_entry *entry, const char *rest);
   static const struct {
     const char *word;
     take_fn *take;
-  } KINDS[] = {{"row ", take_measured}, {"time ", take_timed}, {"rehearsed ", take_rehearsed}};
+  } KINDS[] = {{"entry ", take_measured}, {"time ", take_timed}, {"validated ", take_validated}};
   for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0]; i++) {
     size_t length = strlen(KINDS[i].word);
     if (strncmp(line, KINDS[i].word, length) != 0) {
@@ -255,9 +256,9 @@ static void take_of_row(const baum_study *study, const char *line)
     }
     char *end = NULL;
     uint64_t key = strtoull(line + length, &end, 16);
-    for (int k = 0; k < study->row_count; k++) {
-      if (study->rows[k]->key == key) {
-        KINDS[i].take(study, study->rows[k], end);
+    for (int k = 0; k < study->entry_count; k++) {
+      if (study->entries[k]->key == key) {
+        KINDS[i].take(study, study->entries[k], end);
       }
     }
   }
@@ -358,16 +359,16 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
   baum_status status = BAUM_OK;
-  for (int k = 0; k < study->row_count && status == BAUM_OK; k++) {
-    const baum_i_row *row = study->rows[k];
-    if (row->measured && !(row->filed & FILED_MEASURED)) {
-      status = baum_i_study_file_measured(file, row);
+  for (int k = 0; k < study->entry_count && status == BAUM_OK; k++) {
+    const baum_i_entry *entry = study->entries[k];
+    if (entry->measured && !(entry->filed & FILED_MEASURED)) {
+      status = baum_i_study_file_measured(file, entry);
     }
-    if (status == BAUM_OK && row->timed && !(row->filed & FILED_TIMED)) {
-      status = baum_i_study_file_timed(file, row);
+    if (status == BAUM_OK && entry->timed && !(entry->filed & FILED_TIMED)) {
+      status = baum_i_study_file_timed(file, entry);
     }
-    if (status == BAUM_OK && row->rehearsed && !(row->filed & FILED_REHEARSED)) {
-      status = baum_i_study_file_rehearsed(file, row);
+    if (status == BAUM_OK && entry->validated && !(entry->filed & FILED_VALIDATED)) {
+      status = baum_i_study_file_validated(file, entry);
     }
   }
   return status;
@@ -387,8 +388,8 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
   file->seed = seed_of(study);
   bool is_new = true;
   bool whole = true;
-  for (int k = 0; k < study->row_count; k++) {
-    study->rows[k]->filed = 0;
+  for (int k = 0; k < study->entry_count; k++) {
+    study->entries[k]->filed = 0;
   }
   baum_status status = take_present(file, study, &is_new, &whole);
   if (status == BAUM_OK) {
@@ -432,37 +433,37 @@ baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_stud
   return write_line(file, line, file->seed);
 }
 
-baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_row *row)
+baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_entry *entry)
 {
   char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "row %016" PRIx64 " %s", row->key,
-                baum_i_exact(row->limit, "inf").text);
-  baum_i_study_write_fields(line, &row->out, &baum_i_measured_fields);
-  baum_i_study_write_text(line, row->message);
+  baum_i_append(line, LINE, "entry %016" PRIx64 " %s", entry->key,
+                baum_i_exact(entry->limit, "inf").text);
+  baum_i_study_write_fields(line, &entry->out, &baum_i_measured_fields);
+  baum_i_study_write_text(line, entry->message);
   return write_line(file, line, file->seed);
 }
 
-baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_row *row)
+baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_entry *entry)
 {
   char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "time %016" PRIx64, row->key);
-  baum_i_study_write_fields(line, &row->out, &baum_i_timed_fields);
+  baum_i_append(line, LINE, "time %016" PRIx64, entry->key);
+  baum_i_study_write_fields(line, &entry->out, &baum_i_timed_fields);
   return write_line(file, line, file->seed);
 }
 
-baum_status baum_i_study_file_rehearsed(baum_i_study_file *file, const baum_i_row *row)
+baum_status baum_i_study_file_validated(baum_i_study_file *file, const baum_i_entry *entry)
 {
   char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "rehearsed %016" PRIx64, row->key);
-  baum_i_study_write_fields(line, &row->out, &baum_i_rehearsed_fields);
+  baum_i_append(line, LINE, "validated %016" PRIx64, entry->key);
+  baum_i_study_write_fields(line, &entry->out, &baum_i_validated_fields);
   return write_line(file, line, file->seed);
 }

@@ -25,9 +25,9 @@ struct baum_i_study_field {
   field_kind kind;
 };
 
-#define ROW(name, kind)                    \
-  {                                        \
-    offsetof(baum_study_row, name), (kind) \
+#define ROW(name, kind)                      \
+  {                                          \
+    offsetof(baum_study_entry, name), (kind) \
   }
 #define REFERENCE(name, kind)                    \
   {                                              \
@@ -75,7 +75,7 @@ static const baum_i_study_field TIMED[] = {
   ROW(cpu, NUMBER),        ROW(cpu_spread, NUMBER),    ROW(repeats, REPEATS),
 };
 
-static const baum_i_study_field REHEARSED[] = {ROW(error_rehearsed, NUMBER)};
+static const baum_i_study_field VALIDATED[] = {ROW(error_validated, NUMBER)};
 
 static const baum_i_study_field KNOWN[] = {
   REFERENCE(trusted, YES_OR_NO),         REFERENCE(digits, NUMBER),
@@ -91,7 +91,7 @@ static const baum_i_study_field KNOWN[] = {
 
 const baum_i_study_fields baum_i_measured_fields = FIELDS(MEASURED);
 const baum_i_study_fields baum_i_timed_fields = FIELDS(TIMED);
-const baum_i_study_fields baum_i_rehearsed_fields = FIELDS(REHEARSED);
+const baum_i_study_fields baum_i_validated_fields = FIELDS(VALIDATED);
 const baum_i_study_fields baum_i_reference_fields = FIELDS(KNOWN);
 
 /* ---- writing ---- */

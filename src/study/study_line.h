@@ -16,15 +16,16 @@ typedef struct baum_i_study_fields {
   int count;
 } baum_i_study_fields;
 
-extern const baum_i_study_fields baum_i_measured_fields;  /* of baum_study_row: the motion */
-extern const baum_i_study_fields baum_i_timed_fields;     /* of baum_study_row: the cost */
-extern const baum_i_study_fields baum_i_rehearsed_fields; /* of baum_study_row */
+extern const baum_i_study_fields baum_i_measured_fields;  /* of baum_study_entry: the motion */
+extern const baum_i_study_fields baum_i_timed_fields;     /* of baum_study_entry: the cost */
+extern const baum_i_study_fields baum_i_validated_fields; /* of baum_study_entry */
 extern const baum_i_study_fields baum_i_reference_fields; /* of baum_study_reference */
 
 void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
                                const baum_i_study_fields *fields);
 
-/* Returns where the fields end; NULL where one is missing or has no such value, the object being half-read then. */
+/* Returns where the fields end; NULL where one is missing or has no such value, the object being
+ * half-read then. */
 const char *baum_i_study_read_fields(const char *text, void *object,
                                      const baum_i_study_fields *fields);
 

@@ -164,12 +164,12 @@ static void add_study(baum_i_digest *d, const baum_study *study)
   baum_study_reference r;
   assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
   baum_i_digest_add_integer(d, r.origin);
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row;
-    assert_int_equal(baum_study_row_at(study, k, &row, sizeof row), BAUM_OK);
-    baum_i_digest_add_text(d, row.name);
-    baum_i_digest_add_integer(d, row.state);
-    baum_i_digest_add(d, &row.error, sizeof row.error);
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry;
+    assert_int_equal(baum_study_entry_at(study, k, &entry, sizeof entry), BAUM_OK);
+    baum_i_digest_add_text(d, entry.name);
+    baum_i_digest_add_integer(d, entry.state);
+    baum_i_digest_add(d, &entry.error, sizeof entry.error);
   }
 }
 
@@ -367,9 +367,9 @@ CALL(baum_study_add_standard)
   return baum_study_add_standard(s->study, &grid);
 }
 
-CALL(baum_study_add_extremes)
+CALL(baum_study_add_stress)
 {
-  return baum_study_add_extremes(s->study, baum_rk4());
+  return baum_study_add_stress(s->study, baum_rk4());
 }
 
 CALL(baum_study_set_error)
@@ -438,7 +438,7 @@ static const call CALLS[] = {
   ROW(baum_study_set_options, STUDIED),
   ROW(baum_study_add, STUDIED),
   ROW(baum_study_add_standard, STUDIED),
-  ROW(baum_study_add_extremes, STUDIED),
+  ROW(baum_study_add_stress, STUDIED),
   ROW(baum_study_set_error, STUDIED),
   ROW(baum_study_set_reference, STUDIED),
   ROW(baum_study_run, STUDIED),

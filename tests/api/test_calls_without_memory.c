@@ -60,7 +60,7 @@ typedef struct scene {
   baum_simulation_options options;
   baum_study_options study_options;
   baum_study_grid grid;
-  baum_study_row row;
+  baum_study_entry study_entry;
   baum_study_method method;
   baum_study_reference reference;
   double catalog_x[WIDTH];
@@ -121,8 +121,8 @@ typedef struct scene {
   X(baum_catalog_compare, (&s->choice, s->pendulum, s->times, 1, s->catalog_x,               \
                            s->catalog_x + WIDTH / 2, &s->error, sizeof s->error))            \
   X(baum_study_set_solution, (s->fresh, baum_catalog_solution, &s->choice, 9.0))             \
-  X(baum_study_row_at, (s->study, 0, &s->row, sizeof s->row))                                \
-  X(baum_study_row_options, (s->study, 0, &s->options, sizeof s->options))                   \
+  X(baum_study_entry_at, (s->study, 0, &s->study_entry, sizeof s->study_entry))              \
+  X(baum_study_entry_options, (s->study, 0, &s->options, sizeof s->options))                 \
   X(baum_study_method_at, (s->study, 0, &s->method, sizeof s->method))                       \
   X(baum_study_reference_read, (s->study, &s->reference, sizeof s->reference))               \
   X(baum_study_reference_sample, (s->study, 0, s->x, NULL, NULL, NULL))                      \
@@ -213,7 +213,7 @@ typedef struct scene {
   X(baum_study_grid_init, (&s->grid, sizeof s->grid))                                            \
   X(baum_study_destroy, (NULL))                                                                  \
   X(baum_study_cancel, (NULL))                                                                   \
-  X(baum_study_row_count, (s->study))                                                            \
+  X(baum_study_entry_count, (s->study))                                                          \
   X(baum_study_method_count, (s->study))                                                         \
   X(baum_study_error_text, (s->study))                                                           \
   X(baum_study_state_name, (BAUM_STUDY_DONE))

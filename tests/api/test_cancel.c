@@ -15,7 +15,7 @@
 #include "driven.h"
 #include "models.h"
 #include "step_mode.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 enum { NV_MOST = 16, MOST_STEPS = 400, SAMPLES = 7 };
 static const double END = 0.3; /* [s] */
@@ -234,7 +234,7 @@ static void samples_that_need_no_step_are_cancelled(void **unused)
   model_destroy(&m);
 }
 
-static void a_study_goes_on_to_the_same_rows(void **unused)
+static void a_study_goes_on_to_the_same_entries(void **unused)
 {
   (void)unused;
   model pendulum;
@@ -249,10 +249,10 @@ static void a_study_goes_on_to_the_same_rows(void **unused)
     baum_study *got = study_of(pendulum.mechanism, &left);
     status = baum_study_run(got);
     assert_int_equal(baum_study_run(got), BAUM_OK);
-    assert_same_rows(got, want);
+    assert_same_entries(got, want);
     baum_study_destroy(got);
   }
-  assert_true(k > 2 * 4); /* two stages of each row */
+  assert_true(k > 2 * 4); /* two stages of each entry */
   baum_study_destroy(want);
   model_destroy(&pendulum);
 }
@@ -264,7 +264,7 @@ int main(void)
     cmocka_unit_test(kinematics_go_on_likewise),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
-    cmocka_unit_test(a_study_goes_on_to_the_same_rows),
+    cmocka_unit_test(a_study_goes_on_to_the_same_entries),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

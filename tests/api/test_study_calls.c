@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of a study that are refused, with the sentence and nothing changed; defaults; rows that cannot be run; memory that
+/* Calls of a study that are refused, with the sentence and nothing changed; defaults; entries that cannot be run; memory that
  * runs out. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
@@ -14,7 +14,7 @@
 #include "heap.h"
 #include "models.h"
 #include "sentence.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 static baum_study *make(const model *m)
 {
@@ -69,7 +69,7 @@ static void calls_on_no_study_are_refused(void **state)
 {
   (void)state;
   baum_study_options o = baum_study_options_default();
-  baum_study_row row;
+  baum_study_entry entry;
   baum_study_method method;
   baum_study_reference reference;
   baum_simulation_options best;
@@ -81,13 +81,13 @@ static void calls_on_no_study_are_refused(void **state)
     baum_study_set_options(NULL, &o),
     baum_study_add(NULL, &best),
     baum_study_add_standard(NULL, NULL),
-    baum_study_add_extremes(NULL, NULL),
+    baum_study_add_stress(NULL, NULL),
     baum_study_set_error(NULL, &q, 1, 1.0),
     baum_study_set_reference(NULL, &one, 1, &one, NULL, NULL, 9.0),
     baum_study_set_solution(NULL, NULL, NULL, 9.0),
     baum_study_run(NULL),
-    baum_study_row_at(NULL, 0, &row, sizeof row),
-    baum_study_row_options(NULL, 0, &best, sizeof best),
+    baum_study_entry_at(NULL, 0, &entry, sizeof entry),
+    baum_study_entry_options(NULL, 0, &best, sizeof best),
     baum_study_method_at(NULL, 0, &method, sizeof method),
     baum_study_reference_read(NULL, &reference, sizeof reference),
     baum_study_reference_sample(NULL, 0, NULL, NULL, NULL, NULL),
@@ -101,7 +101,7 @@ static void calls_on_no_study_are_refused(void **state)
   for (size_t k = 0; k < sizeof refused / sizeof refused[0]; k++) {
     assert_int_equal(refused[k], BAUM_ERR_ARGUMENT);
   }
-  assert_int_equal(baum_study_row_count(NULL), 0);
+  assert_int_equal(baum_study_entry_count(NULL), 0);
   assert_int_equal(baum_study_method_count(NULL), 0);
   assert_null(baum_study_error_text(NULL));
   assert_null(baum_study_state_name((baum_study_state)99));
@@ -117,7 +117,7 @@ static void options_out_of_range_are_refused_by_name(void **state)
     {{.samples = 1}, "samples is 1, must be 2 to 1000000"},
     {{.threads = 0}, "threads is 0, must be 1 to 1024"},
     {{.repeats = -1}, "repeats is -1"},
-    {{.row_limit = 0.0}, "row_limit is 0 s, must be > 0"},
+    {{.entry_limit = 0.0}, "entry_limit is 0 s, must be > 0"},
     {{.time_budget = (double)NAN}, "time_budget is nan s"},
   };
   for (int k = 0; k < 5; k++) {
@@ -125,7 +125,7 @@ static void options_out_of_range_are_refused_by_name(void **state)
     o.samples = k == 0 ? wrong[k].options.samples : o.samples;
     o.threads = k == 1 ? wrong[k].options.threads : o.threads;
     o.repeats = k == 2 ? wrong[k].options.repeats : o.repeats;
-    o.row_limit = k == 3 ? wrong[k].options.row_limit : o.row_limit;
+    o.entry_limit = k == 3 ? wrong[k].options.entry_limit : o.entry_limit;
     o.time_budget = k == 4 ? wrong[k].options.time_budget : o.time_budget;
     ASSERT_SAYS(baum_study_set_options(study, &o), BAUM_ERR_ARGUMENT, wrong[k].says);
   }
@@ -159,7 +159,7 @@ static void sizes_that_cannot_be_meant_are_refused_with_their_limit(void **state
   }
   o = (baum_study_options){.samples = 1000000, .threads = 1024, .repeats = 1000000};
   o.struct_size = sizeof o;
-  o.row_limit = o.time_budget = 1.0;
+  o.entry_limit = o.time_budget = 1.0;
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   baum_study_destroy(study);
 
@@ -198,9 +198,9 @@ static void grids_out_of_range_are_refused_and_add_nothing(void **state)
   g.formulation = BAUM_FORMULATION_INDEX3;
   ASSERT_SAYS(baum_study_add_standard(study, &g), BAUM_ERR_ARGUMENT,
               "no such integrator with the formulation index3");
-  assert_int_equal(baum_study_row_count(study), 0);
+  assert_int_equal(baum_study_entry_count(study), 0);
   assert_int_equal(baum_study_method_count(study), 0);
-  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_STATE, "no rows");
+  ASSERT_SAYS(baum_study_run(study), BAUM_ERR_STATE, "no entries");
   baum_study_destroy(study);
 }
 
@@ -216,7 +216,7 @@ static int change_all(const baum_study *study, int32_t done, int32_t total, void
   ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is under way");
   ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is under way");
-  ASSERT_SAYS(baum_study_add_extremes(under_way, NULL), BAUM_ERR_STATE, "is under way");
+  ASSERT_SAYS(baum_study_add_stress(under_way, NULL), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_set_options(under_way, &options), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_set_error(under_way, &q, 1, 1.0), BAUM_ERR_STATE, "stays as it is");
   return 0;
@@ -228,17 +228,17 @@ static void progress_cannot_change_what_is_under_way(void **state)
   const baum_simulation_options o = rk4(0.01);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   baum_study_options options = baum_study_options_default();
-  options.rehearse = false;
+  options.validate = false;
   options.progress = change_all;
   options.user = study;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
-  assert_int_equal(baum_study_row_count(study), 1);
+  assert_int_equal(baum_study_entry_count(study), 1);
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   baum_study_destroy(study);
 }
 
-/* Its finer neighbours are passed over when a row reaches the limit; these are none. */
+/* Its finer neighbours are passed over when an entry reaches the limit; these are none. */
 static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
 {
   baum_study *study = make(*state);
@@ -248,13 +248,13 @@ static void settings_that_are_none_are_refused_whatever_takes_long(void **state)
     assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   }
   baum_study_options options = baum_study_options_default();
-  options.rehearse = false;
-  options.row_limit = 1e-6;
+  options.validate = false;
+  options.entry_limit = 1e-6;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
   (void)baum_study_run(study); /* the limit is the reference's, too */
-  assert_int_equal(study_row(study, 0).state, BAUM_STUDY_TIMED_OUT);
-  assert_int_equal(study_row(study, 1).state, BAUM_STUDY_REFUSED);
-  assert_int_equal(study_row(study, 2).state, BAUM_STUDY_REFUSED);
+  assert_int_equal(study_entry(study, 0).state, BAUM_STUDY_TIMED_OUT);
+  assert_int_equal(study_entry(study, 1).state, BAUM_STUDY_REFUSED);
+  assert_int_equal(study_entry(study, 2).state, BAUM_STUDY_REFUSED);
   baum_study_destroy(study);
 }
 
@@ -263,8 +263,8 @@ static void what_error_means_is_told_by_name(void **state)
   const model *m = *state;
   baum_study *study = make(m);
   const baum_channel pose = {.quantity = BAUM_BODY_POSE, .body = m->bodies[0]};
-  const baum_channel row = {.quantity = BAUM_PHI, .joint = m->joints[0]};
-  const baum_channel channels[5] = {pose, row, {.quantity = BAUM_ENERGY}, pose, row};
+  const baum_channel entry = {.quantity = BAUM_PHI, .joint = m->joints[0]};
+  const baum_channel channels[5] = {pose, entry, {.quantity = BAUM_ENERGY}, pose, entry};
   assert_string_equal(
     baum_study_error_text(study),
     "largest error of all positions over all samples, lengths by 1, angles in rad");
@@ -288,19 +288,19 @@ static void what_is_not_known_yet_is_refused(void **state)
   o.integrator = NULL;
   ASSERT_SAYS(baum_study_add(study, &o), BAUM_ERR_ARGUMENT, "integrator is NULL");
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_STATE, "no row is done");
+              BAUM_ERR_STATE, "no entry is done");
   ASSERT_SAYS(baum_study_cost_at(study, 1, 1e-3, BAUM_STUDY_WORK, &cost), BAUM_ERR_ARGUMENT,
               "no method 1");
   ASSERT_SAYS(baum_study_reference_sample(study, 0, NULL, NULL, NULL, NULL), BAUM_ERR_STATE,
               "has not been made");
-  baum_study_row row = study_row(study, 0);
-  assert_int_equal(row.state, BAUM_STUDY_WAITING);
-  assert_true(isnan(row.error) && isnan(row.cpu) && isnan(row.error_rehearsed));
-  assert_string_equal(row.name, "rk4 projection, step 0.01 s");
+  baum_study_entry entry = study_entry(study, 0);
+  assert_int_equal(entry.state, BAUM_STUDY_WAITING);
+  assert_true(isnan(entry.error) && isnan(entry.cpu) && isnan(entry.error_validated));
+  assert_string_equal(entry.name, "rk4 projection, step 0.01 s");
   baum_study_destroy(study);
 }
 
-static void what_rows_depend_on_stays_once_they_are_run(void **state)
+static void what_entries_depend_on_stays_once_they_are_run(void **state)
 {
   baum_study *study = make(*state);
   baum_study_options o = small_study_options();
@@ -349,22 +349,22 @@ static void nothing_is_recommended_where_nothing_was_compared(void **state)
   assert_int_equal(baum_study_add(study, &o), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   ASSERT_SAYS(baum_study_recommend(study, 1e-3, BAUM_STUDY_WORK, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no row that is done has followed the motion");
+              BAUM_ERR_ARGUMENT, "no entry that is done has followed the motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, 1.0, &best, sizeof best, NULL, 0),
-              BAUM_ERR_ARGUMENT, "no row that is done has followed the motion");
+              BAUM_ERR_ARGUMENT, "no entry that is done has followed the motion");
   ASSERT_SAYS(baum_study_recommend_budget(study, INFINITY, &best, sizeof best, NULL, 0),
               BAUM_ERR_ARGUMENT, "seconds is inf s, must be finite and > 0");
   baum_study_destroy(study);
 }
 
-/* ---- rows ---- */
+/* ---- entries ---- */
 
-static void a_setting_that_cannot_be_run_is_a_row_with_its_reason(void **state)
+static void a_setting_that_cannot_be_run_is_an_entry_with_its_reason(void **state)
 {
   baum_study *study = make(*state);
   baum_study_options options = small_study_options();
-  options.row_limit = 1e-3;
-  options.rehearse = false;
+  options.entry_limit = 1e-3;
+  options.validate = false;
   assert_int_equal(baum_study_set_options(study, &options), BAUM_OK);
   baum_simulation_options o = rk4(0.01);
   o.formulation = BAUM_FORMULATION_GGL;
@@ -383,7 +383,7 @@ static void a_setting_that_cannot_be_run_is_a_row_with_its_reason(void **state)
   assert_int_equal(baum_study_set_reference(study, &t, 1, place, NULL, NULL, 9.0), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   const struct {
-    baum_study_state row;
+    baum_study_state entry;
     baum_status status;
     const char *says;
   } want[] = {
@@ -393,13 +393,13 @@ static void a_setting_that_cannot_be_run_is_a_row_with_its_reason(void **state)
     {BAUM_STUDY_TIMED_OUT, BAUM_STOP_CANCELLED, "more than 0.001 s"},
   };
   for (int32_t k = 0; k < 4; k++) {
-    baum_study_row row = study_row(study, k);
-    assert_int_equal(row.state, want[k].row);
-    assert_int_equal(row.status, want[k].status);
-    assert_non_null(strstr(row.message, want[k].says));
-    assert_true(isnan(row.error) && isnan(row.work));
+    baum_study_entry entry = study_entry(study, k);
+    assert_int_equal(entry.state, want[k].entry);
+    assert_int_equal(entry.status, want[k].status);
+    assert_non_null(strstr(entry.message, want[k].says));
+    assert_true(isnan(entry.error) && isnan(entry.work));
   }
-  assert_true(study_row(study, 1).unstable);
+  assert_true(study_entry(study, 1).unstable);
   baum_study_destroy(study);
 }
 
@@ -415,9 +415,10 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
                        strcmp(baum_integrator_name(integrator), "ida") == 0;
     for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
       bool found = false;
-      for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-        baum_study_row row = study_row(study, k);
-        found = found || (row.integrator == integrator && row.formulation == (baum_formulation)f);
+      for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+        baum_study_entry entry = study_entry(study, k);
+        found =
+          found || (entry.integrator == integrator && entry.formulation == (baum_formulation)f);
       }
       bool wanted = baum_integrator_offers(integrator, (baum_formulation)f) &&
                     (!of_sundials || baum_has("sundials"));
@@ -444,20 +445,20 @@ static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **sta
     methods += of_sundials && !baum_has("sundials") ? 0 : kinds > 0 ? kinds : 1;
   }
   assert_int_equal(baum_study_method_count(study), methods);
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row = study_row(study, k);
-    assert_int_equal(row.gains.rule, BAUM_GAINS_DEFAULT);
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry = study_entry(study, k);
+    assert_int_equal(entry.gains.rule, BAUM_GAINS_DEFAULT);
     baum_study_method method;
-    assert_int_equal(baum_study_method_at(study, row.method, &method, sizeof method), BAUM_OK);
-    assert_true(method.rows <= 5);
+    assert_int_equal(baum_study_method_at(study, entry.method, &method, sizeof method), BAUM_OK);
+    assert_true(method.entries <= 5);
   }
-  int32_t rows = baum_study_row_count(study);
+  int32_t entries = baum_study_entry_count(study);
   g.settings = 2;
   g.integrator = baum_rk4();
   g.formulation = BAUM_FORMULATION_BAUMGARTE;
   assert_int_equal(baum_study_add_standard(study, &g), BAUM_OK);
-  assert_int_equal(baum_study_row_count(study), rows + 2);
-  assert_int_equal(study_row(study, rows).formulation, BAUM_FORMULATION_BAUMGARTE);
+  assert_int_equal(baum_study_entry_count(study), entries + 2);
+  assert_int_equal(study_entry(study, entries).formulation, BAUM_FORMULATION_BAUMGARTE);
   baum_study_destroy(study);
 }
 
@@ -478,7 +479,7 @@ static baum_status study_little(const model *m)
   return status;
 }
 
-/* Every seventh, for there are some thousand; no row is taken for refused because there was no memory for it. */
+/* Every seventh, for there are some thousand; no entry is taken for refused because there was no memory for it. */
 static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 {
   const model *m = *state;
@@ -512,10 +513,10 @@ int main(void)
     cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
     cmocka_unit_test(what_error_means_is_told_by_name),
     cmocka_unit_test(what_is_not_known_yet_is_refused),
-    cmocka_unit_test(what_rows_depend_on_stays_once_they_are_run),
+    cmocka_unit_test(what_entries_depend_on_stays_once_they_are_run),
     cmocka_unit_test(references_out_of_order_or_without_digits_are_refused),
     cmocka_unit_test(nothing_is_recommended_where_nothing_was_compared),
-    cmocka_unit_test(a_setting_that_cannot_be_run_is_a_row_with_its_reason),
+    cmocka_unit_test(a_setting_that_cannot_be_run_is_an_entry_with_its_reason),
     cmocka_unit_test(the_standard_grid_has_all_integrators_and_formulations),
     cmocka_unit_test(the_quick_grid_has_all_integrators_as_they_are_by_default),
     cmocka_unit_test(without_memory_a_study_fails_and_leaves_none_behind),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study that was interrupted goes on from its file: no row is lost, none is run twice. */
+/* A study that was interrupted goes on from its file: no entry is lost, none is run twice. */
 #define _GNU_SOURCE /* fork, mkstemp */
 #include <errno.h>
 #include <setjmp.h>
@@ -19,7 +19,7 @@
 
 #include "models.h"
 #include "sentence.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
 
@@ -112,7 +112,7 @@ static void run_and_be_killed(scene *s, int at)
   assert_true(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
 }
 
-static int count_rows(const baum_study *study, int32_t done, int32_t total, void *user)
+static int count_entries(const baum_study *study, int32_t done, int32_t total, void *user)
 {
   (void)study;
   (void)total;
@@ -120,44 +120,44 @@ static int count_rows(const baum_study *study, int32_t done, int32_t total, void
   return 0;
 }
 
-/* The study of a scene, ended; *first receives what was done when its first new row was. */
+/* The study of a scene, ended; *first receives what was done when its first new entry was. */
 static baum_study *run_to_the_end(scene *s, int *first)
 {
   *first = 0;
-  s->options.progress = count_rows;
+  s->options.progress = count_entries;
   s->options.user = first;
   baum_study *study = study_of(s);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   return study;
 }
 
-static int rows_done(const baum_study *study)
+static int entries_done(const baum_study *study)
 {
   int count = 0;
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    count += study_row(study, k).state == BAUM_STUDY_DONE;
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    count += study_entry(study, k).state == BAUM_STUDY_DONE;
   }
   return count;
 }
 
-static void a_killed_study_goes_on_without_losing_or_doubling_rows(void **state)
+static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **state)
 {
   (void)state;
   scene whole = make_scene();
   scene broken = make_scene();
   int first = 0;
   baum_study *want = run_to_the_end(&whole, &first);
-  int rows = baum_study_row_count(want);
-  const int kills[] = {KILLED_AT, rows - 1, rows + 3}; /* among errors, and among times */
+  int entries = baum_study_entry_count(want);
+  const int kills[] = {KILLED_AT, entries - 1, entries + 3}; /* among errors, and among times */
   for (size_t k = 0; k < sizeof kills / sizeof kills[0]; k++) {
     run_and_be_killed(&broken, kills[k]);
   }
   baum_study *got = run_to_the_end(&broken, &first);
-  assert_int_equal(first, rows + 1); /* no error is taken anew */
-  assert_same_rows(got, want);
+  assert_int_equal(first, entries + 1); /* no error is taken anew */
+  assert_same_entries(got, want);
   char *text = read_file(broken.path);
-  assert_int_equal(lines_of(text, "row "), rows);
-  assert_int_equal(lines_of(text, "time "), rows_done(want));
+  assert_int_equal(lines_of(text, "entry "), entries);
+  assert_int_equal(lines_of(text, "time "), entries_done(want));
   test_free(text);
   baum_study_destroy(got);
   baum_study_destroy(want);
@@ -175,8 +175,8 @@ static void a_complete_file_needs_no_run(void **state)
   baum_study *got = run_to_the_end(&s, &first);
   char *after = read_file(s.path);
   assert_string_equal(before, after);
-  assert_same_rows(got, want);
-  assert_true(study_row(got, 0).cpu == study_row(want, 0).cpu);
+  assert_same_entries(got, want);
+  assert_true(study_entry(got, 0).cpu == study_entry(want, 0).cpu);
   baum_study_reference r;
   assert_int_equal(baum_study_reference_read(got, &r, sizeof r), BAUM_OK);
   assert_true(r.trusted && r.digits > 10.0);
@@ -196,19 +196,19 @@ static void a_line_that_is_cut_off_or_damaged_is_run_again(void **state)
   int first = 0;
   baum_study *want = run_to_the_end(&s, &first);
   char *text = read_file(s.path);
-  char *row = strstr(text, "\nrow ");
-  assert_non_null(row);
-  const size_t lengths[] = {strlen(text) - 9, (size_t)(row - text) + 40, 30};
+  char *entry = strstr(text, "\nentry ");
+  assert_non_null(entry);
+  const size_t lengths[] = {strlen(text) - 9, (size_t)(entry - text) + 40, 30};
   for (size_t k = 0; k < sizeof lengths / sizeof lengths[0]; k++) {
     write_file(s.path, text, lengths[k]);
     baum_study *got = run_to_the_end(&s, &first);
-    assert_same_rows(got, want);
+    assert_same_entries(got, want);
     baum_study_destroy(got);
   }
-  row[25] = row[25] == '1' ? '2' : '1';
+  entry[27] = entry[27] == '1' ? '2' : '1';
   write_file(s.path, text, strlen(text));
   baum_study *got = run_to_the_end(&s, &first);
-  assert_same_rows(got, want);
+  assert_same_entries(got, want);
   test_free(text);
   baum_study_destroy(got);
   baum_study_destroy(want);
@@ -226,7 +226,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   } others[] = {{"Dear reader,\nthis is no study.\n", 32},
                 {"\0\0\0\0", 4},
                 {"baum-study notes of mine", 24},
-                {"baum-study 2\0 library", 21}};
+                {"baum-study 3\0 library", 21}};
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
     write_file(s.path, others[k].text, others[k].size);
     baum_study *study = study_of(&s);
@@ -240,7 +240,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   end_scene(&s);
 }
 
-/* The same rows of a heavier pendulum, put behind the head of this one. */
+/* The same entries of a heavier pendulum, put behind the head of this one. */
 static void lines_of_another_study_are_run_again(void **state)
 {
   (void)state;
@@ -261,7 +261,7 @@ static void lines_of_another_study_are_run_again(void **state)
   write_file(s.path, other, strlen(other));
   baum_study *got = run_to_the_end(&s, &first);
   assert_int_equal(first, 1);
-  assert_same_rows(got, want);
+  assert_same_entries(got, want);
   test_free(own);
   test_free(other);
   baum_study_destroy(got);
@@ -307,8 +307,8 @@ static void lines_may_end_as_on_other_systems(void **state)
   }
   (void)fclose(stream);
   baum_study *got = run_to_the_end(&s, &first);
-  assert_same_rows(got, want);
-  assert_true(study_row(got, 0).cpu == study_row(want, 0).cpu); /* taken from the file */
+  assert_same_entries(got, want);
+  assert_true(study_entry(got, 0).cpu == study_entry(want, 0).cpu); /* taken from the file */
   test_free(text);
   baum_study_destroy(got);
   baum_study_destroy(want);
@@ -365,9 +365,9 @@ static void a_full_disk_is_a_status_and_loses_nothing(void **state)
     assert_int_equal(baum_study_run(study), BAUM_OK);
     int first = 0;
     baum_study *again = run_to_the_end(&s, &first);
-    assert_int_equal(first, baum_study_row_count(study) + 1);
-    assert_same_rows(again, study);
-    assert_true(study_row(again, 0).cpu == study_row(study, 0).cpu);
+    assert_int_equal(first, baum_study_entry_count(study) + 1);
+    assert_same_entries(again, study);
+    assert_true(study_entry(again, 0).cpu == study_entry(study, 0).cpu);
     baum_study_destroy(again);
     baum_study_destroy(study);
     end_scene(&s);
@@ -390,7 +390,7 @@ static void a_file_that_does_not_reach_the_disk_is_a_status(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(a_killed_study_goes_on_without_losing_or_doubling_rows),
+    cmocka_unit_test(a_killed_study_goes_on_without_losing_or_doubling_entries),
     cmocka_unit_test(a_complete_file_needs_no_run),
     cmocka_unit_test(a_line_that_is_cut_off_or_damaged_is_run_again),
     cmocka_unit_test(a_file_of_something_else_is_refused_and_left_alone),

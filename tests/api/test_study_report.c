@@ -58,30 +58,30 @@ static int count(const char *text, const char *part)
 
 /* ---- what is in them ---- */
 
-static void rows_are_what_the_tests_want(void **state)
+static void entries_are_what_the_tests_want(void **state)
 {
   (void)state;
-  assert_int_equal(baum_study_row_count(scene.study), REPORT_ROWS);
-  for (int k = 0; k < REPORT_ROWS; k++) {
-    baum_study_row row;
-    assert_int_equal(baum_study_row_at(scene.study, k, &row, sizeof row), BAUM_OK);
-    assert_int_equal(row.state, k == REPORT_REFUSED_ROW ? BAUM_STUDY_REFUSED : BAUM_STUDY_DONE);
-    if (k == REPORT_WARNED_ROW) {
-      assert_non_null(strstr(row.message, REPORT_JOINT));
+  assert_int_equal(baum_study_entry_count(scene.study), REPORT_ENTRIES);
+  for (int k = 0; k < REPORT_ENTRIES; k++) {
+    baum_study_entry entry;
+    assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
+    assert_int_equal(entry.state, k == REPORT_REFUSED_ENTRY ? BAUM_STUDY_REFUSED : BAUM_STUDY_DONE);
+    if (k == REPORT_WARNED_ENTRY) {
+      assert_non_null(strstr(entry.message, REPORT_JOINT));
     }
   }
 }
 
-static void a_text_names_every_row_and_what_was_said(void **state)
+static void a_text_names_every_entry_and_what_was_said(void **state)
 {
   (void)state;
   char *text = print(scene.study, BAUM_REPORT_TEXT);
-  for (int k = 0; k < REPORT_ROWS; k++) {
-    baum_study_row row;
-    assert_int_equal(baum_study_row_at(scene.study, k, &row, sizeof row), BAUM_OK);
-    assert_true(count(text, row.name) >= 1);
+  for (int k = 0; k < REPORT_ENTRIES; k++) {
+    baum_study_entry entry;
+    assert_int_equal(baum_study_entry_at(scene.study, k, &entry, sizeof entry), BAUM_OK);
+    assert_true(count(text, entry.name) >= 1);
   }
-  assert_true(count(text, "refused") >= 3); /* of the counts, of its row, of what was said */
+  assert_true(count(text, "refused") >= 3); /* of the counts, of its entry, of what was said */
   assert_true(count(text, "unstable") >= 1);
   assert_int_equal(count(text, "What to take"), 1);
   assert_int_equal(count(text, "\n  1e-10  "), 1);
@@ -89,22 +89,22 @@ static void a_text_names_every_row_and_what_was_said(void **state)
   free(text);
 }
 
-static void a_csv_has_a_line_for_each_row_and_as_many_cells(void **state)
+static void a_csv_has_a_line_for_each_entry_and_as_many_cells(void **state)
 {
   (void)state;
   char *text = print(scene.study, BAUM_REPORT_CSV);
-  assert_int_equal(count(text, "\r\n"), 1 + REPORT_ROWS);
+  assert_int_equal(count(text, "\r\n"), 1 + REPORT_ENTRIES);
   assert_int_equal(strncmp(text, "name,state,integrator,formulation,gains,", 40), 0);
   int titles = 1;
   for (const char *c = text; *c != '\r'; c++) {
     titles += *c == ',';
   }
-  const char *row = strstr(text, "\r\n") + 2;
+  const char *entry = strstr(text, "\r\n") + 2;
   int cells = 1;
   bool quoted = false;
-  for (; *row != '\r'; row++) {
-    quoted ^= *row == '"';
-    cells += !quoted && *row == ',';
+  for (; *entry != '\r'; entry++) {
+    quoted ^= *entry == '"';
+    cells += !quoted && *entry == ',';
   }
   assert_int_equal(cells, titles);
   free(text);
@@ -125,14 +125,14 @@ static void a_json_has_null_for_what_is_not_known(void **state)
   free(text);
 }
 
-static void a_page_draws_every_row_and_loads_nothing(void **state)
+static void a_page_draws_every_entry_and_loads_nothing(void **state)
 {
   (void)state;
   char *page = print(scene.study, BAUM_REPORT_PAGE);
   assert_int_equal(count(page, "<svg class=\"chart\""), 4);
-  assert_int_equal(count(page, "<svg class=\"map\""), 1);        /* rk2 alone has gains */
-  assert_int_equal(count(page, "<tr data-m="), REPORT_ROWS + 4); /* and methods */
-  assert_int_equal(count(page, "http"), 1);                      /* http-equiv */
+  assert_int_equal(count(page, "<svg class=\"map\""), 1);           /* rk2 alone has gains */
+  assert_int_equal(count(page, "<tr data-m="), REPORT_ENTRIES + 4); /* and methods */
+  assert_int_equal(count(page, "http"), 1);                         /* http-equiv */
   assert_int_equal(count(page, "default-src 'none'"), 1);
   free(page);
 }
@@ -157,7 +157,7 @@ static void a_study_that_has_not_been_run_is_reported_too(void **state)
   assert_int_equal(baum_study_create(fresh.mechanism, 0.0, 1.0, &empty), BAUM_OK);
   for (int k = 0; k < FORM_COUNT; k++) {
     char *text = print(fresh.study, FORMS[k]);
-    assert_true(count(text, "waiting") >= REPORT_ROWS || FORMS[k] == BAUM_REPORT_TEXT);
+    assert_true(count(text, "waiting") >= REPORT_ENTRIES || FORMS[k] == BAUM_REPORT_TEXT);
     free(text);
     text = print(empty, FORMS[k]);
     assert_true(strlen(text) > 100);
@@ -201,11 +201,11 @@ static void bad_calls_are_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_are_what_the_tests_want),
-    cmocka_unit_test(a_text_names_every_row_and_what_was_said),
-    cmocka_unit_test(a_csv_has_a_line_for_each_row_and_as_many_cells),
+    cmocka_unit_test(entries_are_what_the_tests_want),
+    cmocka_unit_test(a_text_names_every_entry_and_what_was_said),
+    cmocka_unit_test(a_csv_has_a_line_for_each_entry_and_as_many_cells),
     cmocka_unit_test(a_json_has_null_for_what_is_not_known),
-    cmocka_unit_test(a_page_draws_every_row_and_loads_nothing),
+    cmocka_unit_test(a_page_draws_every_entry_and_loads_nothing),
     cmocka_unit_test(a_page_has_no_markup_of_users),
     cmocka_unit_test(a_study_that_has_not_been_run_is_reported_too),
     cmocka_unit_test(a_buffer_that_is_too_short_gets_the_beginning),

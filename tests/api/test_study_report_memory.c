@@ -30,7 +30,7 @@ static void check_form(const baum_study *study, baum_report_form form)
     failures += status == BAUM_ERR_MEMORY;
     asked = status == BAUM_ERR_MEMORY ? n + 2 : asked;
   }
-  assert_true(failures >= 6); /* rows, their order, methods, two fronts, the text */
+  assert_true(failures >= 6); /* entries, their order, methods, two fronts, the text */
 }
 
 static void every_allocation_of_a_report_may_fail(void **state)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What rows of a study are called, what tells methods apart, and what error means. */
+/* What entries of a study are called, what tells methods apart, and what error means. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -13,7 +13,7 @@
 #include "check.h"
 #include "models.h"
 #include "sentence.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 static int build(void **state)
 {
@@ -32,7 +32,7 @@ static baum_study *make(const model *m)
 {
   baum_study *study = NULL;
   baum_study_options o = small_study_options();
-  o.rehearse = false;
+  o.validate = false;
   check(baum_study_create(m->mechanism, 0.0, 0.5, &study));
   check(baum_study_set_options(study, &o));
   return study;
@@ -50,13 +50,13 @@ static baum_simulation_options baumgarte(baum_gains gains, double step)
 
 /* ---- names ---- */
 
-static void rows_are_called_by_their_gains(void **state)
+static void entries_are_called_by_their_gains(void **state)
 {
   baum_study *study = make(*state);
   const struct {
     baum_gains gains;
     const char *name;
-  } rows[] = {
+  } entries[] = {
     {baum_gains_fixed(5.0, 6.0), "rk4 baumgarte alpha 5 beta 6 1/s, step 0.01 s"},
     {baum_gains_scaled(0.5, 0.25), "rk4 baumgarte alpha h 0.5 beta^2 h^2 0.25, step 0.01 s"},
     {baum_gains_frequency(2.0, 0.7), "rk4 baumgarte 2 Hz ratio 0.7, step 0.01 s"},
@@ -65,12 +65,12 @@ static void rows_are_called_by_their_gains(void **state)
     {baum_gains_best_damping(), "rk4 baumgarte best damping, step 0.01 s"},
     {baum_gains_auto(), "rk4 baumgarte auto, step 0.01 s"},
   };
-  enum { ROWS = sizeof rows / sizeof *rows };
-  for (int32_t k = 0; k < ROWS; k++) {
-    const baum_simulation_options o = baumgarte(rows[k].gains, 0.01);
+  enum { ENTRIES = sizeof entries / sizeof *entries };
+  for (int32_t k = 0; k < ENTRIES; k++) {
+    const baum_simulation_options o = baumgarte(entries[k].gains, 0.01);
     check(baum_study_add(study, &o));
-    assert_string_equal(study_row(study, k).name, rows[k].name);
-    assert_int_equal(study_row(study, k).method, k);
+    assert_string_equal(study_entry(study, k).name, entries[k].name);
+    assert_int_equal(study_entry(study, k).method, k);
   }
   baum_study_destroy(study);
 }
@@ -92,10 +92,10 @@ static void gains_of_rows_belong_to_the_method(void **state)
   static const double factors[3] = {2.0, 2.0, 3.0};
   for (int32_t k = 0; k < 3; k++) {
     baum_simulation_options kept;
-    check(baum_study_row_options(study, k, &kept, sizeof kept));
+    check(baum_study_entry_options(study, k, &kept, sizeof kept));
     assert_true(kept.row_gains != &factor && kept.row_gains[0] == factors[k]);
-    assert_int_equal(study_row(study, k).method, methods[k]);
-    assert_non_null(strstr(study_row(study, k).name, "alpha 5 beta 5 1/s by rows, step"));
+    assert_int_equal(study_entry(study, k).method, methods[k]);
+    assert_non_null(strstr(study_entry(study, k).name, "alpha 5 beta 5 1/s by rows, step"));
   }
   baum_study_destroy(study);
 }
@@ -118,8 +118,8 @@ static void errors_of(const model *m, const baum_channel *channel, double unit, 
   }
   check(baum_study_run(study));
   for (int32_t k = 0; k < 2; k++) {
-    assert_int_equal(study_row(study, k).state, BAUM_STUDY_DONE);
-    errors[k] = study_row(study, k).error;
+    assert_int_equal(study_entry(study, k).state, BAUM_STUDY_DONE);
+    errors[k] = study_entry(study, k).error;
   }
   baum_study_destroy(study);
 }
@@ -152,12 +152,12 @@ static void error_may_be_of_channels_by_a_unit(void **state)
 
 /* ---- refused ---- */
 
-static void what_is_no_unit_no_row_and_no_cost_is_refused(void **state)
+static void what_is_no_unit_no_entry_and_no_cost_is_refused(void **state)
 {
   baum_study *study = make(*state);
   const baum_simulation_options o = baumgarte(baum_gains_fixed(5.0, 5.0), 0.05);
   baum_simulation_options best;
-  baum_study_row row;
+  baum_study_entry entry;
   const baum_channel place = {.quantity = BAUM_Q};
   const baum_channel foreign = {.quantity = BAUM_BODY_POSE, .body = {1, 1}};
   const baum_study_cost none = (baum_study_cost)7;
@@ -168,12 +168,12 @@ static void what_is_no_unit_no_row_and_no_cost_is_refused(void **state)
   ASSERT_SAYS(baum_study_set_error(study, &foreign, 1, 1.0), BAUM_ERR_ARGUMENT, "body");
   check(baum_study_add(study, &o));
   check(baum_study_run(study));
-  ASSERT_SAYS(baum_study_row_at(study, 1, &row, sizeof row), BAUM_ERR_ARGUMENT,
+  ASSERT_SAYS(baum_study_entry_at(study, 1, &entry, sizeof entry), BAUM_ERR_ARGUMENT,
               "k is 1, must be 0 to 0");
   ASSERT_SAYS(baum_study_front(study, none, 0, NULL, &count), BAUM_ERR_ARGUMENT,
               "7 is no baum_study_cost");
   ASSERT_SAYS(baum_study_front(study, BAUM_STUDY_WORK, 3, NULL, &count), BAUM_ERR_ARGUMENT,
-              "rows are NULL");
+              "entries are NULL");
   ASSERT_SAYS(baum_study_compare(study, 0, 0, 1e-3, BAUM_STUDY_WORK, NULL), BAUM_ERR_ARGUMENT,
               "ratio is NULL");
   ASSERT_SAYS(baum_study_cost_at(study, 0, 1e-3, none, &number), BAUM_ERR_ARGUMENT,
@@ -186,10 +186,10 @@ static void what_is_no_unit_no_row_and_no_cost_is_refused(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_are_called_by_their_gains),
+    cmocka_unit_test(entries_are_called_by_their_gains),
     cmocka_unit_test(gains_of_rows_belong_to_the_method),
     cmocka_unit_test(error_may_be_of_channels_by_a_unit),
-    cmocka_unit_test(what_is_no_unit_no_row_and_no_cost_is_refused),
+    cmocka_unit_test(what_is_no_unit_no_entry_and_no_cost_is_refused),
   };
   return cmocka_run_group_tests(tests, build, clear);
 }

@@ -19,7 +19,7 @@ static const double LIMIT = 0.05; /* [s] */
 
 static void print_tally(const char *name, const catalog_tally *t)
 {
-  printf("%-23s %5d %5d %5d %5d %5d %5d %5d %5d %5d | %4d %4d %4d %4d\n", name, t->rows,
+  printf("%-23s %5d %5d %5d %5d %5d %5d %5d %5d %5d | %4d %4d %4d %4d\n", name, t->entries,
          t->state[BAUM_STUDY_DONE], t->state[BAUM_STUDY_REFUSED], t->state[BAUM_STUDY_FAILED],
          t->state[BAUM_STUDY_TIMED_OUT], t->off, t->unstable, t->at_floor, t->compared, t->missing,
          t->better, t->differ, t->unmarked);
@@ -33,7 +33,7 @@ int main(int count, char **words)
   catalog_tally sum = {0};
   bool fine = true;
   double begin = timing_now();
-  printf("%-23s %5s %5s %5s %5s %5s %5s %5s %5s %5s | %4s %4s %4s %4s\n", "rows", "all", "done",
+  printf("%-23s %5s %5s %5s %5s %5s %5s %5s %5s %5s | %4s %4s %4s %4s\n", "entries", "all", "done",
          "refus", "fail", "time", "off", "unst", "floor", "comp", "miss", "bett", "diff", "unmk");
   for (int32_t k = 0; k < baum_catalog_count(); k++) {
     baum_catalog_entry entry;

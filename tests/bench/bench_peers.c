@@ -3,8 +3,8 @@
  *
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all without
  *
- * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the cheapest row by CPU time,
- * from the making of a run to its end. Errors are of all positions at 50 samples; bench_trade has others, of N-four-bar one
+ * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the cheapest entry by CPU time,
+ * from the making of a run to its end. Errors are of all positions at 50 samples; bench_work_precision has others, of N-four-bar one
  * angle at ten times, and finer ladders, so that its cheapest runs cost less. Runs through flat positions find and tell each
  * of them, which is a fifth of the cost of N = 1 at 1e-4; the others do not.
  *
@@ -65,7 +65,7 @@ static baum_status add_settings(baum_study *study)
   const baum_integrator *const methods[] = {baum_rk8(), baum_dp5(), baum_rk4()};
   baum_study_options options = baum_study_options_default();
   options.samples = SAMPLES;
-  options.row_limit = LONGEST;
+  options.entry_limit = LONGEST;
   options.energy_account = false;
   baum_status status = baum_study_set_options(study, &options);
   for (size_t k = 0; k < sizeof methods / sizeof methods[0] && status == BAUM_OK; k++) {
@@ -78,17 +78,17 @@ static baum_status add_settings(baum_study *study)
   return status;
 }
 
-/* The cheapest row that keeps an error; NaN and "" where there is none. */
+/* The cheapest entry that keeps an error; NaN and "" where there is none. */
 static double cheapest(const baum_study *study, double error, const char **name)
 {
   double best = (double)NAN;
   *name = "";
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row;
-    (void)baum_study_row_at(study, k, &row, sizeof row);
-    if (row.state == BAUM_STUDY_DONE && row.error <= error && !(best <= row.cpu)) {
-      best = row.cpu;
-      *name = row.name;
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry;
+    (void)baum_study_entry_at(study, k, &entry, sizeof entry);
+    if (entry.state == BAUM_STUDY_DONE && entry.error <= error && !(best <= entry.cpu)) {
+      best = entry.cpu;
+      *name = entry.name;
     }
   }
   return best;

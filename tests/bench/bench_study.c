@@ -3,9 +3,9 @@
  *
  * usage: bench_study [PROBLEM]
  *
- * A study of the standard grid recommends a setting for each error. These and all rows of the grid are then run from
+ * A study of the standard grid recommends a setting for each error. These and all entries of the grid are then run from
  * perturbed starts over twice the span, in a study of their own. A recommendation is met where its error there is at most
- * the one asked for; its price is its cost over that of the cheapest row of the grid that was met there.
+ * the one asked for; its price is its cost over that of the cheapest entry of the grid that was met there.
  */
 #include <math.h>
 #include <stdio.h>
@@ -100,14 +100,14 @@ typedef struct advice {
   baum_simulation_options options[TARGETS];
 } advice;
 
-static baum_study *make_study(const model *m, double span, bool rehearse)
+static baum_study *make_study(const model *m, double span, bool validate)
 {
   baum_study *study = NULL;
   baum_study_options o = baum_study_options_default();
   o.repeats = 1;
-  o.row_limit = LONGEST;
+  o.entry_limit = LONGEST;
   o.energy_account = false;
-  o.rehearse = rehearse;
+  o.validate = validate;
   if (baum_study_create(m->mechanism, 0.0, span, &study) != BAUM_OK ||
       baum_study_set_options(study, &o) != BAUM_OK) {
     (void)fprintf(stderr, "%s\n", baum_message());
@@ -145,21 +145,21 @@ typedef struct tally {
   int priced;
 } tally;
 
-static double cost_of(const baum_study_row *row)
+static double cost_of(const baum_study_entry *entry)
 {
-  return (double)(row->evaluations + row->factorizations);
+  return (double)(entry->evaluations + entry->factorizations);
 }
 
-/* Cheapest of the first `count` rows whose error is at most the target. */
+/* Cheapest of the first `count` entries whose error is at most the target. */
 static double cheapest(const baum_study *study, int count, double target, char *name, size_t size)
 {
   double least = (double)INFINITY;
   for (int k = 0; k < count; k++) {
-    baum_study_row row;
-    if (baum_study_row_at(study, k, &row, sizeof row) == BAUM_OK && row.repeats > 0 && !row.off &&
-        row.error <= target && cost_of(&row) < least) {
-      least = cost_of(&row);
-      (void)snprintf(name, size, "%s", row.name);
+    baum_study_entry entry;
+    if (baum_study_entry_at(study, k, &entry, sizeof entry) == BAUM_OK && entry.repeats > 0 &&
+        !entry.off && entry.error <= target && cost_of(&entry) < least) {
+      least = cost_of(&entry);
+      (void)snprintf(name, size, "%s", entry.name);
     }
   }
   return least;
@@ -171,13 +171,13 @@ static void judge(const baum_study *study, const advice *given, int grid, tally 
   for (int k = 0; k < TARGETS; k++) {
     char name[160] = "";
     double least = cheapest(study, grid, TARGET[k], name, sizeof name);
-    baum_study_row row;
+    baum_study_entry entry;
     tally *t = &tallies[k];
-    if (!given->given[k] || baum_study_row_at(study, next++, &row, sizeof row) != BAUM_OK) {
+    if (!given->given[k] || baum_study_entry_at(study, next++, &entry, sizeof entry) != BAUM_OK) {
       continue;
     }
-    bool met = row.error <= TARGET[k];
-    double price = cost_of(&row) / least;
+    bool met = entry.error <= TARGET[k];
+    double price = cost_of(&entry) / least;
     t->asked++;
     t->met += met;
     if (isfinite(least)) {
@@ -187,8 +187,8 @@ static void judge(const baum_study *study, const advice *given, int grid, tally 
       t->priced++;
     }
     if (!met || price > 1.5) {
-      printf("    %.0e: %s has %.2e for %.0f; cheapest %.0f, %s\n", TARGET[k], row.name, row.error,
-             cost_of(&row), least, name);
+      printf("    %.0e: %s has %.2e for %.0f; cheapest %.0f, %s\n", TARGET[k], entry.name,
+             entry.error, cost_of(&entry), least, name);
     }
   }
 }
@@ -202,10 +202,10 @@ static void try_start(const problem *p, const baum_study *grid, const advice *gi
     return;
   }
   baum_study *study = make_study(&m, 2.0 * p->span, false);
-  int count = baum_study_row_count(grid);
+  int count = baum_study_entry_count(grid);
   for (int k = 0; k < count; k++) {
     baum_simulation_options o;
-    if (baum_study_row_options(grid, k, &o, sizeof o) == BAUM_OK) {
+    if (baum_study_entry_options(grid, k, &o, sizeof o) == BAUM_OK) {
       (void)baum_study_add(study, &o);
     }
   }
@@ -243,7 +243,7 @@ static bool try_problem(const problem *p)
   baum_study *study = make_study(&m, p->span, true);
   baum_status status = baum_study_add_standard(study, NULL);
   status = status == BAUM_OK ? baum_study_run(study) : status;
-  printf("%s, %g s: %d rows\n", p->name, p->span, (int)baum_study_row_count(study));
+  printf("%s, %g s: %d entries\n", p->name, p->span, (int)baum_study_entry_count(study));
   print_reference(study);
   advice given;
   tally tallies[TARGETS] = {{0}};

@@ -28,7 +28,7 @@ static baum_status set_up(baum_study *study, int threads)
   baum_study_options options = baum_study_options_default();
   options.threads = threads;
   options.repeats = 1;
-  options.row_limit = 0.1;
+  options.entry_limit = 0.1;
   baum_status status = baum_study_set_options(study, &options);
   return status == BAUM_OK ? baum_study_add_standard(study, NULL) : status;
 }
@@ -47,8 +47,8 @@ static baum_status measure(const baum_mechanism *mechanism, int threads, spent *
   }
   out->wall = clock_now(CLOCK_MONOTONIC) - wall;
   out->cpu = clock_now(CLOCK_PROCESS_CPUTIME_ID) - cpu;
-  printf("%d thread%s: %d rows, wall %.2f s, cpu %.2f s\n", threads, threads == 1 ? "" : "s",
-         (int)baum_study_row_count(study), out->wall, out->cpu);
+  printf("%d thread%s: %d entries, wall %.2f s, cpu %.2f s\n", threads, threads == 1 ? "" : "s",
+         (int)baum_study_entry_count(study), out->wall, out->cpu);
   baum_study_destroy(study);
   return status;
 }

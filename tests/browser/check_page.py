@@ -34,8 +34,8 @@ def slider_crank():
 
 
 def make_study():
-    """Nine methods and more, so that some are grey; rows that are refused or fail are among them."""
-    study = baum.study(slider_crank(), 0, 0.1, repeats=1, row_limit=0.05, rehearse=False)
+    """Nine methods and more, so that some are grey; entries that are refused or fail are among them."""
+    study = baum.study(slider_crank(), 0, 0.1, repeats=1, entry_limit=0.05, validate=False)
     for name in ("euler", "rk4", "ab3", "rk8"):
         study.add_standard(name, settings=4, constants=2)
     return study.run()
@@ -85,7 +85,7 @@ def check_layout(browser, checks):
 def check_charts(browser, study, checks):
     checks.expect(browser.run("document.querySelectorAll('svg.chart').length") == CHARTS, "charts")
     checks.expect(browser.run("document.querySelectorAll('svg.map').length") == MAPS, "maps")
-    drawn = sum(row.state == "done" and row.error <= 10 for row in study.rows)
+    drawn = sum(entry.state == "done" and entry.error <= 10 for entry in study.entries)
     for k in range(CHARTS):
         chart = f"document.querySelectorAll('svg.chart')[{k}]"
         marks, lines, outside = browser.run(
@@ -98,13 +98,13 @@ def check_charts(browser, study, checks):
             ".filter(line => line.getTotalLength() > 10);"
             " return [marks.length, lines.length, outside.length]; })()"
         )
-        checks.expect(marks == drawn, f"chart {k}: {marks} marks of {drawn} rows")
+        checks.expect(marks == drawn, f"chart {k}: {marks} marks of {drawn} entries")
         checks.expect(lines >= 8, f"chart {k}: {lines} lines")
         checks.expect(outside == 0, f"chart {k}: {outside} marks lie outside")
 
 
 def cells(browser, column):
-    """Numbers of the rows that are shown, None where not known."""
+    """Numbers of the entries that are shown, None where not known."""
     return browser.run(
         "Array.from(document.querySelectorAll('#rows tbody tr')).filter(row => !row.hidden)"
         f".map(row => row.cells[{column}].dataset.v === '' ? null"
@@ -120,7 +120,7 @@ def is_sorted(values, reverse):
 def check_table(browser, study, checks):
     column = 2  # the error
     button = f"#rows thead th:nth-child({column + 1}) button"
-    expected = [row.error for row in study.rows if row.state == "done"]
+    expected = [entry.error for entry in study.entries if entry.state == "done"]
     before = cells(browser, column)
     checks.expect(len(before) == len(study) and not is_sorted(before, False), "the order of adding")
     for presses, reverse, word in ((1, False, "ascending"), (2, True, "descending")):
@@ -141,7 +141,7 @@ def check_filters(browser, study, checks):
     front = set(study.front("work")) | set(study.front("cpu"))
     browser.click("#front")
     count = len(cells(browser, 2))
-    checks.expect(count == len(front), f"{count} rows on a front, not {len(front)}")
+    checks.expect(count == len(front), f"{count} entries on a front, not {len(front)}")
     browser.click("#front")
     browser.click(".chips button:nth-child(1)")
     shown = browser.run(
@@ -149,10 +149,10 @@ def check_filters(browser, study, checks):
         ".filter(line => getComputedStyle(line).display !== 'none').length"
     )
     checks.expect(shown == 0, f"{shown} lines of euler are shown without it")
-    others = sum(row.integrator != "euler" for row in study.rows)
-    checks.expect(len(cells(browser, 2)) == others, "rows without euler")
+    others = sum(entry.integrator != "euler" for entry in study.entries)
+    checks.expect(len(cells(browser, 2)) == others, "entries without euler")
     browser.click(".chips button:nth-child(1)")
-    checks.expect(len(cells(browser, 2)) == len(study), "all rows again")
+    checks.expect(len(cells(browser, 2)) == len(study), "all entries again")
 
 
 def check_colours(browser, checks):

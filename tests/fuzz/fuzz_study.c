@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Studies that go on from any file: bytes, or a true file with bits and lines changed, lines of another study among them;
- * or with fields changed and the sum of their line put right. What is refused is left alone. What is taken gives the rows
+ * or with fields changed and the sum of their line put right. What is refused is left alone. What is taken gives the entries
  * that the study has without a file, to the last bit, unless a sum was put right; and in any case a study that is over is over
  * when it goes on once more.
  */
@@ -15,7 +15,7 @@
 #include "models.h"
 #include "study/study_line.h"
 
-enum { ROWS = 3, TEXT = 1 << 15, LINES = 64, MOST_CHANGES = 8, FORMS = 4 };
+enum { ENTRIES = 3, TEXT = 1 << 15, LINES = 64, MOST_CHANGES = 8, FORMS = 4 };
 
 /* ---- the file: one for all inputs ---- */
 
@@ -64,7 +64,7 @@ static baum_study *make_study(int which)
   }
   FUZZ_CHECK(baum_study_create(pendulum.mechanism, 0.0, which ? 0.06 : 0.05, &study) == BAUM_OK);
   FUZZ_CHECK(baum_study_set_options(study, &o) == BAUM_OK);
-  for (int k = 0; k < ROWS; k++) {
+  for (int k = 0; k < ENTRIES; k++) {
     baum_simulation_options run = baum_simulation_options_default();
     run.integrator = k < 2 ? baum_rk4() : baum_euler();
     run.formulation = k < 2 ? BAUM_FORMULATION_PROJECTION : BAUM_FORMULATION_BAUMGARTE;
@@ -75,11 +75,11 @@ static baum_study *make_study(int which)
   return study;
 }
 
-static baum_study_row row_of(const baum_study *study, int k)
+static baum_study_entry entry_of(const baum_study *study, int k)
 {
-  baum_study_row row;
-  FUZZ_CHECK(baum_study_row_at(study, k, &row, sizeof row) == BAUM_OK);
-  return row;
+  baum_study_entry entry;
+  FUZZ_CHECK(baum_study_entry_at(study, k, &entry, sizeof entry) == BAUM_OK);
+  return entry;
 }
 
 /* NaNs are the same. */
@@ -88,12 +88,12 @@ static bool same(double a, double b)
   return memcmp(&a, &b, sizeof a) == 0 || (a != a && b != b);
 }
 
-static void check_same_row(const baum_study_row *a, const baum_study_row *b)
+static void check_same_entry(const baum_study_entry *a, const baum_study_entry *b)
 {
   const double x[] = {a->error,           a->error_v, a->error_lambda, a->energy_error,
-                      a->error_rehearsed, a->work,    a->max_phi};
+                      a->error_validated, a->work,    a->max_phi};
   const double y[] = {b->error,           b->error_v, b->error_lambda, b->energy_error,
-                      b->error_rehearsed, b->work,    b->max_phi};
+                      b->error_validated, b->work,    b->max_phi};
   for (size_t k = 0; k < sizeof x / sizeof x[0]; k++) {
     FUZZ_CHECK(same(x[k], y[k]));
   }
@@ -103,12 +103,12 @@ static void check_same_row(const baum_study_row *a, const baum_study_row *b)
              a->warnings == b->warnings);
 }
 
-static void check_same_rows(const baum_study *one, const baum_study *other, bool times)
+static void check_same_entries(const baum_study *one, const baum_study *other, bool times)
 {
-  for (int k = 0; k < ROWS; k++) {
-    baum_study_row a = row_of(one, k);
-    baum_study_row b = row_of(other, k);
-    check_same_row(&a, &b);
+  for (int k = 0; k < ENTRIES; k++) {
+    baum_study_entry a = entry_of(one, k);
+    baum_study_entry b = entry_of(other, k);
+    check_same_entry(&a, &b);
     FUZZ_CHECK(!times || (same(a.cpu, b.cpu) && a.repeats == b.repeats));
   }
 }
@@ -132,7 +132,7 @@ static const truth *true_ones(void)
       FUZZ_CHECK(baum_study_run(t.study) == BAUM_OK);
       (void)read_file(t.text[k]);
     }
-    FUZZ_CHECK(row_of(t.study, ROWS - 1).state == BAUM_STUDY_REFUSED);
+    FUZZ_CHECK(entry_of(t.study, ENTRIES - 1).state == BAUM_STUDY_REFUSED);
     baum_i_digest digest = {0};
     static char head[BAUM_I_STUDY_LINE];
     (void)snprintf(head, sizeof head, "%.*s\n", (int)strcspn(t.text[0], "\n"), t.text[0]);
@@ -240,7 +240,7 @@ static void read_all(const baum_study *study, fuzz_bytes *b)
   static char text[TEXT];
   baum_simulation_options options;
   baum_study_method method;
-  int32_t rows[ROWS];
+  int32_t entries[ENTRIES];
   int32_t count = 0;
   double cost = 0.0;
   baum_report_form form = (baum_report_form)fuzz_below(b, FORMS);
@@ -250,8 +250,9 @@ static void read_all(const baum_study *study, fuzz_bytes *b)
     (void)fuzz_status(baum_study_cost_at(study, k, 1e-6, BAUM_STUDY_WORK, &cost));
   }
   for (int cheap = BAUM_STUDY_WORK; cheap <= BAUM_STUDY_CPU; cheap++) {
-    FUZZ_CHECK(baum_study_front(study, (baum_study_cost)cheap, ROWS, rows, &count) == BAUM_OK);
-    FUZZ_CHECK(count >= 0 && count <= ROWS);
+    FUZZ_CHECK(baum_study_front(study, (baum_study_cost)cheap, ENTRIES, entries, &count) ==
+               BAUM_OK);
+    FUZZ_CHECK(count >= 0 && count <= ENTRIES);
     double error = fuzz_small(b);
     (void)fuzz_status(baum_study_recommend(study, error, (baum_study_cost)cheap, &options,
                                            sizeof options, text, sizeof text));
@@ -269,7 +270,7 @@ static void check_over(const baum_study *study)
   baum_study *again = make_study(0);
   baum_status status = fuzz_status(baum_study_run(again));
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_WARNED);
-  check_same_rows(study, again, true);
+  check_same_entries(study, again, true);
   FUZZ_CHECK(read_file(after) == size && memcmp(before, after, size) == 0);
   baum_study_destroy(again);
 }
@@ -278,8 +279,8 @@ static void check_left_alone(const baum_study *study, const char *before, size_t
 {
   static char after[TEXT];
   FUZZ_CHECK(read_file(after) == size && memcmp(before, after, size) == 0);
-  for (int k = 0; k < ROWS; k++) {
-    FUZZ_CHECK(row_of(study, k).state == BAUM_STUDY_WAITING);
+  for (int k = 0; k < ENTRIES; k++) {
+    FUZZ_CHECK(entry_of(study, k).state == BAUM_STUDY_WAITING);
   }
 }
 
@@ -297,13 +298,13 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  /* A forged line may call a row done that cannot be run: then the study says so when it takes its time. */
+  /* A forged line may call an entry done that cannot be run: then the study says so when it takes its time. */
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);
   } else if (status >= BAUM_OK) {
     if (!sealed) {
-      check_same_rows(t->study, study, false);
+      check_same_entries(t->study, study, false);
     }
     read_all(study, &b);
     check_over(study);

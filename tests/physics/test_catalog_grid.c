@@ -24,7 +24,7 @@ static void judge(const char *name, const baum_integrator *integrator, catalog_t
   catalog_tally_add(sum, &one);
 }
 
-static void errors_of_rows_are_those_that_stored_references_tell(void **state)
+static void errors_of_entries_are_those_that_stored_references_tell(void **state)
 {
   (void)state;
   const char *const names[] = {"slider_crank_simeon", "four_bar", "n_four_bar"};
@@ -37,14 +37,14 @@ static void errors_of_rows_are_those_that_stored_references_tell(void **state)
   /* There was something to be seen of everything. */
   assert_true(sum.compared > sum.off && sum.off > 0);
   assert_true(sum.unstable > 0 && sum.at_floor > 0);
-  print_message("%d rows, %d compared, %d off, %d unstable, %d at the floor\n", sum.rows,
+  print_message("%d entries, %d compared, %d off, %d unstable, %d at the floor\n", sum.entries,
                 sum.compared, sum.off, sum.unstable, sum.at_floor);
 }
 
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(errors_of_rows_are_those_that_stored_references_tell),
+    cmocka_unit_test(errors_of_entries_are_those_that_stored_references_tell),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -12,7 +12,7 @@
 #include <baum/catalog.h>
 
 #include "models.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 enum { WIDEST = 300, SAMPLES = 20, MOST = 512 };
 
@@ -39,13 +39,13 @@ static void take_common(const baum_study *study, const baum_catalog_choice *choi
   assert_true(out->n > 0);
 }
 
-/* A study of an entry, with a reference and a row that is not looked at. */
-static baum_study *study_entry(const baum_mechanism *mechanism, const baum_catalog_entry *entry)
+/* A study of an entry, with a reference and an entry that is not looked at. */
+static baum_study *study_of(const baum_mechanism *mechanism, const baum_catalog_entry *entry)
 {
   baum_study *study = NULL;
   baum_study_options o = small_study_options();
   o.samples = SAMPLES;
-  o.rehearse = false;
+  o.validate = false;
   assert_int_equal(baum_study_create(mechanism, entry->start_time, entry->end_time, &study),
                    BAUM_OK);
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
@@ -67,7 +67,7 @@ static void check_entry(const baum_catalog_entry *entry)
   assert_int_equal(baum_catalog_build(&choice, &m), BAUM_OK);
   assert_int_equal(baum_mechanism_sizes(m, &nq, &nv, NULL), BAUM_OK);
   assert_true(nq <= WIDEST);
-  baum_study *study = study_entry(m, entry);
+  baum_study *study = study_of(m, entry);
   samples common = {.n = 0};
   baum_study_reference r;
   assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
@@ -116,9 +116,9 @@ static void a_motion_past_a_singular_pose_has_no_trusted_reference(void **state)
   assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
   assert_false(r.trusted);
   assert_non_null(strstr(r.text, "singular"));
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row = study_row(study, k);
-    assert_true(row.untrusted);
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry = study_entry(study, k);
+    assert_true(entry.untrusted);
   }
   baum_study_destroy(study);
   model_destroy(&m);
@@ -144,12 +144,12 @@ static void a_driven_mechanism_is_compared_with_its_kinematics(void **state)
   assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
   assert_non_null(strstr(r.text, "kinematics"));
   assert_true(r.digits > 10.0);
-  assert_true(study_row(study, 0).at_floor); /* it solves to rounding */
+  assert_true(study_entry(study, 0).at_floor); /* it solves to rounding */
   baum_study_destroy(study);
   model_destroy(&m);
 }
 
-/* ---- rows ---- */
+/* ---- entries ---- */
 
 static int circle_solution(double t, double *q, double *v, double *lambda, void *user)
 {
@@ -189,14 +189,15 @@ static void errors_from_a_solution_by_formulas_are_those_of_the_method(void **st
   assert_true(fabs(method.slope - 4.0) <
               0.3); /* its order; the coarsest steps are not quite there */
   assert_true(fabs(method.work_per_digit - pow(10.0, 0.25)) < 0.15);
-  baum_study_row row = study_row(study, 5);
-  assert_true(row.at_floor && row.error == 1e-12); /* nothing is graded below the twelve digits */
-  assert_true(isnan(row.error_lambda));            /* the solution does not know */
+  baum_study_entry entry = study_entry(study, 5);
+  assert_true(entry.at_floor &&
+              entry.error == 1e-12);      /* nothing is graded below the twelve digits */
+  assert_true(isnan(entry.error_lambda)); /* the solution does not know */
   baum_study_destroy(study);
   model_destroy(&m);
 }
 
-static void two_threads_give_the_rows_of_one(void **state)
+static void two_threads_give_the_entries_of_one(void **state)
 {
   (void)state;
   model m;
@@ -207,7 +208,7 @@ static void two_threads_give_the_rows_of_one(void **state)
   baum_study *two = small_study(m.mechanism, &o);
   assert_int_equal(baum_study_run(one), BAUM_OK);
   assert_int_equal(baum_study_run(two), BAUM_OK);
-  assert_same_rows(one, two);
+  assert_same_entries(one, two);
   baum_study_destroy(one);
   baum_study_destroy(two);
   model_destroy(&m);
@@ -215,27 +216,27 @@ static void two_threads_give_the_rows_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* A row is on the front if no row on it is as good in both; and the front goes from cheap to exact. */
-static void check_front(const baum_study *study, const int32_t *rows, int32_t count)
+/* An entry is on the front if no entry on it is as good in both; and the front goes from cheap to exact. */
+static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row = study_row(study, k);
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry = study_entry(study, k);
     bool is_on = false;
-    bool beaten = row.state != BAUM_STUDY_DONE || row.off || row.unstable;
+    bool beaten = entry.state != BAUM_STUDY_DONE || entry.off || entry.unstable;
     for (int32_t i = 0; i < count; i++) {
-      baum_study_row on = study_row(study, rows[i]);
-      is_on = is_on || rows[i] == k;
-      beaten = beaten || (rows[i] != k && on.work <= row.work && on.error <= row.error);
+      baum_study_entry on = study_entry(study, entries[i]);
+      is_on = is_on || entries[i] == k;
+      beaten = beaten || (entries[i] != k && on.work <= entry.work && on.error <= entry.error);
     }
     assert_true(is_on != beaten);
   }
   for (int32_t i = 1; i < count; i++) {
-    assert_true(study_row(study, rows[i]).work > study_row(study, rows[i - 1]).work);
-    assert_true(study_row(study, rows[i]).error < study_row(study, rows[i - 1]).error);
+    assert_true(study_entry(study, entries[i]).work > study_entry(study, entries[i - 1]).work);
+    assert_true(study_entry(study, entries[i]).error < study_entry(study, entries[i - 1]).error);
   }
 }
 
-static void the_front_has_all_rows_that_none_beats_and_no_other(void **state)
+static void the_front_has_all_entries_that_none_beats_and_no_other(void **state)
 {
   (void)state;
   model m;
@@ -243,15 +244,15 @@ static void the_front_has_all_rows_that_none_beats_and_no_other(void **state)
   const baum_study_options o = small_study_options();
   baum_study *study = small_study(m.mechanism, &o);
   assert_int_equal(baum_study_run(study), BAUM_OK);
-  int32_t rows[MOST];
+  int32_t entries[MOST];
   int32_t count = 0;
-  assert_int_equal(baum_study_front(study, BAUM_STUDY_WORK, MOST, rows, &count), BAUM_OK);
+  assert_int_equal(baum_study_front(study, BAUM_STUDY_WORK, MOST, entries, &count), BAUM_OK);
   assert_true(count >= 3 && count <= MOST);
-  check_front(study, rows, count);
+  check_front(study, entries, count);
   int32_t few[2] = {-1, -1};
   int32_t same = 0;
   assert_int_equal(baum_study_front(study, BAUM_STUDY_WORK, 2, few, &same), BAUM_OK);
-  assert_true(same == count && few[0] == rows[0] && few[1] == rows[1]);
+  assert_true(same == count && few[0] == entries[0] && few[1] == entries[1]);
   baum_study_destroy(study);
   model_destroy(&m);
 }
@@ -264,7 +265,7 @@ static double error_over(const model *m, const baum_simulation_options *best, do
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   assert_int_equal(baum_study_add(study, best), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
-  double error = study_row(study, 0).error;
+  double error = study_entry(study, 0).error;
   baum_study_destroy(study);
   return error;
 }
@@ -291,7 +292,7 @@ static void recommendations_hold_over_twice_the_span(void **state)
   model_destroy(&m);
 }
 
-static void cost_at_an_error_lies_between_that_of_rows_and_compares_methods(void **state)
+static void cost_at_an_error_lies_between_that_of_entries_and_compares_methods(void **state)
 {
   (void)state;
   model m;
@@ -299,19 +300,19 @@ static void cost_at_an_error_lies_between_that_of_rows_and_compares_methods(void
   const baum_study_options o = small_study_options();
   baum_study *study = small_study(m.mechanism, &o);
   assert_int_equal(baum_study_run(study), BAUM_OK);
-  baum_study_row rows[2] = {study_row(study, 2), study_row(study, 3)};
-  int32_t method = rows[0].method;
-  assert_int_equal(rows[1].method, method);
-  assert_true(rows[1].error < rows[0].error);
+  baum_study_entry entries[2] = {study_entry(study, 2), study_entry(study, 3)};
+  int32_t method = entries[0].method;
+  assert_int_equal(entries[1].method, method);
+  assert_true(entries[1].error < entries[0].error);
   double cost = 0.0;
-  assert_int_equal(
-    baum_study_cost_at(study, method, sqrt(rows[0].error * rows[1].error), BAUM_STUDY_WORK, &cost),
-    BAUM_OK);
-  assert_true(fabs(cost - sqrt(rows[0].work * rows[1].work)) < 1e-9 * cost);
+  assert_int_equal(baum_study_cost_at(study, method, sqrt(entries[0].error * entries[1].error),
+                                      BAUM_STUDY_WORK, &cost),
+                   BAUM_OK);
+  assert_true(fabs(cost - sqrt(entries[0].work * entries[1].work)) < 1e-9 * cost);
   double ratio = 0.0;
   int32_t exact = baum_study_method_count(study) - 1; /* of RK8 */
-  assert_int_equal(baum_study_compare(study, exact, method, rows[1].error, BAUM_STUDY_WORK, &ratio),
-                   BAUM_OK);
+  assert_int_equal(
+    baum_study_compare(study, exact, method, entries[1].error, BAUM_STUDY_WORK, &ratio), BAUM_OK);
   assert_true(ratio > 0.0 && ratio < 1.0); /* order 8 is cheaper than order 4 at 1e-5 and less */
   assert_int_equal(baum_study_cost_at(study, method, 1e-30, BAUM_STUDY_WORK, &cost),
                    BAUM_ERR_ARGUMENT);
@@ -323,7 +324,7 @@ static void cost_at_an_error_lies_between_that_of_rows_and_compares_methods(void
   model_destroy(&m);
 }
 
-static void a_budget_buys_the_most_exact_row_that_it_pays_for(void **state)
+static void a_budget_buys_the_most_exact_entry_that_it_pays_for(void **state)
 {
   (void)state;
   model m;
@@ -333,10 +334,11 @@ static void a_budget_buys_the_most_exact_row_that_it_pays_for(void **state)
   assert_int_equal(baum_study_run(study), BAUM_OK);
   baum_simulation_options best;
   char why[1024] = "";
-  baum_study_row quickest = study_row(study, 0);
-  for (int32_t k = 0; k < baum_study_row_count(study); k++) {
-    baum_study_row row = study_row(study, k);
-    quickest = row.state == BAUM_STUDY_DONE && !row.off && row.cpu < quickest.cpu ? row : quickest;
+  baum_study_entry quickest = study_entry(study, 0);
+  for (int32_t k = 0; k < baum_study_entry_count(study); k++) {
+    baum_study_entry entry = study_entry(study, k);
+    quickest =
+      entry.state == BAUM_STUDY_DONE && !entry.off && entry.cpu < quickest.cpu ? entry : quickest;
   }
   assert_int_equal(baum_study_recommend_budget(study, 1e3, &best, sizeof best, why, sizeof why),
                    BAUM_OK);
@@ -356,11 +358,11 @@ int main(void)
     cmocka_unit_test(a_motion_past_a_singular_pose_has_no_trusted_reference),
     cmocka_unit_test(a_driven_mechanism_is_compared_with_its_kinematics),
     cmocka_unit_test(errors_from_a_solution_by_formulas_are_those_of_the_method),
-    cmocka_unit_test(two_threads_give_the_rows_of_one),
-    cmocka_unit_test(the_front_has_all_rows_that_none_beats_and_no_other),
+    cmocka_unit_test(two_threads_give_the_entries_of_one),
+    cmocka_unit_test(the_front_has_all_entries_that_none_beats_and_no_other),
     cmocka_unit_test(recommendations_hold_over_twice_the_span),
-    cmocka_unit_test(cost_at_an_error_lies_between_that_of_rows_and_compares_methods),
-    cmocka_unit_test(a_budget_buys_the_most_exact_row_that_it_pays_for),
+    cmocka_unit_test(cost_at_an_error_lies_between_that_of_entries_and_compares_methods),
+    cmocka_unit_test(a_budget_buys_the_most_exact_entry_that_it_pays_for),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

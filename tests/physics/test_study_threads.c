@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies with many threads on one mechanism, several of them at once: rows are those of one thread, to the last bit.
+/* Studies with many threads on one mechanism, several of them at once: entries are those of one thread, to the last bit.
  * To be run under the thread sanitizer as well.
  *
  * cmocka's checks are for the main thread: the others only report.
@@ -18,7 +18,7 @@
 #include "check.h"
 #include "every_element.h"
 #include "step_mode.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 enum { THREADS = 8, STUDIES = 3 };
 
@@ -49,7 +49,7 @@ static baum_study *make(const baum_mechanism *m, int threads, seen *s)
   baum_study_options o = small_study_options();
   o.threads = threads;
   o.samples = 4;
-  o.rehearse = false;
+  o.validate = false;
   o.progress = look;
   o.user = s;
   check(baum_study_create(m, 0.0, 0.02, &study));
@@ -65,7 +65,7 @@ static baum_study *make(const baum_mechanism *m, int threads, seen *s)
 
 /* ---- one study ---- */
 
-static void rows_of_many_threads_are_those_of_one(void **state)
+static void entries_of_many_threads_are_those_of_one(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
@@ -75,7 +75,7 @@ static void rows_of_many_threads_are_those_of_one(void **state)
   baum_study *got = make(parts.mechanism, THREADS, &many);
   check(baum_study_run(want));
   check(baum_study_run(got));
-  assert_same_rows(got, want);
+  assert_same_entries(got, want);
   assert_int_equal(many.together, 0);
   assert_int_equal(many.calls, alone.calls);
   baum_study_destroy(got);
@@ -119,7 +119,7 @@ static void studies_of_one_mechanism_do_not_disturb_each_other(void **state)
     assert_int_equal(jobs[k].seen.together, 0);
   }
   for (int k = 1; k < STUDIES; k++) {
-    assert_same_rows(jobs[k].study, jobs[0].study);
+    assert_same_entries(jobs[k].study, jobs[0].study);
   }
   for (int k = 0; k < STUDIES; k++) {
     baum_study_destroy(jobs[k].study);
@@ -147,14 +147,14 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
   }
   assert_int_equal(pthread_join(thread, NULL), 0);
   check(j.status);
-  for (int k = 1; k <= 3; k++) { /* by itself, at some row */
+  for (int k = 1; k <= 3; k++) { /* by itself, at some entry */
     j.seen.calls = 0;
     j.seen.cancel_at = 3 * k;
     check(baum_study_run(j.study));
   }
   j.seen.cancel_at = 0;
   check(baum_study_run(j.study));
-  assert_same_rows(j.study, want);
+  assert_same_entries(j.study, want);
   baum_study_destroy(j.study);
   baum_study_destroy(want);
   baum_mechanism_destroy(parts.mechanism);
@@ -163,7 +163,7 @@ static void a_study_of_many_threads_is_cancelled_from_another(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(rows_of_many_threads_are_those_of_one),
+    cmocka_unit_test(entries_of_many_threads_are_those_of_one),
     cmocka_unit_test(studies_of_one_mechanism_do_not_disturb_each_other),
     cmocka_unit_test(a_study_of_many_threads_is_cancelled_from_another),
   };

@@ -32,8 +32,8 @@ def make():
     return made.add("rk4", formulation="baumgarte", gains=baum.fixed(1.5, 2.5), step=0.0125).run()
 
 study = make()
-assert [row.cpu for row in make().rows] == [row.cpu for row in study.rows]  # read from the file
-texts = [row.name for row in study.rows] + [study.error_text, study.reference.text]
+assert [entry.cpu for entry in make().entries] == [entry.cpu for entry in study.entries]  # read from the file
+texts = [entry.name for entry in study.entries] + [study.error_text, study.reference.text]
 texts += [study.recommend(1e-3).why, study.report("csv"), study.report("json"), study.report("text")]
 try:
     baum.study(baum.catalog.build("pendulum"), 0.5, 0.5)

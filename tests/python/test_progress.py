@@ -18,7 +18,7 @@ class Terminal(io.StringIO):
 
 
 def short_study(**options):
-    return baum.study(rod_pendulum(), 0, 0.1, samples=2, repeats=1, threads=1, rehearse=False, **options)
+    return baum.study(rod_pendulum(), 0, 0.1, samples=2, repeats=1, threads=1, validate=False, **options)
 
 
 class Grids(unittest.TestCase):

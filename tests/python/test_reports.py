@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reports of a study are read back: they hold its rows, whatever names users give."""
+"""Reports of a study are read back: they hold its entries, whatever names users give."""
 
 import csv
 import html.parser
@@ -21,7 +21,7 @@ VOID = {"meta", "input", "br", "img", "link"}
 
 
 def make_study():
-    """Rows that are done, one of which warns of a joint by name, and one that is refused."""
+    """Entries that are done, one of which warns of a joint by name, and one that is refused."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint(JOINT, [bob], rows=1, phi=lambda t, q: q @ q - 1)
@@ -67,33 +67,33 @@ class Reports(unittest.TestCase):
     def setUpClass(cls):
         cls.study = make_study()
 
-    def test_rows_are_what_this_test_wants(self):
-        states = [row.state for row in self.study.rows]
+    def test_entries_are_what_this_test_wants(self):
+        states = [entry.state for entry in self.study.entries]
         self.assertEqual(states, ["done", "done", "done", "refused"])
-        self.assertIn(JOINT, self.study.rows[2].message)
+        self.assertIn(JOINT, self.study.entries[2].message)
 
-    def check_row(self, row, cells, number):
+    def check_entry(self, entry, cells, number):
         """Every number that both have is the same to the last bit."""
         compared = 0
-        for name in row._fields:
-            value = getattr(row, name)
+        for name in entry._fields:
+            value = getattr(entry, name)
             if name not in cells or isinstance(value, (str, bool)) or not isinstance(value, float):
                 continue
-            if math.isnan(value) or row.state != "done" and name not in ("step", "rtol"):
+            if math.isnan(value) or entry.state != "done" and name not in ("step", "rtol"):
                 self.assertIn(cells[name], ("", None), name)
             else:
                 self.assertEqual(number(cells[name]), value, name)
                 compared += 1
-        self.assertGreater(compared, 15 if row.state == "done" else 0)
+        self.assertGreater(compared, 15 if entry.state == "done" else 0)
 
     def test_csv_is_read_back(self):
         lines = list(csv.DictReader(io.StringIO(self.study.report("csv"))))
         self.assertEqual(len(lines), len(self.study))
-        for row, cells in zip(self.study.rows, lines):
+        for entry, cells in zip(self.study.entries, lines):
             self.assertNotIn(None, cells)  # as many cells as titles
-            self.assertEqual(cells["name"], row.name)
-            self.assertEqual(cells["message"], row.message)
-            self.check_row(row, cells, float)
+            self.assertEqual(cells["name"], entry.name)
+            self.assertEqual(cells["message"], entry.message)
+            self.check_entry(entry, cells, float)
 
     def test_json_is_read_back(self):
         def refuse(constant):
@@ -106,18 +106,18 @@ class Reports(unittest.TestCase):
         self.assertEqual(len(report["recommendations"]), 10)
         self.assertEqual([m["name"] for m in report["methods"]], [m.name for m in self.study.methods])
         self.assertEqual(report["units"]["cpu"], "s")
-        for row, cells in zip(self.study.rows, report["rows"], strict=True):
-            self.assertEqual(cells["message"] or "", row.message)
-            self.assertIs(cells["unstable"], row.unstable)
-            self.check_row(row, cells, float)
+        for entry, cells in zip(self.study.entries, report["entries"], strict=True):
+            self.assertEqual(cells["message"] or "", entry.message)
+            self.assertIs(cells["unstable"], entry.unstable)
+            self.check_entry(entry, cells, float)
 
     def test_keys_of_json_stay(self):
         report = json.loads(self.study.report("json"))
         keys = ["report", "version", "environment", "study", "reference", "units",
-                "recommendations", "front", "methods", "rows"]
+                "recommendations", "front", "methods", "entries"]
         self.assertEqual(list(report), keys)
         self.assertEqual(report["version"], 1)
-        row = {"name", "state", "integrator", "formulation", "gains", "gain_1", "gain_2", "method",
+        entry = {"name", "state", "integrator", "formulation", "gains", "gain_1", "gain_2", "method",
                "step", "rtol", "error", "error_final", "error_half", "work", "cpu", "cpu_spread",
                "repeats", "evaluations", "factorizations", "steps", "rejected",
                "nonlinear_iterations", "forced_steps", "error_q", "error_q_final", "error_v",
@@ -126,7 +126,7 @@ class Reports(unittest.TestCase):
                "projection_work", "warnings", "near_singular_intervals", "branch_warnings",
                "at_floor", "untrusted", "off", "unstable", "on_front_work", "on_front_cpu",
                "status", "message"}
-        self.assertLessEqual(row, set(report["rows"][0]))
+        self.assertLessEqual(entry, set(report["entries"][0]))
 
     def test_page_is_well_formed_and_has_no_markup_of_users(self):
         page = Page()
@@ -181,7 +181,7 @@ class Reports(unittest.TestCase):
             warnings.simplefilter("error")
             study = baum.study(pendulum(), 0, 1).add("rk4", step=0.01)
             self.assertIn("1 waiting", study.report())
-            self.assertEqual(json.loads(study.report("json"))["rows"][0]["error"], None)
+            self.assertEqual(json.loads(study.report("json"))["entries"][0]["error"], None)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Studies: rows, reference, recommendations as keywords, mechanisms of Python functions."""
+"""Studies: entries, reference, recommendations as keywords, mechanisms of Python functions."""
 
 import os
 import tempfile
@@ -25,16 +25,16 @@ class Studies(unittest.TestCase):
         cls.m = slider_crank()
         cls.study = small(cls.m).run()
 
-    def test_rows_have_names_errors_and_costs(self):
-        rows = self.study.rows
-        self.assertEqual(len(rows), len(self.study))
-        done = [row for row in rows if row.state == "done"]
-        self.assertGreater(len(done), len(rows) // 2)
-        for row in done:
-            self.assertEqual(row.integrator, "rk8")
-            self.assertIn(row.formulation, row.name)
-            self.assertTrue(row.error >= self.study.reference.uncertainty)
-            self.assertTrue(row.work > 0 and row.cpu > 0)
+    def test_entries_have_names_errors_and_costs(self):
+        entries = self.study.entries
+        self.assertEqual(len(entries), len(self.study))
+        done = [entry for entry in entries if entry.state == "done"]
+        self.assertGreater(len(done), len(entries) // 2)
+        for entry in done:
+            self.assertEqual(entry.integrator, "rk8")
+            self.assertIn(entry.formulation, entry.name)
+            self.assertTrue(entry.error >= self.study.reference.uncertainty)
+            self.assertTrue(entry.work > 0 and entry.cpu > 0)
 
     def test_the_reference_tells_its_digits(self):
         self.assertTrue(self.study.reference.trusted)
@@ -51,16 +51,16 @@ class Studies(unittest.TestCase):
             run = self.m.simulate(t, **best)
             self.assertLess(np.abs(run.q - exact).max(), error)  # scale 0.46 m: the smaller unit
 
-    def test_extremes_are_rows_that_work_or_say_why(self):
-        study = baum.study(self.m, 0, 1, samples=20, repeats=1, row_limit=0.02, rehearse=False)
-        rows = study.add_extremes("rk4").run().rows
-        self.assertEqual(len(rows), 9 + 20)
-        for row in rows:
-            self.assertTrue(row.state == "done" or row.message, row.name)
+    def test_stress_settings_are_entries_that_work_or_say_why(self):
+        study = baum.study(self.m, 0, 1, samples=20, repeats=1, entry_limit=0.02, validate=False)
+        entries = study.add_stress("rk4").run().entries
+        self.assertEqual(len(entries), 9 + 20)
+        for entry in entries:
+            self.assertTrue(entry.state == "done" or entry.message, entry.name)
 
     def test_the_front_goes_from_cheap_to_exact(self):
-        rows = self.study.rows
-        front = [rows[k] for k in self.study.front()]
+        entries = self.study.entries
+        front = [entries[k] for k in self.study.front()]
         self.assertGreater(len(front), 2)
         for a, b in zip(front, front[1:]):
             self.assertTrue(a.work < b.work and a.error > b.error)
@@ -94,10 +94,10 @@ class Meaning(unittest.TestCase):
         m = slider_crank()
         study = baum.study(m, 0, 0.5, error=["slider.pose"], unit=1e-3, samples=20, repeats=1)
         study.add("rk4", step=1e-2).run()
-        row = study.rows[0]
+        entry = study.entries[0]
         # In millimetres and milliradians of the slider alone, against all bodies by the scale.
-        self.assertLess(row.error, 1e3 * row.error_q * max(m.characteristic_length, 1) * 1.001)
-        self.assertNotAlmostEqual(row.error, row.error_q)
+        self.assertLess(entry.error, 1e3 * entry.error_q * max(m.scale, 1) * 1.001)
+        self.assertNotAlmostEqual(entry.error, entry.error_q)
 
     def test_a_solution_by_formulas_is_a_reference(self):
         m = baum.Mechanism(gravity=(0, 0))
@@ -110,14 +110,14 @@ class Meaning(unittest.TestCase):
 
         study = baum.study(m, 0, 3, solution=turn, digits=12, repeats=1)
         study.add("rk8", rtol=1e-13).run()
-        self.assertEqual(study.rows[0].error, 1e-12)
-        self.assertTrue(study.rows[0].at_floor)
+        self.assertEqual(study.entries[0].error, 1e-12)
+        self.assertTrue(study.entries[0].at_floor)
         t = np.array([1.0, 3.0])
         q = np.column_stack([np.cos(t), np.sin(t)])
         given = baum.study(m, 0, 3, reference=(t, q), digits=9, repeats=1)
         given.add("rk8", rtol=1e-13).run()
-        self.assertEqual(given.rows[0].error, 1e-9)
-        self.assertTrue(np.isnan(given.rows[0].error_v))
+        self.assertEqual(given.entries[0].error, 1e-9)
+        self.assertTrue(np.isnan(given.entries[0].error_v))
 
     def test_what_a_solution_raises_comes_out(self):
         def broken(t):
@@ -136,7 +136,7 @@ class Running(unittest.TestCase):
             study = baum.study(m, 0, 0.3, samples=5, repeats=1, threads=threads)
             study.add("rk4", step=0.03).add("rk4", step=0.01)
             study.add("rk8", rtol=1e-4).add("rk8", rtol=1e-8).run()
-            self.assertTrue(all(row.state == "done" for row in study.rows))
+            self.assertTrue(all(entry.state == "done" for entry in study.entries))
             self.assertGreater(study.reference.digits, 7)  # second derivatives are differences
             best = study.recommend(1e-3)
             m.simulate([0.3], **best)
@@ -154,9 +154,9 @@ class Running(unittest.TestCase):
             study.run()
         self.assertEqual(seen, [(k, 2 * len(study)) for k in (1, 2, 3)])
         self.assertIn("cancelled", str(caught[0].message))
-        self.assertEqual(sum(row.state == "waiting" for row in study.rows), len(study) - 3)
+        self.assertEqual(sum(entry.state == "waiting" for entry in study.entries), len(study) - 3)
         study.run()
-        self.assertFalse(any(row.state == "waiting" for row in study.rows))
+        self.assertFalse(any(entry.state == "waiting" for entry in study.entries))
 
     def test_what_progress_raises_comes_out(self):
         def broken(done, total):
@@ -175,8 +175,8 @@ class Running(unittest.TestCase):
         study.add("rk4", step=0.03)
         with self.assertWarnsRegex(baum.Warning, "returned -1.*NameError.*lenght"):
             study.run()
-        self.assertEqual(study.rows[0].state, "failed")
-        self.assertRegex(study.rows[0].message, r"returned -1 \(stop\): NameError\('lenght'\)")
+        self.assertEqual(study.entries[0].state, "failed")
+        self.assertRegex(study.entries[0].message, r"returned -1 \(stop\): NameError\('lenght'\)")
 
     def test_a_recommendation_without_stabilization_says_what_that_means(self):
         whys = []
@@ -190,14 +190,14 @@ class Running(unittest.TestCase):
     def test_tolerances_of_the_grid_end_where_differences_do(self):
         for mechanism, least in ((rod_pendulum(), 1e-13), (pendulum(circle), 1e-11)):
             study = baum.study(mechanism, 0, 1).add_standard("rk8", settings=3)
-            found = min(row.rtol for row in study.rows if row.rtol == row.rtol)
+            found = min(entry.rtol for entry in study.entries if entry.rtol == entry.rtol)
             self.assertAlmostEqual(found / least, 1)
 
-    def test_rows_hold_the_gains_in_use(self):
+    def test_entries_hold_the_gains_in_use(self):
         study = baum.study(pendulum(circle), 0, 0.3, samples=5, repeats=1)
         for gains in (baum.auto(), baum.fixed(3, 4)):
             study.add("rk4", formulation="baumgarte", gains=gains, step=0.01)
-        auto, fixed, none = study.add("rk4", formulation="projection", step=0.01).run().rows
+        auto, fixed, none = study.add("rk4", formulation="projection", step=0.01).run().entries
         self.assertTrue(0 < auto.alpha * 0.01 < 1 and auto.alpha == auto.beta)
         self.assertEqual((fixed.alpha, fixed.beta, none.alpha, none.beta), (3, 4, 0, 0))
         self.assertIn("<title>rk4 baumgarte auto, step 0.01 s\nαh", study.report("page"))
@@ -218,13 +218,13 @@ class Running(unittest.TestCase):
             seen = []
             again = small(rod_pendulum(), file=path, progress=lambda *now: seen.append(now)).run()
             self.assertEqual(seen[0][0], len(first) + 1)
-            for a, b in zip(first.rows, again.rows):
+            for a, b in zip(first.entries, again.entries):
                 self.assertEqual((a.name, a.state), (b.name, b.state))
                 np.testing.assert_array_equal([a.error, a.cpu], [b.error, b.cpu])
 
     def test_row_gains_come_back_as_keywords(self):
         m = slider_crank()
-        study = baum.study(m, 0, 0.2, samples=10, repeats=1, rehearse=False)
+        study = baum.study(m, 0, 0.2, samples=10, repeats=1, validate=False)
         study.add("rk4", formulation="baumgarte", gains=baum.fixed(20, 20), step=1e-3,
                   row_gains={"B": 2.0}).run()
         best = study.recommend(1e-2)

@@ -10,7 +10,7 @@ void catalog_tally_add(catalog_tally *sum, const catalog_tally *of)
   for (int k = 0; k <= BAUM_STUDY_TIMED_OUT; k++) {
     sum->state[k] += of->state[k];
   }
-  sum->rows += of->rows;
+  sum->entries += of->entries;
   sum->off += of->off;
   sum->unstable += of->unstable;
   sum->at_floor += of->at_floor;
@@ -66,9 +66,9 @@ static baum_status make_study(const pair *p, double limit, baum_study **out)
 {
   baum_study_options o = baum_study_options_default();
   o.samples = p->n;
-  o.row_limit = limit;
+  o.entry_limit = limit;
   o.energy_account = false;
-  o.rehearse = false;
+  o.validate = false;
   o.progress = stop_before_times;
   baum_status status = baum_study_create(p->mechanism, p->times[0], p->times[p->n], out);
   return status == BAUM_OK ? baum_study_set_options(*out, &o) : status;
@@ -80,12 +80,12 @@ static baum_status run(baum_study *study)
   return status == BAUM_STOP_CANCELLED || status == BAUM_WARNED ? BAUM_OK : status;
 }
 
-static baum_status add_same_rows(const baum_study *from, baum_study *to)
+static baum_status add_same_entries(const baum_study *from, baum_study *to)
 {
   baum_status status = BAUM_OK;
-  for (int32_t k = 0; k < baum_study_row_count(from) && status == BAUM_OK; k++) {
+  for (int32_t k = 0; k < baum_study_entry_count(from) && status == BAUM_OK; k++) {
     baum_simulation_options o;
-    status = baum_study_row_options(from, k, &o, sizeof o);
+    status = baum_study_entry_options(from, k, &o, sizeof o);
     status = status == BAUM_OK ? baum_study_add(to, &o) : status;
   }
   return status;
@@ -126,7 +126,7 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
   status = status == BAUM_OK ? make_study(p, limit, &p->stored) : status;
   status = status == BAUM_OK ? give_stored(p, &choice) : status;
   status = status == BAUM_OK ? baum_study_add_standard(p->own, grid) : status;
-  status = status == BAUM_OK ? add_same_rows(p->own, p->stored) : status;
+  status = status == BAUM_OK ? add_same_entries(p->own, p->stored) : status;
   status = status == BAUM_OK ? run(p->own) : status;
   return status == BAUM_OK ? run(p->stored) : status;
 }
@@ -134,18 +134,18 @@ static baum_status study_twice(pair *p, const baum_study_grid *grid, double limi
 /* ---- what must be so ---- */
 
 /* Whether the method has constant gains that leave a violation as it is, or more. */
-static bool has_unstable_constants(const baum_study_row *row)
+static bool has_unstable_constants(const baum_study_entry *entry)
 {
   baum_amplification a;
-  double x = row->gains.value[0] * row->step;
-  double y = row->gains.value[1] * row->step;
-  return row->formulation == BAUM_FORMULATION_BAUMGARTE && row->gains.rule == BAUM_GAINS_FIXED &&
-         !isnan(row->step) &&
-         baum_stability_at(row->integrator, fabs(x), y * y, &a, sizeof a) == BAUM_OK &&
+  double x = entry->gains.value[0] * entry->step;
+  double y = entry->gains.value[1] * entry->step;
+  return entry->formulation == BAUM_FORMULATION_BAUMGARTE &&
+         entry->gains.rule == BAUM_GAINS_FIXED && !isnan(entry->step) &&
+         baum_stability_at(entry->integrator, fabs(x), y * y, &a, sizeof a) == BAUM_OK &&
          a.spectral_radius >= 1.0;
 }
 
-static bool is_marked(const baum_study_row *own, const baum_study_row *stored)
+static bool is_marked(const baum_study_entry *own, const baum_study_entry *stored)
 {
   bool other_motion = stored->error_q > 0.1 || own->branch_warnings > 0;
   if (own->state == BAUM_STUDY_DONE && stored->state == BAUM_STUDY_DONE &&
@@ -157,7 +157,8 @@ static bool is_marked(const baum_study_row *own, const baum_study_row *stored)
          (own->unstable && own->gains.rule != BAUM_GAINS_FIXED);
 }
 
-static bool is_consistent(const pair *p, const baum_study_row *own, const baum_study_row *stored)
+static bool is_consistent(const pair *p, const baum_study_entry *own,
+                          const baum_study_entry *stored)
 {
   baum_study_reference a;
   baum_study_reference b;
@@ -168,20 +169,20 @@ static bool is_consistent(const pair *p, const baum_study_row *own, const baum_s
   return own->error_q == stored->error_q || differ <= open; /* equal: both may be infinite */
 }
 
-static bool is_better(const baum_study_row *row, const baum_study *study)
+static bool is_better(const baum_study_entry *entry, const baum_study *study)
 {
   baum_study_reference r;
   (void)baum_study_reference_read(study, &r, sizeof r);
-  return row->error_q < r.uncertainty_q || row->at_floor != (row->error <= r.uncertainty);
+  return entry->error_q < r.uncertainty_q || entry->at_floor != (entry->error <= r.uncertainty);
 }
 
-static void judge_row(const pair *p, int32_t k, catalog_tally *t)
+static void judge_entry(const pair *p, int32_t k, catalog_tally *t)
 {
-  baum_study_row own;
-  baum_study_row stored;
-  (void)baum_study_row_at(p->own, k, &own, sizeof own);
-  (void)baum_study_row_at(p->stored, k, &stored, sizeof stored);
-  catalog_tally one = {.rows = 1, .off = own.off, .unstable = own.unstable};
+  baum_study_entry own;
+  baum_study_entry stored;
+  (void)baum_study_entry_at(p->own, k, &own, sizeof own);
+  (void)baum_study_entry_at(p->stored, k, &stored, sizeof stored);
+  catalog_tally one = {.entries = 1, .off = own.off, .unstable = own.unstable};
   one.state[own.state] = 1;
   one.at_floor = own.at_floor;
   one.missing = own.state == BAUM_STUDY_WAITING || stored.state == BAUM_STUDY_WAITING;
@@ -197,16 +198,16 @@ static void judge_row(const pair *p, int32_t k, catalog_tally *t)
   catalog_tally_add(t, &one);
 }
 
-/* Rows that an integrator has with a formulation. */
-static int count_rows(const baum_study *study, const baum_integrator *integrator,
-                      baum_formulation formulation)
+/* Entries that an integrator has with a formulation. */
+static int count_entries(const baum_study *study, const baum_integrator *integrator,
+                         baum_formulation formulation)
 {
   int count = 0;
   for (int32_t k = 0; k < baum_study_method_count(study); k++) {
     baum_study_method m;
     if (baum_study_method_at(study, k, &m, sizeof m) == BAUM_OK && m.integrator == integrator &&
         m.formulation == formulation) {
-      count += m.rows;
+      count += m.entries;
     }
   }
   return count;
@@ -218,13 +219,13 @@ static int count_missing(const baum_study *study, const baum_study_grid *grid)
   int missing = 0;
   const baum_integrator *i = NULL;
   for (int32_t k = 0; (i = baum_integrator_at(k)) != NULL; k++) {
-    bool here = count_rows(study, i, BAUM_FORMULATION_UNSTABILIZED) > 0 || grid->integrator == i;
+    bool here = count_entries(study, i, BAUM_FORMULATION_UNSTABILIZED) > 0 || grid->integrator == i;
     for (int f = BAUM_FORMULATION_UNSTABILIZED; here && f <= BAUM_FORMULATION_INDEX3; f++) {
       int kinds = baum_integrator_has_fixed_step(i) + baum_integrator_has_variable_step(i);
       int gains = f == BAUM_FORMULATION_BAUMGARTE ? 1 + grid->constants : 1;
       bool offered = baum_integrator_offers(i, (baum_formulation)f);
       missing +=
-        offered && count_rows(study, i, (baum_formulation)f) < kinds * gains * grid->settings;
+        offered && count_entries(study, i, (baum_formulation)f) < kinds * gains * grid->settings;
     }
   }
   return missing;
@@ -238,8 +239,8 @@ baum_status catalog_grid_judge(const baum_catalog_entry *entry, const baum_study
   baum_status status = study_twice(&p, grid, limit);
   if (status == BAUM_OK) {
     out->missing = count_missing(p.own, grid);
-    for (int32_t k = 0; k < baum_study_row_count(p.own); k++) {
-      judge_row(&p, k, out);
+    for (int32_t k = 0; k < baum_study_entry_count(p.own); k++) {
+      judge_entry(&p, k, out);
     }
   }
   baum_study_destroy(p.own);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with a row of every kind. */
+/* A small study with an entry of every kind. */
 #include "report_scene.h"
 
 #include <stddef.h>
@@ -29,23 +29,23 @@ static baum_status make_pendulum(baum_mechanism **out)
   return status ? status : baum_mechanism_freeze(*out);
 }
 
-/* The fine rows are of two methods, the first of which has three; the next drifts until it warns of the joint, by name; the
+/* The fine entries are of two methods, the first of which has three; the next drifts until it warns of the joint, by name; the
  * gains of the last are unstable. */
-static baum_status add_rows(baum_study *study)
+static baum_status add_entries(baum_study *study)
 {
-  static const double steps[REPORT_ROWS] = {0.04, 0.02, 0.01, 0.01, 0.05, 0.01};
+  static const double steps[REPORT_ENTRIES] = {0.04, 0.02, 0.01, 0.01, 0.05, 0.01};
   baum_status status = BAUM_OK;
-  for (int k = 0; k < REPORT_ROWS && status == BAUM_OK; k++) {
+  for (int k = 0; k < REPORT_ENTRIES && status == BAUM_OK; k++) {
     baum_simulation_options o = baum_simulation_options_default();
-    o.integrator = k < 3 ? baum_rk4() : k == REPORT_WARNED_ROW ? baum_dp5() : baum_rk2();
-    o.formulation = k < 3                    ? BAUM_FORMULATION_PROJECTION
-                    : k == REPORT_WARNED_ROW ? BAUM_FORMULATION_UNSTABILIZED
-                                             : BAUM_FORMULATION_BAUMGARTE;
+    o.integrator = k < 3 ? baum_rk4() : k == REPORT_WARNED_ENTRY ? baum_dp5() : baum_rk2();
+    o.formulation = k < 3                      ? BAUM_FORMULATION_PROJECTION
+                    : k == REPORT_WARNED_ENTRY ? BAUM_FORMULATION_UNSTABILIZED
+                                               : BAUM_FORMULATION_BAUMGARTE;
     if (o.formulation == BAUM_FORMULATION_BAUMGARTE) {
-      double gain = k == REPORT_REFUSED_ROW ? 1e3 : 5.0;
+      double gain = k == REPORT_REFUSED_ENTRY ? 1e3 : 5.0;
       o.gains = baum_gains_fixed(gain, gain);
     }
-    if (k == REPORT_WARNED_ROW) {
+    if (k == REPORT_WARNED_ENTRY) {
       o.rtol = 0.1;
     } else {
       o.step = steps[k];
@@ -60,7 +60,7 @@ report_scene report_scene_make(void)
   report_scene scene = {NULL, NULL};
   baum_status status = make_pendulum(&scene.mechanism);
   status = status ? status : baum_study_create(scene.mechanism, 0.0, 2.0, &scene.study);
-  status = status ? status : add_rows(scene.study);
+  status = status ? status : add_entries(scene.study);
   if (status != BAUM_OK) {
     report_scene_end(&scene);
   }

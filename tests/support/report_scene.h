@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A small study with a row of every kind, of a mechanism and under a title whose names try to be markup. */
+/* A small study with an entry of every kind, of a mechanism and under a title whose names try to be markup. */
 #ifndef BAUM_TEST_REPORT_SCENE_H
 #define BAUM_TEST_REPORT_SCENE_H
 
@@ -9,7 +9,12 @@
 #define REPORT_JOINT "<img src=x onerror=\"document.title='taken'\">"
 #define REPORT_TITLE "</title><script>document.title='taken'</script> \"q\" \\ \t \xff \xc3\xa9"
 
-enum { REPORT_FINE_ROWS = 4, REPORT_WARNED_ROW = 4, REPORT_REFUSED_ROW = 5, REPORT_ROWS = 6 };
+enum {
+  REPORT_FINE_ROWS = 4,
+  REPORT_WARNED_ENTRY = 4,
+  REPORT_REFUSED_ENTRY = 5,
+  REPORT_ENTRIES = 6
+};
 
 typedef struct report_scene {
   baum_mechanism *mechanism;

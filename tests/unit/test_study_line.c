@@ -17,9 +17,9 @@
 
 enum { LINE = BAUM_I_STUDY_LINE };
 
-static baum_study_row row_with(double error)
+static baum_study_entry entry_with(double error)
 {
-  return (baum_study_row){
+  return (baum_study_entry){
     .state = BAUM_STUDY_DONE,
     .status = BAUM_WARNED,
     .off = true,
@@ -38,13 +38,13 @@ static void numbers_of_all_kinds_come_back(void **state)
   const double numbers[] = {0.0,     -0.0,    0.1 + 0.2,   1e-6,         1e22,
                             DBL_MAX, DBL_MIN, (double)NAN, -(double)NAN, (double)INFINITY};
   for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-    char line[LINE] = "row";
-    char again[LINE] = "row";
-    baum_study_row from = row_with(numbers[k]);
-    baum_study_row to = {.name = NULL};
+    char line[LINE] = "entry";
+    char again[LINE] = "entry";
+    baum_study_entry from = entry_with(numbers[k]);
+    baum_study_entry to = {.name = NULL};
     baum_i_study_write_fields(line, &from, &baum_i_measured_fields);
     baum_i_study_write_text(line, "two\nlines");
-    const char *end = baum_i_study_read_fields(line + 3, &to, &baum_i_measured_fields);
+    const char *end = baum_i_study_read_fields(line + 5, &to, &baum_i_measured_fields);
     assert_non_null(end);
     assert_string_equal(end, " | two lines");
     assert_memory_equal(&to.error, &from.error, sizeof to.error);
@@ -60,10 +60,10 @@ static void what_no_study_writes_is_refused(void **state)
   const char *const bad[] = {" -1 0 1 1 nan 1",        " 1 0 1 1 nan 0", " 1 0 1 1 nan",
                              " 1 0 1 1,5 nan 1",       " 1 0 1 x nan 1", "",
                              " 1 0 1 1 nan 5000000000"};
-  baum_study_row row;
-  assert_non_null(baum_i_study_read_fields(" 1 0 1 1.5 nan 1", &row, &baum_i_timed_fields));
+  baum_study_entry entry;
+  assert_non_null(baum_i_study_read_fields(" 1 0 1 1.5 nan 1", &entry, &baum_i_timed_fields));
   for (size_t k = 0; k < sizeof bad / sizeof bad[0]; k++) {
-    assert_null(baum_i_study_read_fields(bad[k], &row, &baum_i_timed_fields));
+    assert_null(baum_i_study_read_fields(bad[k], &entry, &baum_i_timed_fields));
   }
 }
 
@@ -77,12 +77,12 @@ static void states_and_statuses_are_those_that_there_are(void **state)
   for (size_t k = 0; k < sizeof tries / sizeof tries[0]; k++) {
     char line[LINE] = "";
     char text[LINE];
-    baum_study_row row = row_with(1e-6);
-    baum_i_study_write_fields(line, &row, &baum_i_measured_fields);
+    baum_study_entry entry = entry_with(1e-6);
+    baum_i_study_write_fields(line, &entry, &baum_i_measured_fields);
     assert_memory_equal(line, " 1 10 0", 7);
     (void)snprintf(text, sizeof text, " %d %d %d%s", tries[k][0], tries[k][1], tries[k][2],
                    line + 7);
-    const char *end = baum_i_study_read_fields(text, &row, &baum_i_measured_fields);
+    const char *end = baum_i_study_read_fields(text, &entry, &baum_i_measured_fields);
     assert_int_equal(end != NULL, tries[k][3]);
   }
 }

@@ -28,7 +28,7 @@ from .integrators import (
 from .mechanism import Mechanism, Mobility, Report, Sizes
 from .run import Counters, EnergyAccount, Event, NearSingular, Run
 from .simulation import Simulation
-from .studies import Recommendation, Study, StudyMethod, StudyReference, StudyRow, study
+from .studies import Recommendation, Study, StudyEntry, StudyMethod, StudyReference, study
 from .workspace import Workspace
 
 globals().update(WARNINGS)
@@ -54,8 +54,8 @@ __all__ = [
     *WARNINGS, "Amplification", "Body", "Channel", "Counters", "DoubtWarning", "EnergyAccount", "Error",
     "Event", "Force", "Gains",
     "Input", "Integrator", "Joint", "Mechanism", "Mobility", "NearSingular", "Recommendation",
-    "Report", "Retry", "Run", "Simulation", "Sizes", "Status", "Study", "StudyMethod",
-    "StudyReference", "StudyRow", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat",
+    "Report", "Retry", "Run", "Simulation", "Sizes", "Status", "Study", "StudyEntry", "StudyMethod",
+    "StudyReference", "Warning", "Workspace", "a", "auto", "best_damping", "deadbeat",
     "energy", "energy_account",
     "fixed", "frequency", "has", "integrators", "lambda_", "library", "library_version",
     "phi", "phi_rate",

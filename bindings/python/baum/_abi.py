@@ -646,13 +646,13 @@ class baum_study_options(Structure):
         ("samples", c_int32),
         ("threads", c_int32),
         ("repeats", c_int32),
-        ("row_limit", c_double),
+        ("entry_limit", c_double),
         ("time_budget", c_double),
         ("energy_account", c_bool),
         ("file", c_char_p),
         ("progress", baum_study_progress_fn),
         ("user", c_void_p),
-        ("rehearse", c_bool),
+        ("validate", c_bool),
     ]
 
 
@@ -680,7 +680,7 @@ class baum_study_state(enum.IntEnum):
     BAUM_STUDY_TIMED_OUT = 4
 
 
-class baum_study_row(Structure):
+class baum_study_entry(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
         ("name", c_char_p),
@@ -726,7 +726,7 @@ class baum_study_row(Structure):
         ("cpu", c_double),
         ("cpu_spread", c_double),
         ("repeats", c_int32),
-        ("error_rehearsed", c_double),
+        ("error_validated", c_double),
         ("alpha", c_double),
         ("beta", c_double),
         ("doubts", c_int64),
@@ -769,7 +769,7 @@ class baum_study_method(Structure):
         ("formulation", c_int),
         ("gains", baum_gains),
         ("fixed_step", c_bool),
-        ("rows", c_int32),
+        ("entries", c_int32),
         ("usable", c_int32),
         ("least_error", c_double),
         ("slope", c_double),
@@ -1205,7 +1205,7 @@ PROTOTYPES = {
     "baum_study_add": (c_int, [c_void_p, POINTER(baum_simulation_options)]),
     "baum_study_grid_init": (None, [POINTER(baum_study_grid), c_size_t]),
     "baum_study_add_standard": (c_int, [c_void_p, POINTER(baum_study_grid)]),
-    "baum_study_add_extremes": (c_int, [c_void_p, c_void_p]),
+    "baum_study_add_stress": (c_int, [c_void_p, c_void_p]),
     "baum_study_set_error": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_double]),
     "baum_study_set_reference": (c_int, [
         c_void_p, c_void_p, c_int32, c_void_p, c_void_p, c_void_p, c_double,
@@ -1214,9 +1214,9 @@ PROTOTYPES = {
     "baum_study_run": (c_int, [c_void_p]),
     "baum_study_cancel": (None, [c_void_p]),
     "baum_study_state_name": (c_char_p, [c_int]),
-    "baum_study_row_count": (c_int32, [c_void_p]),
-    "baum_study_row_at": (c_int, [c_void_p, c_int32, POINTER(baum_study_row), c_size_t]),
-    "baum_study_row_options": (c_int, [
+    "baum_study_entry_count": (c_int32, [c_void_p]),
+    "baum_study_entry_at": (c_int, [c_void_p, c_int32, POINTER(baum_study_entry), c_size_t]),
+    "baum_study_entry_options": (c_int, [
         c_void_p, c_int32, POINTER(baum_simulation_options), c_size_t,
     ]),
     "baum_study_reference_read": (c_int, [c_void_p, POINTER(baum_study_reference), c_size_t]),
@@ -1338,7 +1338,7 @@ STRUCTS = [
     baum_planar_curve_def,
     baum_study_options,
     baum_study_grid,
-    baum_study_row,
+    baum_study_entry,
     baum_study_reference,
     baum_study_method,
     baum_spline_driver_def,

@@ -33,16 +33,16 @@ def _record(name, struct, doc):
     return made
 
 
-StudyRow = _record(
-    "StudyRow",
-    _abi.baum_study_row,
-    """What a setting costs and how exact it is; see baum_study_row in study.h. Integrator,
+StudyEntry = _record(
+    "StudyEntry",
+    _abi.baum_study_entry,
+    """What a setting costs and how exact it is; see baum_study_entry in study.h. Integrator,
 formulation, gains and state are words or objects of this package, NaN is not known.""",
 )
 StudyMethod = _record(
     "StudyMethod",
     _abi.baum_study_method,
-    """Rows with the same integrator, formulation and gains; see baum_study_method in study.h.""",
+    """Entries with the same integrator, formulation and gains; see baum_study_method in study.h.""",
 )
 StudyReference = _record(
     "StudyReference",
@@ -120,13 +120,13 @@ class Study:
     reference: (times, q), (times, q, v) or (times, q, v, lambda_) with a sample a line, or
         solution(t), which returns (q, v) or (q, v, lambda_), in place of the study's own; `digits`
         says how far it can be trusted.
-    samples, repeats, row_limit [s of CPU time], time_budget [s of wall time], energy_account,
-        rehearse, file: see baum_study_options in study.h. threads: left out as many as there are
+    samples, repeats, entry_limit [s of CPU time], time_budget [s of wall time], energy_account,
+        validate, file: see baum_study_options in study.h. threads: left out as many as there are
         processors, but one for a mechanism with functions of Python.
     grid: what run() adds to a study without settings: "quick", which takes about a minute where
         functions of Python are called and seconds otherwise, or "full", about 25 times as long.
     progress: left out, a line with an estimate of the time left where somebody watches, in a terminal
-        or a notebook; False: nothing. progress(done, total) is called after rows, of which timed ones
+        or a notebook; False: nothing. progress(done, total) is called after entries, of which timed ones
         count twice, and cancels when it returns something true; of the study it can use cancel() and
         len() alone.
     """
@@ -160,10 +160,10 @@ class Study:
             self._set_solution(solution, number(digits, "digits"))
 
     def __repr__(self):
-        return f"<study of {len(self)} rows>"
+        return f"<study of {len(self)} entries>"
 
     def __len__(self):
-        return lib.baum_study_row_count(self._owner._address)
+        return lib.baum_study_entry_count(self._owner._address)
 
     # ---- what is studied -------------------------------------------------------------------------
 
@@ -171,7 +171,7 @@ class Study:
         struct = default(_abi.baum_study_options)
         whole = {"samples", "threads", "repeats"}
         for name, value in values.items():
-            if name not in whole | {"row_limit", "time_budget", "energy_account", "rehearse"}:
+            if name not in whole | {"entry_limit", "time_budget", "energy_account", "validate"}:
                 raise TypeError(f"a study has no option {name!r}")
             if name in whole:
                 value = integer(value, name)
@@ -258,19 +258,19 @@ class Study:
         self._long(lib.baum_study_add_standard, ctypes.byref(struct))
         return self
 
-    def add_extremes(self, integrator=None):
-        """Add settings at their extremes, of all integrators or of one: steps, tolerances, gains; see
-        baum_study_add_extremes() in study.h. Returns the study."""
+    def add_stress(self, integrator=None):
+        """Add stress settings of all integrators or of one: extreme steps, tolerances and gains; see
+        baum_study_add_stress() in study.h. Returns the study."""
         address = None if integrator is None else lookup(integrator).address
-        self._long(lib.baum_study_add_extremes, address)
+        self._long(lib.baum_study_add_stress, address)
         return self
 
     # ---- running ---------------------------------------------------------------------------------
 
     def run(self):
-        """Make the reference and run the rows that are not done; without any the grid of the study
+        """Make the reference and run the entries that are not done; without any the grid of the study
         is added first. A reference that is not to be trusted, and a budget that is spent, are Python
-        warnings. Where a function of the mechanism raises, the row fails, and its message tells
+        warnings. Where a function of the mechanism raises, the entry fails, and its message tells
         what was raised. Returns the study."""
         if len(self) == 0:
             self.add_standard(quick=self._quick)
@@ -278,7 +278,7 @@ class Study:
         if out is None:
             status, sentence = self._long(lib.baum_study_run)
         else:
-            self._progress = Line(out, [row.method for row in self.rows])
+            self._progress = Line(out, [entry.method for entry in self.entries])
             try:
                 status, sentence = self._long(lib.baum_study_run)
             finally:
@@ -317,10 +317,10 @@ class Study:
         return made(*(_value(name, getattr(struct, name)) for name in made._fields))
 
     @property
-    def rows(self):
-        """All rows, in the order of adding."""
+    def entries(self):
+        """All entries, in the order of adding."""
         return [
-            self._read(lib.baum_study_row_at, _abi.baum_study_row(), StudyRow, k)
+            self._read(lib.baum_study_entry_at, _abi.baum_study_entry(), StudyEntry, k)
             for k in range(len(self))
         ]
 
@@ -357,12 +357,12 @@ class Study:
     # ---- answers ---------------------------------------------------------------------------------
 
     def front(self, cost="work"):
-        """Numbers of the rows than which none is both cheaper and more exact, from cheap to exact;
+        """Numbers of the entries than which none is both cheaper and more exact, from cheap to exact;
         cost is "work", the same on every machine, or "cpu"."""
-        rows = (ctypes.c_int32 * max(len(self), 1))()
+        entries = (ctypes.c_int32 * max(len(self), 1))()
         count = ctypes.c_int32()
-        self._owner.call(lib.baum_study_front, _cost(cost), len(self), rows, ctypes.byref(count))
-        return list(rows[: count.value])
+        self._owner.call(lib.baum_study_front, _cost(cost), len(self), entries, ctypes.byref(count))
+        return list(entries[: count.value])
 
     def cost_at(self, method, error, cost="work"):
         """What the method of that number costs at an error."""

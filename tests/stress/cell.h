@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One cell of the map of extremes: a scene, a way to integrate it, and what has become of it. */
+/* One cell of the stress grid: a scene, a way to integrate it, and what has become of it. */
 #ifndef BAUM_TEST_CELL_H
 #define BAUM_TEST_CELL_H
 

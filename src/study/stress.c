@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Settings at their extremes, for a mechanism of the user's. Decades, because what breaks does so between them. */
+/* Stress settings for a mechanism of the user's. Decades, because what breaks does so between them.
+ * */
 #include <math.h>
 
 #include "integrate/integrator.h"
@@ -87,26 +88,26 @@ static baum_status add_all(const ladders *l, const baum_integrator *only)
   return status;
 }
 
-baum_status baum_study_add_extremes(baum_study *study, const baum_integrator *integrator)
+baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator)
 {
-  const char *call = "baum_study_add_extremes";
+  const char *call = "baum_study_add_stress";
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
   double rate = 0.0;
   baum_status status = baum_i_study_rate(study, &rate);
-  int rows = study->row_count;
+  int entries = study->entry_count;
   int methods = study->method_count;
   if (status == BAUM_OK) {
     const ladders l = {.study = study, .period = 2.0 * PI / rate};
     status = add_all(&l, integrator);
   }
-  if (status == BAUM_OK && study->row_count == rows) {
+  if (status == BAUM_OK && study->entry_count == entries) {
     status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: this build has no %s with a step or a tolerance",
                          call, baum_integrator_name(integrator));
   }
   if (status != BAUM_OK) {
-    baum_i_study_drop_rows(study, rows, methods);
+    baum_i_study_truncate(study, entries, methods);
   }
   return status;
 }

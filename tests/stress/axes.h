@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The extremes: which cells there are. */
+/* The stress grid: which cells there are. */
 #ifndef BAUM_TEST_AXES_H
 #define BAUM_TEST_AXES_H
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stress grid: every run meets its tolerance, or says why not.
  *
- *   extremes [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
+ *   stress [--axis NAME] [--thin K] [--list] [--list-bad] [--json]
  *
  * --thin takes every K-th cell. Fails where a run is silently wrong, or more than
  * one alarm in twenty cells was false.

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "study_rows.h"
+#include "study_entries.h"
 
 baum_study_options small_study_options(void)
 {
@@ -31,25 +31,25 @@ baum_study *small_study(const baum_mechanism *mechanism, const baum_study_option
   return study;
 }
 
-baum_study_row study_row(const baum_study *study, int32_t k)
+baum_study_entry study_entry(const baum_study *study, int32_t k)
 {
-  baum_study_row row;
-  assert_int_equal(baum_study_row_at(study, k, &row, sizeof row), BAUM_OK);
-  return row;
+  baum_study_entry entry;
+  assert_int_equal(baum_study_entry_at(study, k, &entry, sizeof entry), BAUM_OK);
+  return entry;
 }
 
 /* Same bits, so that NaNs are compared too. */
-static void assert_same_numbers(const baum_study_row *a, const baum_study_row *b)
+static void assert_same_numbers(const baum_study_entry *a, const baum_study_entry *b)
 {
   const double x[] = {a->step,         a->rtol,           a->error,           a->error_final,
                       a->error_half,   a->error_q,        a->error_q_final,   a->error_v,
                       a->error_lambda, a->energy_error,   a->max_phi,         a->max_phi_rate,
-                      a->gains_work,   a->violation_work, a->projection_work, a->error_rehearsed,
+                      a->gains_work,   a->violation_work, a->projection_work, a->error_validated,
                       a->work};
   const double y[] = {b->step,         b->rtol,           b->error,           b->error_final,
                       b->error_half,   b->error_q,        b->error_q_final,   b->error_v,
                       b->error_lambda, b->energy_error,   b->max_phi,         b->max_phi_rate,
-                      b->gains_work,   b->violation_work, b->projection_work, b->error_rehearsed,
+                      b->gains_work,   b->violation_work, b->projection_work, b->error_validated,
                       b->work};
   assert_memory_equal(x, y, sizeof x);
   const double g[] = {a->alpha, a->beta, a->error_v_final};
@@ -62,12 +62,12 @@ static void assert_same_numbers(const baum_study_row *a, const baum_study_row *b
   assert_memory_equal(i, j, sizeof i);
 }
 
-void assert_same_rows(const baum_study *a, const baum_study *b)
+void assert_same_entries(const baum_study *a, const baum_study *b)
 {
-  assert_int_equal(baum_study_row_count(a), baum_study_row_count(b));
-  for (int32_t k = 0; k < baum_study_row_count(a); k++) {
-    baum_study_row x = study_row(a, k);
-    baum_study_row y = study_row(b, k);
+  assert_int_equal(baum_study_entry_count(a), baum_study_entry_count(b));
+  for (int32_t k = 0; k < baum_study_entry_count(a); k++) {
+    baum_study_entry x = study_entry(a, k);
+    baum_study_entry y = study_entry(b, k);
     assert_string_equal(x.name, y.name);
     assert_string_equal(x.message, y.message);
     assert_int_equal(x.state, y.state);

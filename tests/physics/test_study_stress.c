@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The extremes of settings as a study: every row meets its tolerance, or says why not. */
+/* Stress settings as a study: every entry meets its tolerance, or says why not. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,46 +10,46 @@
 #include <cmocka.h>
 
 #include "models.h"
-#include "study_rows.h"
+#include "study_entries.h"
 
 static const double SPAN = 2.0;
 
-static baum_study *extremes_of(const baum_mechanism *mechanism, const baum_integrator *integrator)
+static baum_study *stress_of(const baum_mechanism *mechanism, const baum_integrator *integrator)
 {
   baum_study *study = NULL;
   baum_study_options o = small_study_options();
-  o.rehearse = false;
-  o.row_limit = 0.05;
+  o.validate = false;
+  o.entry_limit = 0.05;
   assert_int_equal(baum_study_create(mechanism, 0.0, SPAN, &study), BAUM_OK);
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
-  assert_int_equal(baum_study_add_extremes(study, integrator), BAUM_OK);
+  assert_int_equal(baum_study_add_stress(study, integrator), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);
   return study;
 }
 
-/* What a row without a warning promises: errors of all steps add up, each up to ten tolerances, and so does rounding; a
+/* What an entry without a warning promises: errors of all steps add up, each up to ten tolerances, and so does rounding; a
  * fixed step promises no more than the motion itself. */
-static double promise(const baum_study_row *row)
+static double promise(const baum_study_entry *entry)
 {
   const double rounding = 1e-12;
-  return isnan(row->rtol) ? 0.1 : 10.0 * row->rtol * (double)row->steps + rounding;
+  return isnan(entry->rtol) ? 0.1 : 10.0 * entry->rtol * (double)entry->steps + rounding;
 }
 
-static void check_row(const baum_study_row *row)
+static void check_entry(const baum_study_entry *entry)
 {
-  assert_int_not_equal(row->state, BAUM_STUDY_WAITING);
-  if (row->state != BAUM_STUDY_DONE) {
-    assert_string_not_equal(row->message, "");
-  } else if (row->warnings == 0 && !(row->error <= promise(row))) {
-    fail_msg("%s is off by %g without a word", row->name, row->error);
+  assert_int_not_equal(entry->state, BAUM_STUDY_WAITING);
+  if (entry->state != BAUM_STUDY_DONE) {
+    assert_string_not_equal(entry->message, "");
+  } else if (entry->warnings == 0 && !(entry->error <= promise(entry))) {
+    fail_msg("%s is off by %g without a word", entry->name, entry->error);
   }
 }
 
-static void no_row_is_wrong_without_a_word(void **state)
+static void no_entry_is_wrong_without_a_word(void **state)
 {
   static const struct {
     const baum_integrator *(*integrator)(void);
-    int rows;
+    int entries;
   } TRIED[] = {{baum_rk4, 9 + 20}, {baum_rk8, 9 + 13 + 20}, {baum_cvode_adams, 13 + 20}};
   const model *m = *state;
   int seen[5] = {0};
@@ -57,12 +57,12 @@ static void no_row_is_wrong_without_a_word(void **state)
     if (!baum_has("sundials") && TRIED[k].integrator == baum_cvode_adams) {
       continue;
     }
-    baum_study *study = extremes_of(m->mechanism, TRIED[k].integrator());
-    assert_int_equal(baum_study_row_count(study), TRIED[k].rows);
-    for (int r = 0; r < TRIED[k].rows; r++) {
-      baum_study_row row = study_row(study, r);
-      check_row(&row);
-      seen[row.state]++;
+    baum_study *study = stress_of(m->mechanism, TRIED[k].integrator());
+    assert_int_equal(baum_study_entry_count(study), TRIED[k].entries);
+    for (int r = 0; r < TRIED[k].entries; r++) {
+      baum_study_entry entry = study_entry(study, r);
+      check_entry(&entry);
+      seen[entry.state]++;
     }
     baum_study_destroy(study);
   }
@@ -75,11 +75,11 @@ static void what_cannot_be_added_adds_nothing(void **state)
 {
   const model *m = *state;
   baum_study *study = NULL;
-  assert_int_equal(baum_study_add_extremes(NULL, baum_rk4()), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_study_add_stress(NULL, baum_rk4()), BAUM_ERR_ARGUMENT);
   assert_int_equal(baum_study_create(m->mechanism, 0.0, SPAN, &study), BAUM_OK);
-  assert_int_equal(baum_study_add_extremes(study, baum_kinematics()), BAUM_ERR_ARGUMENT);
+  assert_int_equal(baum_study_add_stress(study, baum_kinematics()), BAUM_ERR_ARGUMENT);
   assert_non_null(strstr(baum_message(), "no kinematics with a step or a tolerance"));
-  assert_int_equal(baum_study_row_count(study), 0);
+  assert_int_equal(baum_study_entry_count(study), 0);
   assert_int_equal(baum_study_method_count(study), 0);
   baum_study_destroy(study);
 }
@@ -100,7 +100,7 @@ static int destroy_pendulum(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(no_row_is_wrong_without_a_word),
+    cmocka_unit_test(no_entry_is_wrong_without_a_word),
     cmocka_unit_test(what_cannot_be_added_adds_nothing),
   };
   return cmocka_run_group_tests(tests, build_pendulum, destroy_pendulum);

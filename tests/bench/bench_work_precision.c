@@ -2,7 +2,7 @@
 /* What an error costs: for every integrator and formulation the cheapest run, over a ladder of steps or tolerances,
  * whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
  *
- * usage: bench_trade [PROBLEM]
+ * usage: bench_work_precision [PROBLEM]
  *
  * Errors: lengths relative to the scale of the mechanism, angles in radians. Time: CPU time of this thread from the
  * start to the last sample, with the making of the run, the smallest of some repeats. Ladders end where a run takes
@@ -168,7 +168,7 @@ int main(int count, char **words)
   }
   if (!known) {
     (void)fprintf(stderr,
-                  "usage: bench_trade [pendulum | slider_crank | four_bar | andrews | window]\n");
+                  "usage: bench_work_precision [pendulum | slider_crank | four_bar | andrews | window]\n");
     return 2;
   }
   return fine ? 0 : 1;

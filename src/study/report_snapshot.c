@@ -24,48 +24,48 @@ static bool has_numbers(int32_t rule)
   return rule == BAUM_GAINS_FIXED || rule == BAUM_GAINS_SCALED || rule == BAUM_GAINS_FREQUENCY;
 }
 
-static void describe(baum_i_report_row *row)
+static void describe(baum_i_report_entry *entry)
 {
-  bool has_gains = row->row.formulation == BAUM_FORMULATION_BAUMGARTE;
-  row->integrator = baum_integrator_name(row->row.integrator);
-  row->formulation = baum_formulation_name(row->row.formulation);
-  row->gains = has_gains ? rule_name(&row->row.gains) : NULL;
+  bool has_gains = entry->entry.formulation == BAUM_FORMULATION_BAUMGARTE;
+  entry->integrator = baum_integrator_name(entry->entry.integrator);
+  entry->formulation = baum_formulation_name(entry->entry.formulation);
+  entry->gains = has_gains ? rule_name(&entry->entry.gains) : NULL;
   for (int k = 0; k < 2; k++) {
-    bool known = has_gains && has_numbers(row->row.gains.rule);
-    row->gain[k] = known ? row->row.gains.value[k] : (double)NAN;
+    bool known = has_gains && has_numbers(entry->entry.gains.rule);
+    entry->gain[k] = known ? entry->entry.gains.value[k] : (double)NAN;
   }
-  row->state = baum_study_state_name(row->row.state);
-  bool is_run = row->row.state != BAUM_STUDY_WAITING;
-  row->status = is_run ? baum_status_name(row->row.status) : NULL;
-  row->message = row->row.message && row->row.message[0] ? row->row.message : NULL;
+  entry->state = baum_study_state_name(entry->entry.state);
+  bool is_run = entry->entry.state != BAUM_STUDY_WAITING;
+  entry->status = is_run ? baum_status_name(entry->entry.status) : NULL;
+  entry->message = entry->entry.message && entry->entry.message[0] ? entry->entry.message : NULL;
 }
 
-static baum_status read_rows(baum_i_snapshot *out)
+static baum_status read_entries(baum_i_snapshot *out)
 {
-  out->row_count = baum_study_row_count(out->study);
-  out->rows = baum_i_alloc((size_t)out->row_count, sizeof *out->rows);
-  if (!out->rows) {
+  out->entry_count = baum_study_entry_count(out->study);
+  out->entries = baum_i_alloc((size_t)out->entry_count, sizeof *out->entries);
+  if (!out->entries) {
     return baum_i_fail_memory();
   }
   baum_status status = BAUM_OK;
-  for (int k = 0; k < out->row_count && status == BAUM_OK; k++) {
-    baum_study_row *row = &out->rows[k].row;
-    status = baum_study_row_at(out->study, k, row, sizeof *row);
-    describe(&out->rows[k]);
+  for (int k = 0; k < out->entry_count && status == BAUM_OK; k++) {
+    baum_study_entry *entry = &out->entries[k].entry;
+    status = baum_study_entry_at(out->study, k, entry, sizeof *entry);
+    describe(&out->entries[k]);
   }
   return status;
 }
 
-static const baum_i_report_row *row_of(const void *entry)
+static const baum_i_report_entry *row_of(const void *entry)
 {
-  return *(const baum_i_report_row *const *)entry;
+  return *(const baum_i_report_entry *const *)entry;
 }
 
-/* A method has rows of steps alone or of tolerances alone. */
+/* A method has entries of steps alone or of tolerances alone. */
 static int by_method(const void *a, const void *b)
 {
-  const baum_study_row *x = &row_of(a)->row;
-  const baum_study_row *y = &row_of(b)->row;
+  const baum_study_entry *x = &row_of(a)->entry;
+  const baum_study_entry *y = &row_of(b)->entry;
   if (x->method != y->method) {
     return x->method < y->method ? -1 : 1;
   }
@@ -74,16 +74,16 @@ static int by_method(const void *a, const void *b)
   return (coarse < fine) - (coarse > fine);
 }
 
-static baum_status order_rows(baum_i_snapshot *out)
+static baum_status order_entries(baum_i_snapshot *out)
 {
-  out->order = baum_i_alloc((size_t)out->row_count, sizeof(const baum_i_report_row *));
+  out->order = baum_i_alloc((size_t)out->entry_count, sizeof(const baum_i_report_entry *));
   if (!out->order) {
     return baum_i_fail_memory();
   }
-  for (int k = 0; k < out->row_count; k++) {
-    out->order[k] = &out->rows[k];
+  for (int k = 0; k < out->entry_count; k++) {
+    out->order[k] = &out->entries[k];
   }
-  qsort(out->order, (size_t)out->row_count, sizeof(const baum_i_report_row *), by_method);
+  qsort(out->order, (size_t)out->entry_count, sizeof(const baum_i_report_entry *), by_method);
   return BAUM_OK;
 }
 
@@ -104,13 +104,14 @@ static baum_status read_methods(baum_i_snapshot *out)
 static baum_status read_front(baum_i_snapshot *out, baum_study_cost cost)
 {
   int32_t *count = &out->front_count[cost];
-  out->front[cost] = baum_i_alloc((size_t)out->row_count, sizeof *out->front[cost]);
+  out->front[cost] = baum_i_alloc((size_t)out->entry_count, sizeof *out->front[cost]);
   if (!out->front[cost]) {
     return baum_i_fail_memory();
   }
-  baum_status status = baum_study_front(out->study, cost, out->row_count, out->front[cost], count);
+  baum_status status =
+    baum_study_front(out->study, cost, out->entry_count, out->front[cost], count);
   for (int k = 0; k < *count && status == BAUM_OK; k++) {
-    out->rows[out->front[cost][k]].front[cost] = true;
+    out->entries[out->front[cost][k]].front[cost] = true;
   }
   return status;
 }
@@ -153,10 +154,10 @@ baum_status baum_i_snapshot_read(const baum_study *study, const char *title, bau
     status = baum_study_reference_read(study, &out->reference, sizeof out->reference);
   }
   if (status == BAUM_OK) {
-    status = read_rows(out);
+    status = read_entries(out);
   }
   if (status == BAUM_OK) {
-    status = order_rows(out);
+    status = order_entries(out);
   }
   if (status == BAUM_OK) {
     status = read_methods(out);
@@ -164,20 +165,20 @@ baum_status baum_i_snapshot_read(const baum_study *study, const char *title, bau
   return status == BAUM_OK ? read_answers(out) : status;
 }
 
-void baum_i_snapshot_clear(baum_i_snapshot *survey)
+void baum_i_snapshot_clear(baum_i_snapshot *snapshot)
 {
-  baum_i_free(survey->rows);
-  baum_i_free(survey->order);
-  baum_i_free(survey->methods);
-  baum_i_free(survey->front[0]);
-  baum_i_free(survey->front[1]);
+  baum_i_free(snapshot->entries);
+  baum_i_free(snapshot->order);
+  baum_i_free(snapshot->methods);
+  baum_i_free(snapshot->front[0]);
+  baum_i_free(snapshot->front[1]);
 }
 
-int baum_i_snapshot_count(const baum_i_snapshot *survey, baum_study_state state)
+int baum_i_snapshot_count(const baum_i_snapshot *snapshot, baum_study_state state)
 {
   int count = 0;
-  for (int k = 0; k < survey->row_count; k++) {
-    count += survey->rows[k].row.state == state;
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    count += snapshot->entries[k].entry.state == state;
   }
   return count;
 }

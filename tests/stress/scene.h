@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms of one freedom whose motion is known from one equation for one angle, with every number
- * that the extremes go through. SI units; `units` only says in which ones the mechanism is built.
+ * that the stress grid goes through. SI units; `units` only says in which ones the mechanism is built.
  */
 #ifndef BAUM_TEST_SCENE_H
 #define BAUM_TEST_SCENE_H

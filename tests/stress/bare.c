@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same extremes without this library: the pendulum and the slider-crank as one would write them for CVODE
+/* The same stress grid without this library: the pendulum and the slider-crank as one would write them for CVODE
  * and IDA in an afternoon. Dense matrices, gains of 5 1/s out of the textbook, atol = rtol, the start as it is
  * drawn; nothing is scaled, assembled or watched.
  *

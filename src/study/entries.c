@@ -1,0 +1,169 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Settings that are added, and what can be read of their entries. */
+#include <math.h>
+
+#include "base/alloc.h"
+#include "base/sized.h"
+#include "integrate/integrator.h"
+#include "study/study.h"
+
+/* Everything that is measured, not known. */
+static void clear(baum_study_entry *entry)
+{
+  const double none = (double)NAN;
+  entry->error = entry->error_final = entry->error_half = none;
+  entry->error_q = entry->error_q_final = entry->error_v = entry->error_v_final = none;
+  entry->error_lambda = entry->error_lambda_final = none;
+  entry->energy_error = entry->energy_error_final = none;
+  entry->max_phi = entry->max_phi_rate = none;
+  entry->violation_work = entry->projection_work = entry->gains_work = none;
+  entry->work = entry->cpu = entry->cpu_spread = entry->error_validated = none;
+  entry->alpha = entry->beta = none;
+}
+
+/* The formulation that DEFAULT stands for. */
+static baum_formulation meant(const baum_simulation_options *o)
+{
+  return o->formulation == BAUM_FORMULATION_DEFAULT ? o->integrator->formulations[0]
+                                                    : o->formulation;
+}
+
+static void describe(baum_i_entry *entry)
+{
+  baum_simulation_options *o = &entry->options;
+  o->formulation = meant(o);
+  o->progress = NULL;
+  o->user = NULL;
+  baum_i_name_method(o, entry->name, sizeof entry->name);
+  baum_i_name_setting(o, entry->name, sizeof entry->name);
+  entry->key = baum_i_options_key(o, true);
+  entry->out = (baum_study_entry){.integrator = o->integrator,
+                                  .formulation = o->formulation,
+                                  .gains = o->gains,
+                                  .step = o->step,
+                                  .rtol = o->rtol};
+  clear(&entry->out);
+}
+
+static baum_status copy_row_gains(baum_i_entry *entry)
+{
+  baum_simulation_options *o = &entry->options;
+  if (o->row_gains && o->row_gain_count > 0) {
+    entry->row_gains = baum_i_copy(o->row_gains, (size_t)o->row_gain_count, sizeof(double));
+    if (!entry->row_gains) {
+      return baum_i_fail_memory();
+    }
+    o->row_gains = entry->row_gains;
+  }
+  return BAUM_OK;
+}
+
+/* Last, for the entry is the study's from here on. */
+static baum_status keep(baum_study *study, baum_i_entry *entry)
+{
+  size_t wanted = (size_t)study->entry_count + 1;
+  /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers. */
+  baum_i_entry **entries = baum_i_grow_by_one(study->entries, wanted, sizeof *study->entries);
+  if (!entries) {
+    return baum_i_fail_memory();
+  }
+  study->entries = entries;
+  entry->out.method = baum_i_study_find_method(study, &entry->options, study->entry_count);
+  if (entry->out.method < 0) {
+    return baum_i_fail_memory();
+  }
+  study->entries[study->entry_count++] = entry;
+  return BAUM_OK;
+}
+
+void baum_i_study_truncate(baum_study *study, int entries, int methods)
+{
+  for (int k = entries; k < study->entry_count; k++) {
+    baum_i_free(study->entries[k]->row_gains);
+    baum_i_free(study->entries[k]);
+  }
+  study->entry_count = entries;
+  study->method_count = methods;
+}
+
+static baum_status take(const baum_study *study, const baum_simulation_options *options,
+                        baum_simulation_options *out)
+{
+  const char *call = "baum_study_add";
+  if (!study || !options) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
+  }
+  *out = baum_simulation_options_default();
+  baum_status status = baum_i_study_take(out, sizeof *out, options, call);
+  if (status == BAUM_OK && !out->integrator) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
+  }
+  return status == BAUM_OK ? baum_i_study_check_idle(study, call) : status;
+}
+
+baum_status baum_study_add(baum_study *study, const baum_simulation_options *options)
+{
+  baum_simulation_options taken;
+  baum_status status = take(study, options, &taken);
+  if (status != BAUM_OK) {
+    return status;
+  }
+  baum_i_entry *entry = baum_i_alloc(1, sizeof *entry);
+  if (!entry) {
+    return baum_i_fail_memory();
+  }
+  entry->options = taken;
+  entry->options.start_time = study->t0;
+  status = copy_row_gains(entry);
+  if (status == BAUM_OK) {
+    describe(entry);
+    status = keep(study, entry);
+  }
+  if (status != BAUM_OK) {
+    baum_i_free(entry->row_gains);
+    baum_i_free(entry);
+  }
+  return status;
+}
+
+int32_t baum_study_entry_count(const baum_study *study)
+{
+  return study ? study->entry_count : 0;
+}
+
+static baum_status check_read(const baum_study *study, int32_t k, const void *out,
+                              size_t caller_size, const char *call)
+{
+  if (!study) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
+  }
+  if (k < 0 || k >= study->entry_count) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: k is %d, must be 0 to %d", call, (int)k,
+                       study->entry_count - 1);
+  }
+  return baum_i_check_sized(out, caller_size, call);
+}
+
+baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_entry *out,
+                                size_t caller_size)
+{
+  baum_status status = check_read(study, k, out, caller_size, "baum_study_entry_at");
+  if (status == BAUM_OK) {
+    baum_study_entry whole = study->entries[k]->out;
+    whole.name = study->entries[k]->name;
+    whole.message = study->entries[k]->message;
+    baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  }
+  return status;
+}
+
+baum_status baum_study_entry_options(const baum_study *study, int32_t k,
+                                     baum_simulation_options *out, size_t caller_size)
+{
+  baum_status status = check_read(study, k, out, caller_size, "baum_study_entry_options");
+  if (status == BAUM_OK) {
+    baum_i_give_sized(out, caller_size, &study->entries[k]->options,
+                      sizeof(baum_simulation_options));
+  }
+  return status;
+}
