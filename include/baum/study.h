@@ -255,10 +255,54 @@ typedef enum baum_study_state {
 /** Name of a state such as "done"; NULL for an unknown value. */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** What a setting costs and how exact it is. Errors are the largest over all samples, `final` ones
- *  those at the last; where they would be below the uncertainty of the reference they are that
- *  uncertainty. NaN: not known, as everything of entries that are not done but what they are,
- *  state, status and message. */
+/** What is found out about a setting: X(type, name, known, unit, meaning). The one list from which
+ *  the struct below, the study file, CSV, JSON and Python come. Reports give figures that are known
+ *  when DONE for entries that are done only. Errors are the largest over all samples, `final` ones
+ *  those at the last; where they would be below the uncertainty of the reference they are that. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
+  X(baum_status, status, ALWAYS, "", "of its run")                                                 \
+  X(bool, at_floor, ALWAYS, "", "error is the uncertainty of the reference, as good as it gets")   \
+  X(bool, untrusted, ALWAYS, "", "the reference is not to be trusted, so errors are not either")   \
+  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")               \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                            \
+  X(double, alpha, ALWAYS, "1/s", "of the gains that the run used, whatever their rule; 0: none")  \
+  X(double, beta, ALWAYS, "1/s", "likewise")                                                       \
+  X(double, error, DONE, "1", "what the study calls error, see baum_study_set_error()")            \
+  X(double, error_final, DONE, "1", "error at the last sample")                                    \
+  X(double, error_half, DONE, "1", "error over the first half of the samples: how errors grow")    \
+  X(double, error_q, DONE, "1", "of positions, by the scales")                                     \
+  X(double, error_q_final, DONE, "1", "of positions at the last sample")                           \
+  X(double, error_v, DONE, "1", "of velocities, by the scales and the largest scaled velocity")    \
+  X(double, error_v_final, DONE, "1", "of velocities at the last sample")                          \
+  X(double, error_lambda, DONE, "1", "of multipliers, times the displacement of their rows")       \
+  X(double, error_lambda_final, DONE, "1", "of multipliers at the last sample")                    \
+  X(double, energy_error, DONE, "J", "drift of energy against the reference")                      \
+  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                   \
+  X(double, error_estimate, DONE, "1", "as in baum_counters")                                      \
+  X(double, error_validated, DONE, "1", "over twice the span and from starts nearby; see below")   \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
+  X(double, violation_work, DONE, "J", "work of constraint forces, see baum_energy_account")       \
+  X(double, projection_work, DONE, "J", "energy that projections have changed, likewise")          \
+  X(double, gains_work, DONE, "J", "work of the stabilization, likewise")                          \
+  X(double, work, DONE, "evaluations", "the same on every machine: BAUM_STUDY_WORK")               \
+  X(double, cpu, DONE, "s", "least CPU time of a run from its making to its end, without samples") \
+  X(double, cpu_spread, DONE, "s", "second least CPU time less the least")                         \
+  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                          \
+  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without those of samples")    \
+  X(int64_t, factorizations, DONE, "1", "of matrices, likewise")                                   \
+  X(int64_t, nonlinear_iterations, DONE, "1", "of implicit methods")                               \
+  X(int64_t, steps, DONE, "1", "accepted")                                                         \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
+  X(int64_t, forced_steps, DONE, "1", "over singular configurations")                              \
+  X(int64_t, near_singular_intervals, DONE, "1", "of its run")                                     \
+  X(int64_t, warnings, DONE, "1", "of its run")                                                    \
+  X(int64_t, branch_warnings, DONE, "1", "of its run")                                             \
+  X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
+
+/** What a setting costs and how exact it is. NaN: not known. error_validated is infinite where the
+ *  setting fails there, and not known for entries that cost far more than others as exact. */
 typedef struct baum_study_entry {
   size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
@@ -269,58 +313,9 @@ typedef struct baum_study_entry {
   double step;                       /**< [s] NaN: it goes by rtol. */
   double rtol;                       /**< [-] NaN: it goes by step. */
   int32_t method;                    /**< See baum_study_method_at(). */
-  baum_study_state state;            /**< How far it has come. */
-  baum_status status;                /**< Of its run. */
-
-  bool at_floor;  /**< error is the uncertainty of the reference: it is as good as can be told. */
-  bool untrusted; /**< The reference is not to be trusted, so errors are not either. */
-  bool
-    off; /**< Error of positions of more than 0.1 of the scale or rad: another motion, unstable or on another
-                       branch; or a branch warning of a run that ended. */
-  bool
-    unstable; /**< The gains do not damp with this step: refused, or spectral radius of 1 or more. */
-
-  double error;         /**< [-] what the user says; see baum_study_set_error(). */
-  double error_final;   /**< [-] */
-  double error_half;    /**< [-] largest in the first half of the samples: how errors grow. */
-  double error_q;       /**< [-] of positions, by the scales. */
-  double error_q_final; /**< [-] */
-  double
-    error_v; /**< [-] of velocities, by the scales and the largest scaled velocity of the reference. */
-  double error_v_final; /**< [-] */
-  double
-    error_lambda; /**< [-] of multipliers times the displacement of their rows, by the largest of these. */
-  double error_lambda_final; /**< [-] */
-  double energy_error; /**< [J] of kinetic and potential energy, against the reference: drift. */
-  double energy_error_final; /**< [J] */
-  double max_phi;            /**< [m or rad] largest |Phi| over all steps. */
-  double max_phi_rate;       /**< [m/s or rad/s] largest |Phi'| over all steps. */
-  double violation_work;     /**< [J] see baum_energy_account; NaN without it. */
-  double projection_work;    /**< [J] likewise. */
-  double gains_work;         /**< [J] likewise. */
-
-  int64_t steps;                /**< [-] accepted. */
-  int64_t rejected;             /**< [-] */
-  int64_t evaluations;          /**< [-] right-hand sides or residuals, without those of samples. */
-  int64_t factorizations;       /**< [-] likewise. */
-  int64_t nonlinear_iterations; /**< [-] */
-  int64_t forced_steps;         /**< [-] over singular poses. */
-  int64_t warnings;             /**< [-] */
-  int64_t near_singular_intervals; /**< [-] */
-  int64_t branch_warnings;         /**< [-] */
-  double work; /**< [-] cost that does not depend on the machine, see BAUM_STUDY_WORK. */
-  double cpu;  /**< [s] least CPU time of a run from its making to its end, without samples. */
-  double cpu_spread; /**< [s] second least less least; NaN when there was one repeat. */
-  int32_t repeats;   /**< [-] of the time. */
-  double
-    error_validated; /**< [-] largest error over twice the span and from starts nearby; infinite
-                               where it fails there. NaN: not validated, as entries that cost far more than
-                               others that are as exact. */
-  double
-    alpha; /**< [1/s] of the gains that the run used, whatever their rule; 0: none, NaN: not run. */
-  double beta;           /**< [1/s] likewise. */
-  int64_t doubts;        /**< [-] kinds of warnings that doubt the motion. */
-  double error_estimate; /**< [-] as in baum_counters. */
+#define BAUM_X(type, name, known, unit, meaning) type name;
+  BAUM_STUDY_ENTRY_LIST(BAUM_X)
+#undef BAUM_X
 } baum_study_entry;
 
 /** Number of entries; 0 for NULL. */

@@ -410,7 +410,7 @@ static baum_status check_answerable(const baum_study *study, const void *best, s
                        call);
   }
   for (int k = 0; k < study->entry_count; k++) {
-    if (study->entries[k]->timed) {
+    if (study->entries[k]->stage >= BAUM_I_TIMED) {
       return BAUM_OK;
     }
   }

@@ -5,20 +5,17 @@
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "integrate/integrator.h"
+#include "study/fields.h"
 #include "study/study.h"
 
-/* Everything that is measured, not known. */
+/* What is found out, not known. */
 static void clear(baum_study_entry *entry)
 {
-  const double none = (double)NAN;
-  entry->error = entry->error_final = entry->error_half = none;
-  entry->error_q = entry->error_q_final = entry->error_v = entry->error_v_final = none;
-  entry->error_lambda = entry->error_lambda_final = none;
-  entry->energy_error = entry->energy_error_final = none;
-  entry->max_phi = entry->max_phi_rate = none;
-  entry->violation_work = entry->projection_work = entry->gains_work = none;
-  entry->work = entry->cpu = entry->cpu_spread = entry->error_validated = none;
-  entry->alpha = entry->beta = none;
+  for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {
+    if (f->filed && f->kind == BAUM_I_NUMBER) {
+      *(double *)((char *)entry + f->place) = (double)NAN;
+    }
+  }
 }
 
 /* The formulation that DEFAULT stands for. */
@@ -74,16 +71,6 @@ static baum_status keep(baum_study *study, baum_i_entry *entry)
   }
   study->entries[study->entry_count++] = entry;
   return BAUM_OK;
-}
-
-void baum_i_study_truncate(baum_study *study, int entries, int methods)
-{
-  for (int k = entries; k < study->entry_count; k++) {
-    baum_i_free(study->entries[k]->row_gains);
-    baum_i_free(study->entries[k]);
-  }
-  study->entry_count = entries;
-  study->method_count = methods;
 }
 
 static baum_status take(const baum_study *study, const baum_simulation_options *options,

@@ -46,8 +46,8 @@ static int by_setting(const void *a, const void *b)
 static bool is_usable(const baum_i_entry *entry)
 {
   const baum_study_entry *r = &entry->out;
-  return r->state == BAUM_STUDY_DONE && entry->timed && !r->off && isfinite(r->error) &&
-         r->error > 0.0;
+  return r->state == BAUM_STUDY_DONE && entry->stage >= BAUM_I_TIMED && !r->off &&
+         isfinite(r->error) && r->error > 0.0;
 }
 
 bool baum_i_study_is_answer(const baum_i_entry *entry)

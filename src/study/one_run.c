@@ -157,3 +157,14 @@ void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, do
   baum_simulation_destroy(run);
   out->cpu = baum_i_thread_seconds() - deadline->begin;
 }
+
+baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out)
+{
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_rk4();
+  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
+  o.step = fabs(study->t1 - study->t0);
+  o.start_time = study->t0;
+  o.check_derivatives = false;
+  return baum_simulation_create(study->mechanism, &o, out);
+}

@@ -240,17 +240,6 @@ static baum_status make_own(baum_study *study, baum_i_deadline *deadline)
 
 /* ---- given ---- */
 
-baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out)
-{
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = baum_rk4();
-  o.formulation = BAUM_FORMULATION_UNSTABILIZED;
-  o.step = fabs(study->t1 - study->t0);
-  o.start_time = study->t0;
-  o.check_derivatives = false;
-  return baum_simulation_create(study->mechanism, &o, out);
-}
-
 static bool all_known(const double *values, int count)
 {
   for (int i = 0; i < count; i++) {

@@ -7,23 +7,11 @@
 
 #include <baum/report.h>
 
+#include "study/fields.h"
 #include "study/report_buffer.h"
 
 /* Errors that are asked for: 1e-2, 1e-4, ... 1e-10. */
 enum { BAUM_I_ADVICE = 5, BAUM_I_COSTS = 2 };
-
-/* An entry with what a report says of it besides. */
-typedef struct baum_i_report_entry {
-  baum_study_entry entry;
-  const char *integrator;
-  const char *formulation;
-  const char *gains; /* rule */
-  double gain[2];    /* its numbers; NaN: it has none */
-  const char *state;
-  const char *status;
-  const char *message;      /* NULL without */
-  bool front[BAUM_I_COSTS]; /* by baum_study_cost */
-} baum_i_report_entry;
 
 /* What is recommended for an error. */
 typedef struct baum_i_advice {
@@ -53,8 +41,7 @@ typedef struct baum_i_snapshot {
   baum_study_reference reference;
   baum_i_report_entry *entries;
   int entry_count;
-  const baum_i_report_entry **order; /* (entry_count) by method, from coarse to fine */
-  baum_study_method *methods;
+  baum_i_report_method *methods;
   int method_count;
   int32_t *front[BAUM_I_COSTS]; /* entries, from cheap to exact */
   int32_t front_count[BAUM_I_COSTS];
@@ -65,47 +52,11 @@ typedef struct baum_i_snapshot {
 /* Read a study; to be cleared, also after a failure. */
 baum_status baum_i_snapshot_read(const baum_study *study, const char *title, baum_i_snapshot *out);
 void baum_i_snapshot_clear(baum_i_snapshot *snapshot);
-/* Entries in that state. */
-int baum_i_snapshot_count(const baum_i_snapshot *snapshot, baum_study_state state);
 
-/* To be added to the name of a method, where it may go by steps and by tolerances. */
-const char *baum_i_way(const baum_study_method *method);
+/* Such as "best_damping"; NULL for an unknown value. */
+const char *baum_i_gain_rule_name(int rule);
 
 void baum_i_environment_read(baum_i_environment *out);
-
-/* ---- columns ---- */
-
-typedef enum baum_i_column_kind {
-  BAUM_I_COLUMN_TEXT,
-  BAUM_I_COLUMN_NUMBER, /* double */
-  BAUM_I_COLUMN_COUNT,  /* int64_t */
-  BAUM_I_COLUMN_INDEX,  /* int32_t */
-  BAUM_I_COLUMN_FLAG
-} baum_i_column_kind;
-
-/* What is known of every entry. */
-typedef struct baum_i_column {
-  const char *key; /* in CSV and JSON, never to be changed */
-  const char *unit;
-  const char *title; /* on the page; NULL: not there */
-  const char *meaning;
-  baum_i_column_kind kind;
-  size_t offset;    /* in a baum_i_report_entry */
-  double times;     /* on the page, in the unit of its title */
-  bool when_is_run; /* else it is known of every entry */
-} baum_i_column;
-
-extern const baum_i_column baum_i_columns[];
-extern const int baum_i_column_count;
-
-const char *baum_i_column_text(const baum_i_column *column, const baum_i_report_entry *entry);
-const baum_i_column *baum_i_column_by_key(const char *key);
-/* A number of any kind; NaN where it is not known. */
-double baum_i_column_number(const baum_i_column *column, const baum_i_report_entry *entry);
-
-/* Words on an entry: remark k of it, from 0 on; NULL where it does not hold. */
-enum { BAUM_I_REMARKS = 6 };
-const char *baum_i_remark(const baum_i_report_entry *entry, int k);
 
 /* ---- forms ---- */
 
@@ -113,31 +64,6 @@ void baum_i_report_text(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_csv(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_json(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out);
-
-/* ---- parts of the page ---- */
-
-enum { BAUM_I_HIGHLIGHTS = 8 };
-
-/* Methods that have a colour: up to BAUM_I_HIGHLIGHTS, best first; the others are grey. */
-typedef struct baum_i_highlights {
-  int methods[BAUM_I_HIGHLIGHTS];
-  int count;
-} baum_i_highlights;
-
-baum_i_highlights baum_i_choose_highlights(const baum_i_snapshot *snapshot);
-/* Its colour, or -1. */
-int baum_i_highlight_of(const baum_i_highlights *highlights, int method);
-
-void baum_i_put_style(baum_i_buffer *out);
-void baum_i_put_script(baum_i_buffer *out);
-void baum_i_put_charts(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
-                       baum_i_buffer *out);
-void baum_i_put_stability_maps(const baum_i_snapshot *snapshot, baum_i_buffer *out);
-void baum_i_put_advice_table(const baum_i_snapshot *snapshot, baum_i_buffer *out);
-void baum_i_put_method_table(const baum_i_snapshot *snapshot, const baum_i_highlights *highlights,
-                             baum_i_buffer *out);
-void baum_i_put_entry_table(const baum_i_snapshot *snapshot, baum_i_buffer *out);
-void baum_i_put_messages(const baum_i_snapshot *snapshot, baum_i_buffer *out);
 
 /* ---- files ---- */
 

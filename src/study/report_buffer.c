@@ -126,21 +126,14 @@ static const char *plain(char c)
   return NULL;
 }
 
-static const char *html(char c)
-{
-  switch (c) {
-  case '&': return "&amp;";
-  case '<': return "&lt;";
-  case '>': return "&gt;";
-  case '"': return "&quot;";
-  case '\'': return "&#39;";
-  default: return NULL;
-  }
-}
-
 static const char *json(char c)
 {
-  return c == '"' ? "\\\"" : c == '\\' ? "\\\\" : NULL;
+  switch (c) {
+  case '"': return "\\\"";
+  case '\\': return "\\\\";
+  case '<': return "\\u003c"; /* so that no text ends the script that it stands in */
+  default: return NULL;
+  }
 }
 
 static const char *csv(char c)
@@ -151,11 +144,6 @@ static const char *csv(char c)
 void baum_i_put_plain(baum_i_buffer *buffer, const char *text)
 {
   put_escaped(buffer, text, plain);
-}
-
-void baum_i_put_html(baum_i_buffer *buffer, const char *text)
-{
-  put_escaped(buffer, text, html);
 }
 
 void baum_i_put_json(baum_i_buffer *buffer, const char *text)
@@ -169,14 +157,6 @@ void baum_i_put_csv(baum_i_buffer *buffer, const char *text)
 }
 
 /* ---- numbers ---- */
-
-baum_i_number baum_i_fixed(double x, int digits)
-{
-  baum_i_number out;
-  double capped = fmax(-1e15, fmin(x, 1e15));
-  (void)baum_i_print(out.text, sizeof out.text, "%.*f", digits, capped);
-  return out;
-}
 
 baum_i_number baum_i_short(double x, int digits)
 {

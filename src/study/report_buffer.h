@@ -25,7 +25,6 @@ void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 /* Texts of users as they are, within HTML, also in attributes in double quotes, and within the
  * quotes of JSON and CSV. Bytes that are no UTF-8 become U+FFFD, control characters spaces. */
 void baum_i_put_plain(baum_i_buffer *buffer, const char *text);
-void baum_i_put_html(baum_i_buffer *buffer, const char *text);
 void baum_i_put_json(baum_i_buffer *buffer, const char *text);
 void baum_i_put_csv(baum_i_buffer *buffer, const char *text);
 
@@ -34,8 +33,6 @@ typedef struct baum_i_number {
   char text[40];
 } baum_i_number;
 
-/* So many digits behind the point, of up to 1e15. */
-baum_i_number baum_i_fixed(double x, int digits);
 /* So many digits in all, but those of whole numbers from 1e3 to 1e7; "-" for what is not a number.
  * */
 baum_i_number baum_i_short(double x, int digits);

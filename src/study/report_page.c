@@ -1,98 +1,94 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A study as one HTML page, which holds all it needs and may load nothing. */
+/* A study as one HTML page: the template report.html with the data that its script draws. These are
+ * the report as JSON, and for each integrator of fixed step with gains its region of stability:
+ * its rule of gains, its point of best damping, and level lines of the spectral radius. */
 #include <math.h>
+#include <string.h>
 
+#include "base/alloc.h"
+#include "integrate/integrator.h"
 #include "study/report.h"
 
-static void put_head(const baum_i_snapshot *snapshot, baum_i_buffer *out)
+enum { POINTS = 4000, LEVELS = 3 };
+static const double RADII[LEVELS] = {1.0, 0.75, 0.5};
+static const char PLACE[] = "\"DATA\""; /* of the data in the template */
+
+extern const unsigned char baum_i_report_html[]; /* made by cmake/Embed.cmake */
+
+static bool has_gains(const baum_study_entry *entry)
 {
-  baum_i_put(out, "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-                  "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; "
-                  "style-src 'unsafe-inline'; script-src 'unsafe-inline'\">\n"
-                  "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-                  "<meta name=\"color-scheme\" content=\"light dark\">\n<title>");
-  baum_i_put_html(out, snapshot->title);
-  baum_i_put(out, "</title>\n");
-  baum_i_put_style(out);
-  baum_i_put(out, "</head>\n<body>\n");
+  return entry->formulation == BAUM_FORMULATION_BAUMGARTE && !isnan(entry->step);
 }
 
-static void put_counts(const baum_i_snapshot *snapshot, baum_i_buffer *out)
+/* Entry k is the first with gains of its integrator. */
+static bool is_first(const baum_i_snapshot *snapshot, int k)
 {
-  baum_i_putf(out, "%d settings of %d methods", snapshot->entry_count, snapshot->method_count);
-  for (int s = BAUM_STUDY_WAITING; s <= BAUM_STUDY_TIMED_OUT; s++) {
-    int count = baum_i_snapshot_count(snapshot, (baum_study_state)s);
-    const char *name =
-      s == BAUM_STUDY_TIMED_OUT ? "timed out" : baum_study_state_name((baum_study_state)s);
-    if (count > 0) {
-      baum_i_putf(out, ", %d %s", count, name);
+  const baum_study_entry *entry = &snapshot->entries[k].entry;
+  for (int j = 0; j < k; j++) {
+    const baum_study_entry *other = &snapshot->entries[j].entry;
+    if (other->integrator == entry->integrator && has_gains(other)) {
+      return false;
     }
   }
+  return has_gains(entry);
 }
 
-static void put_item(baum_i_buffer *out, const char *name, const char *text)
+/* Points (alpha h, beta^2 h^2); null between the curves. */
+static void put_outline(const baum_integrator *integrator, double radius, double *points,
+                        baum_i_buffer *out)
 {
-  baum_i_putf(out, "<dt>%s</dt><dd>", name);
-  baum_i_put_html(out, text);
-  baum_i_put(out, "</dd>\n");
+  int32_t count = 0;
+  (void)baum_stability_outline(integrator, radius, POINTS, points, points + POINTS, &count);
+  baum_i_put(out, "[");
+  for (int k = 0; k < count && k < POINTS; k++) {
+    baum_i_put(out, k ? "," : "");
+    if (isnan(points[k])) {
+      baum_i_put(out, "null");
+    } else {
+      baum_i_putf(out, "[%.4g,%.4g]", points[k], points[POINTS + k]);
+    }
+  }
+  baum_i_put(out, "]");
 }
 
-static void put_header(const baum_i_snapshot *snapshot, baum_i_buffer *out)
+static void put_regions(const baum_i_snapshot *snapshot, double *points, baum_i_buffer *out)
 {
-  const baum_study_reference *r = &snapshot->reference;
-  baum_i_put(out, "<header>\n<h1>");
-  baum_i_put_html(out, snapshot->title);
-  baum_i_put(out, "</h1>\n<p>Speed against accuracy from ");
-  baum_i_putf(out, "%s s to %s s: ", baum_i_short(snapshot->t0, 6).text,
-              baum_i_short(snapshot->t1, 6).text);
-  put_counts(snapshot, out);
-  baum_i_put(out, ".</p>\n<dl>\n");
-  put_item(out, "error", snapshot->error);
-  baum_i_putf(out, "<dt>reference</dt><dd>%s%s digits",
-              r->trusted ? "" : "<strong class=\"bad\">not to be trusted</strong>, ",
-              baum_i_short(r->digits, 3).text);
-  baum_i_put(out, r->text && r->text[0] ? ": " : "");
-  baum_i_put_html(out, r->text ? r->text : "");
-  baum_i_put(out, "</dd>\n</dl>\n</header>\n");
-}
-
-static void put_environment(const baum_i_snapshot *snapshot, baum_i_buffer *out)
-{
-  const baum_i_environment *e = &snapshot->environment;
-  baum_i_put(out, "<section>\n<h2>Where it was measured</h2>\n<dl>\n");
-  put_item(out, "baum", e->baum);
-  put_item(out, "SUNDIALS", e->sundials);
-  put_item(out, "compiler", e->compiler);
-  put_item(out, "processor", e->cpu);
-  put_item(out, "date", e->date);
-  baum_i_putf(
-    out,
-    "<dt>method</dt><dd>Errors at %d samples. CPU time is the least of up to %d runs, one "
-    "after the other; runs end after %s s.</dd>\n",
-    (int)(snapshot->reference.samples ? snapshot->reference.samples : snapshot->options.samples),
-    (int)snapshot->options.repeats, baum_i_short(snapshot->options.entry_limit, 3).text);
-  baum_i_put(out, "</dl>\n</section>\n");
+  const char *gap = "";
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    const baum_integrator *integrator = snapshot->entries[k].entry.integrator;
+    double best[2];
+    if (!is_first(snapshot, k) || baum_stability_best(integrator, &best[0], &best[1]) != BAUM_OK) {
+      continue;
+    }
+    baum_i_putf(out, "%s\n{\"integrator\": \"%s\", \"gains\": \"%s\", \"best\": [%.6g, %.6g], ",
+                gap, baum_integrator_name(integrator),
+                baum_i_gain_rule_name((int)integrator->gains), best[0], best[1]);
+    baum_i_put(out, "\"levels\": [");
+    for (int level = 0; level < LEVELS; level++) {
+      baum_i_put(out, level ? ",\n" : "\n");
+      put_outline(integrator, RADII[level], points, out);
+    }
+    baum_i_put(out, "]}");
+    gap = ",";
+  }
 }
 
 void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
-  baum_i_highlights highlights = baum_i_choose_highlights(snapshot);
-  put_head(snapshot, out);
-  put_header(snapshot, out);
-  baum_i_put(out, "<main>\n");
-  baum_i_put_advice_table(snapshot, out);
-  baum_i_put(out, "<section>\n<h2>What an error costs</h2>\n"
-                  "<p>A line is a method, a mark one of its settings. Further left is more exact, "
-                  "further down is cheaper. Left of the dashed line the reference cannot tell "
-                  "errors apart. Point at a mark to see its figures.</p>\n");
-  baum_i_put_charts(snapshot, &highlights, out);
-  baum_i_put(out, "</section>\n");
-  baum_i_put_stability_maps(snapshot, out);
-  baum_i_put_method_table(snapshot, &highlights, out);
-  baum_i_put_entry_table(snapshot, out);
-  baum_i_put_messages(snapshot, out);
-  put_environment(snapshot, out);
-  baum_i_put(out, "</main>\n");
-  baum_i_put_script(out);
-  baum_i_put(out, "</body>\n</html>\n");
+  const char *page = (const char *)baum_i_report_html;
+  const char *place = strstr(page, PLACE);
+  double *points = baum_i_alloc((size_t)2 * POINTS, sizeof *points);
+  if (!points) {
+    out->failed = true;
+    return;
+  }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
+  baum_i_putf(out, "%.*s{\"regions\": [", (int)(place - page), page);
+  put_regions(snapshot, points, out);
+  baum_i_put(out, "],\n\"report\": ");
+  baum_i_report_json(snapshot, out);
+  baum_i_putf(out, "}%s", place + strlen(PLACE));
+  (void)baum_i_message_settle(BAUM_OK, &kept);
+  baum_i_free(points);
 }

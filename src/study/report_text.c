@@ -2,6 +2,7 @@
 /* A study for a screen: what to take, the front, the price of accuracy, all entries, what was said
  * of them. */
 #include <math.h>
+#include <string.h>
 
 #include "study/report.h"
 
@@ -16,6 +17,16 @@ static int name_width(const baum_i_snapshot *snapshot)
   return width;
 }
 
+/* Entries in that state. */
+static int count_in(const baum_i_snapshot *snapshot, baum_study_state state)
+{
+  int count = 0;
+  for (int k = 0; k < snapshot->entry_count; k++) {
+    count += snapshot->entries[k].entry.state == state;
+  }
+  return count;
+}
+
 static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   const baum_i_environment *e = &snapshot->environment;
@@ -26,7 +37,7 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
               (int)(r->samples ? r->samples : snapshot->options.samples));
   baum_i_putf(out, "settings   %d", snapshot->entry_count);
   for (int s = BAUM_STUDY_WAITING; s <= BAUM_STUDY_TIMED_OUT; s++) {
-    int count = baum_i_snapshot_count(snapshot, (baum_study_state)s);
+    int count = count_in(snapshot, (baum_study_state)s);
     if (count > 0) {
       baum_i_putf(out, ", %d %s", count, baum_study_state_name((baum_study_state)s));
     }
@@ -88,25 +99,47 @@ static void put_titles(int width, baum_i_buffer *out)
   baum_i_put(out, "  remarks\n");
 }
 
+static double value_of(const baum_i_report_entry *entry, const char *key)
+{
+  const baum_i_field *field = baum_i_entry_fields;
+  while (strcmp(field->key, key) != 0) {
+    field++;
+  }
+  return baum_i_field_number(field, entry);
+}
+
+static void put_remarks(const baum_i_report_entry *entry, baum_i_buffer *out)
+{
+  const baum_study_entry *e = &entry->entry;
+  const struct {
+    bool holds;
+    const char *text;
+  } remarks[] = {
+    {e->state != BAUM_STUDY_DONE, baum_study_state_name(e->state)},
+    {entry->front[BAUM_STUDY_WORK], "front"},
+    {entry->front[BAUM_STUDY_CPU], "front by CPU"},
+    {e->at_floor, "floor"},
+    {e->off, "off"},
+    {e->unstable, "unstable"},
+    {e->untrusted, "untrusted"},
+  };
+  const char *gap = "  ";
+  for (size_t k = 0; k < sizeof remarks / sizeof remarks[0]; k++) {
+    if (remarks[k].holds) {
+      baum_i_putf(out, "%s%s", gap, remarks[k].text);
+      gap = ", ";
+    }
+  }
+}
+
 static void put_entry(const baum_i_report_entry *entry, int width, baum_i_buffer *out)
 {
   baum_i_put_left(out, entry->entry.name, width);
   for (int c = 0; c < COLUMN_COUNT; c++) {
-    double x = baum_i_column_number(baum_i_column_by_key(COLUMNS[c].key), entry);
-    put_figure(out, COLUMNS[c].times * x, COLUMNS[c].digits, COLUMNS[c].width);
+    double x = COLUMNS[c].times * value_of(entry, COLUMNS[c].key);
+    put_figure(out, x, COLUMNS[c].digits, COLUMNS[c].width);
   }
-  const char *gap = "  ";
-  if (entry->entry.state != BAUM_STUDY_DONE) {
-    baum_i_putf(out, "%s%s", gap, entry->state);
-    gap = ", ";
-  }
-  for (int k = 0; k < BAUM_I_REMARKS; k++) {
-    const char *remark = baum_i_remark(entry, k);
-    if (remark) {
-      baum_i_putf(out, "%s%s", gap, remark);
-      gap = ", ";
-    }
-  }
+  put_remarks(entry, out);
   baum_i_put(out, "\n");
 }
 
@@ -125,9 +158,8 @@ static void put_methods(const baum_i_snapshot *snapshot, int width, baum_i_buffe
   baum_i_put_left(out, "method", width);
   baum_i_put(out, "  settings  usable  least error   slope     work      CPU  growth\n");
   for (int k = 0; k < snapshot->method_count; k++) {
-    const baum_study_method *m = &snapshot->methods[k];
-    baum_i_put(out, m->name);
-    baum_i_put_left(out, baum_i_way(m), width - baum_i_length(m->name));
+    const baum_study_method *m = &snapshot->methods[k].method;
+    baum_i_put_left(out, snapshot->methods[k].label, width);
     put_figure(out, m->entries, 8, 8);
     put_figure(out, m->usable, 6, 6);
     put_figure(out, m->least_error, 2, 11);
@@ -143,9 +175,9 @@ static void put_messages(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   baum_i_put(out, "\nWhat was said\n");
   for (int k = 0; k < snapshot->entry_count; k++) {
-    const baum_i_report_entry *entry = &snapshot->entries[k];
-    if (entry->message) {
-      baum_i_putf(out, "%s: %s: ", entry->entry.name, entry->state);
+    const baum_study_entry *entry = &snapshot->entries[k].entry;
+    if (entry->message[0]) {
+      baum_i_putf(out, "%s: %s: ", entry->name, baum_study_state_name(entry->state));
       baum_i_put_plain(out, entry->message);
       baum_i_put(out, "\n");
     }

@@ -101,7 +101,7 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
     out->off = d.q[0] > OFF || out->branch_warnings > 0;
   }
   entry->limit = deadline->limit;
-  entry->measured = true;
+  entry->stage = BAUM_I_MEASURED;
 }
 
 /* ---- the workers ---- */
@@ -154,7 +154,7 @@ static void pass_over(const workers *c, baum_i_entry *entry)
   entry->out.untrusted = !c->study->reference.out.trusted;
   entry->limit = c->study->options.entry_limit;
   baum_i_say_too_long(entry->limit, entry->message, sizeof entry->message);
-  entry->measured = true;
+  entry->stage = BAUM_I_MEASURED;
 }
 
 /* The next entry, or NULL. */
@@ -176,7 +176,7 @@ static void finish_entry(workers *c, baum_i_entry *entry)
     double *too_fine = &c->study->methods[entry->out.method].too_fine;
     *too_fine = fmax(*too_fine, baum_i_setting(&entry->options));
   }
-  baum_status status = baum_i_study_file_measured(c->file, entry);
+  baum_status status = baum_i_study_file_entry(c->file, entry);
   if (status != BAUM_OK) {
     give_up(c, status);
   }
@@ -252,8 +252,8 @@ static void validate(void *self, int k)
     baum_i_lock_take(&c->lock);
     if (status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
       entry->out.error_validated = error;
-      entry->validated = true;
-      status = baum_i_study_file_validated(c->file, entry);
+      entry->stage = BAUM_I_VALIDATED;
+      status = baum_i_study_file_entry(c->file, entry);
     }
     if (status != BAUM_OK) {
       give_up(c, status);
@@ -332,7 +332,7 @@ static baum_status set_order(workers *c)
   c->count = 0;
   for (int k = 0; k < study->entry_count; k++) {
     baum_i_entry *entry = study->entries[k];
-    if (!entry->measured) {
+    if (entry->stage == BAUM_I_ADDED) {
       places[c->count++] = (place){entry, rank_of(study, entry), k};
     } else {
       c->done++;
@@ -357,7 +357,7 @@ static void take_times(const baum_i_outcome *first, const double least[2], int r
   entry->out.cpu = least[0];
   entry->out.cpu_spread = repeats > 1 ? least[1] - least[0] : (double)NAN;
   entry->out.repeats = repeats;
-  entry->timed = true;
+  entry->stage = BAUM_I_TIMED;
 }
 
 static baum_status time_entry(workers *c, baum_i_entry *entry)
@@ -385,7 +385,12 @@ static baum_status time_entry(workers *c, baum_i_entry *entry)
     repeats++;
   }
   take_times(&first, least, repeats, entry);
-  return baum_i_study_file_timed(c->file, entry);
+  return baum_i_study_file_entry(c->file, entry);
+}
+
+static bool is_untimed(const baum_i_entry *entry)
+{
+  return entry->out.state == BAUM_STUDY_DONE && entry->stage < BAUM_I_TIMED;
 }
 
 static void time_entries(workers *c)
@@ -396,7 +401,7 @@ static void time_entries(workers *c)
     if (baum_i_deadline_stops(&deadline)) {
       return;
     }
-    if (entry->out.state == BAUM_STUDY_DONE && !entry->timed) {
+    if (is_untimed(entry)) {
       baum_status status = time_entry(c, entry);
       if (status != BAUM_OK) {
         give_up(c, status);
@@ -414,7 +419,7 @@ static int waiting(const baum_study *study)
   int count = 0;
   for (int k = 0; k < study->entry_count; k++) {
     const baum_i_entry *entry = study->entries[k];
-    count += !entry->measured || (entry->out.state == BAUM_STUDY_DONE && !entry->timed);
+    count += entry->stage == BAUM_I_ADDED || is_untimed(entry);
   }
   return count;
 }
@@ -426,8 +431,7 @@ static bool needs_reference(workers *c)
   const baum_study *study = c->study;
   for (int k = 0; k < study->entry_count; k++) {
     const baum_i_entry *entry = study->entries[k];
-    bool is_timed_first = entry->out.state == BAUM_STUDY_DONE && !entry->timed && !entry->validated;
-    if (!entry->measured || (study->options.validate && is_timed_first)) {
+    if (entry->stage == BAUM_I_ADDED || (study->options.validate && is_untimed(entry))) {
       return true;
     }
   }

@@ -53,6 +53,15 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels)
   return count;
 }
 
+void baum_i_study_clear_samples(baum_i_samples *samples)
+{
+  baum_i_free(samples->times);
+  baum_i_free(samples->values);
+  baum_i_free(samples->q);
+  baum_i_free(samples->v);
+  *samples = (baum_i_samples){0};
+}
+
 /* ---- weights ---- */
 
 /* Displacements of the rows at the first sample. */

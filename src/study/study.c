@@ -75,6 +75,16 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
+void baum_i_study_truncate(baum_study *study, int entries, int methods)
+{
+  for (int k = entries; k < study->entry_count; k++) {
+    baum_i_free(study->entries[k]->row_gains);
+    baum_i_free(study->entries[k]);
+  }
+  study->entry_count = entries;
+  study->method_count = methods;
+}
+
 void baum_study_destroy(baum_study *study)
 {
   if (!study || study->running) {

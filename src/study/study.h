@@ -39,18 +39,25 @@ typedef struct baum_i_differences {
   double energy[2];
 } baum_i_differences;
 
+/* What is known of an entry: errors and all that belongs to the motion; of a done one its counts of
+ * work and its time, too; and error_validated, as well as it can be. */
+typedef enum baum_i_stage {
+  BAUM_I_ADDED,
+  BAUM_I_MEASURED,
+  BAUM_I_TIMED,
+  BAUM_I_VALIDATED
+} baum_i_stage;
+
 typedef struct baum_i_entry {
   baum_study_entry out; /* name and message are those below */
   baum_simulation_options options;
   double *row_gains; /* own copy of the option */
   char name[BAUM_I_NAME_SIZE];
   char message[BAUM_I_NOTE_SIZE];
-  uint64_t key;   /* of the options */
-  double limit;   /* [s] the entry limit when it was measured */
-  bool measured;  /* errors and all that belongs to the motion are known */
-  bool timed;     /* so are its counts of work and its time, where it is done */
-  bool validated; /* error_validated is as well known as it can be */
-  unsigned filed; /* what of it the study file had when it was opened */
+  uint64_t key; /* of the options */
+  double limit; /* [s] the entry limit when it was measured */
+  baum_i_stage stage;
+  baum_i_stage filed; /* that the study file had when it was opened */
 } baum_i_entry;
 
 /* A motion, and where it is looked at. */
@@ -113,7 +120,7 @@ struct baum_study {
   atomic_int cancelled;
 };
 
-/* ---- study.c, entries.c ---- */
+/* ---- study.c ---- */
 
 /* A struct of a caller, of this version or an older one, over the default that `to` holds. */
 baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call);
@@ -150,6 +157,8 @@ double baum_i_setting(const baum_simulation_options *options);
 /* ---- samples.c ---- */
 
 baum_i_layout baum_i_study_layout(const baum_study *study);
+
+void baum_i_study_clear_samples(baum_i_samples *samples);
 
 /* The channels of the layout, which are at most BAUM_I_CHANNELS and the user's; returns their
  * number, the user's being added behind. */
@@ -194,10 +203,13 @@ typedef struct baum_i_task {
   bool with_account; /* of energy, if the study has it */
 } baum_i_task;
 
-/* Run through the samples of the samples, and from the start as drawn on to the end of the span;
+/* Run through the samples, and from the start as drawn on to the end of the span;
  * values (n x width) NULL: no samples are taken. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, double *values,
                           baum_i_outcome *out);
+
+/* A run that is asked for channels and goes nowhere. */
+baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out);
 
 /* What is said of a run that takes longer than that [s]. */
 void baum_i_say_too_long(double limit, char *text, size_t size);
@@ -210,9 +222,6 @@ bool baum_i_deadline_stops(const baum_i_deadline *deadline);
 /* Make the reference: BAUM_OK, also where it is not to be trusted or there is none;
  * BAUM_ERR_MEMORY, what the solution fails with, and what stops all runs. */
 baum_status baum_i_study_make_reference(baum_study *study, baum_i_deadline *deadline);
-
-/* A run that is asked for channels and goes nowhere. */
-baum_status baum_i_study_probe(const baum_study *study, baum_simulation **out);
 
 /* Times of the samples, by the options or as given. */
 baum_status baum_i_study_set_times(baum_study *study);
@@ -233,8 +242,6 @@ bool baum_i_study_wants_validation(const baum_study *study, const baum_i_entry *
 baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *entry,
                                   baum_i_deadline *deadline, double *values, double *error);
 
-void baum_i_study_clear_samples(baum_i_samples *samples);
-
 /* ---- study_file.c ---- */
 
 typedef struct baum_i_study_file baum_i_study_file;
@@ -244,9 +251,7 @@ typedef struct baum_i_study_file baum_i_study_file;
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
 /* Append what is known; with no file BAUM_OK. */
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
-baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_entry *entry);
-baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_entry *entry);
-baum_status baum_i_study_file_validated(baum_i_study_file *file, const baum_i_entry *entry);
+baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
 
 /* ---- work.c ---- */

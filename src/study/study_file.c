@@ -2,15 +2,15 @@
 /* The study file: lines of text, each written at once when its result is known.
  *
  *   baum-study 3 library 0.1.0 structure HEX numbers HEX span HEX samples HEX error HEX account HEX
- *   reference HEX #SUM reference DIGITS ... | TEXT #SUM
- *   entry KEY STATE STATUS ... | MESSAGE #SUM
- *   time KEY EVALUATIONS ... #SUM
- *   validated KEY NUMBER #SUM
+ *   reference HEX #SUM
+ *   reference DIGITS ... | TEXT #SUM
+ *   entry KEY STAGE LIMIT STATE STATUS ... | MESSAGE #SUM
  *
- * KEY is a sum over the options of an entry, so that entries may be added in any order. SUM is over
- * the line before it and, but for the first line, what that one has: a line that is cut off,
- * damaged or of another study is not a result, and its entry is run again. Of two lines of one
- * entry the first counts that has not run out of time.
+ * STAGE is 1: measured, 2: timed, or 3: validated. KEY is a sum over the options of an entry, so
+ * that entries may be added in any order. SUM is over the line before it and, but for the first
+ * line, what that one has: a line that is cut off, damaged or of another study is not a result, and
+ * its entry is run again. An entry has a line for each stage, with all that is known by then. Of
+ * two lines of one stage the first counts that has not run out of time.
  */
 #include <errno.h>
 #include <inttypes.h>
@@ -30,8 +30,9 @@
 #include "study/study_line.h"
 
 enum { LINE = BAUM_I_STUDY_LINE, MARKS = 8 };
-enum { FILED_MEASURED = 1, FILED_TIMED = 2, FILED_VALIDATED = 4 };
 static const char HEAD[] = "baum-study ";
+static const char REFERENCE[] = "reference";
+static const char ENTRY[] = "entry ";
 static const char VERSION[] = "baum-study 3";
 
 struct baum_i_study_file {
@@ -179,53 +180,29 @@ static const char *text_at(const char *rest)
   return rest && strncmp(rest, " | ", 3) == 0 ? rest + 3 : NULL;
 }
 
-static void take_measured(const baum_study *study, baum_i_entry *entry, const char *rest)
+/* STAGE LIMIT FIELDS | MESSAGE of an entry. */
+static void take_entry(const baum_study *study, baum_i_entry *entry, const char *rest)
 {
   baum_study_entry out = entry->out;
+  double number = 0.0;
   double limit = 0.0;
-  rest = baum_i_read_number(rest, &limit);
-  rest = rest ? baum_i_study_read_fields(rest, &out, &baum_i_measured_fields) : NULL;
-  const char *message = text_at(rest);
-  bool too_short = out.state == BAUM_STUDY_TIMED_OUT && !(limit >= study->options.entry_limit);
-  if (!message || too_short) {
+  rest = baum_i_read_number(rest, &number);
+  rest = rest ? baum_i_read_number(rest, &limit) : NULL;
+  const char *message =
+    text_at(rest ? baum_i_study_read_fields(rest, &out, baum_i_entry_fields) : NULL);
+  if (!message || (out.state == BAUM_STUDY_TIMED_OUT && !(limit >= study->options.entry_limit))) {
     return;
   }
-  entry->filed |= FILED_MEASURED;
-  if (!entry->measured || entry->out.state == BAUM_STUDY_TIMED_OUT) {
+  baum_i_stage stage = BAUM_I_MEASURED;
+  if (out.state == BAUM_STUDY_DONE && number >= BAUM_I_TIMED) {
+    stage = number >= BAUM_I_VALIDATED ? BAUM_I_VALIDATED : BAUM_I_TIMED;
+  }
+  entry->filed = stage > entry->filed ? stage : entry->filed;
+  if (stage > entry->stage || entry->out.state == BAUM_STUDY_TIMED_OUT) {
     entry->out = out;
     entry->limit = limit;
-    entry->measured = true;
+    entry->stage = stage;
     (void)snprintf(entry->message, sizeof entry->message, "%s", message);
-  }
-}
-
-static void take_timed(const baum_study *study, baum_i_entry *entry, const char *rest)
-{
-  (void)study;
-  baum_study_entry out = entry->out;
-  rest = baum_i_study_read_fields(rest, &out, &baum_i_timed_fields);
-  if (!rest || *rest || !entry->measured || entry->out.state != BAUM_STUDY_DONE) {
-    return;
-  }
-  entry->filed |= FILED_TIMED;
-  if (!entry->timed) {
-    entry->out = out;
-    entry->timed = true;
-  }
-}
-
-static void take_validated(const baum_study *study, baum_i_entry *entry, const char *rest)
-{
-  (void)study;
-  baum_study_entry out = entry->out;
-  rest = baum_i_study_read_fields(rest, &out, &baum_i_validated_fields);
-  if (!rest || *rest || !entry->measured || entry->out.state != BAUM_STUDY_DONE) {
-    return;
-  }
-  entry->filed |= FILED_VALIDATED;
-  if (!entry->validated) {
-    entry->out = out;
-    entry->validated = true;
   }
 }
 
@@ -233,7 +210,7 @@ static void take_reference(baum_study *study, const char *rest)
 {
   baum_i_study_reference *r = &study->reference;
   baum_study_reference out = r->out;
-  const char *text = text_at(baum_i_study_read_fields(rest, &out, &baum_i_reference_fields));
+  const char *text = text_at(baum_i_study_read_fields(rest, &out, baum_i_reference_fields));
   if (text && !r->known) {
     r->out = out;
     r->known = true;
@@ -241,39 +218,21 @@ static void take_reference(baum_study *study, const char *rest)
   }
 }
 
-/* A line WORD KEY REST of an entry, or of several that are the same. */
-static void take_of_row(const baum_study *study, const char *line)
-{
-  typedef void take_fn(const baum_study *study, baum_i_entry *entry, const char *rest);
-  static const struct {
-    const char *word;
-    take_fn *take;
-  } KINDS[] = {{"entry ", take_measured}, {"time ", take_timed}, {"validated ", take_validated}};
-  for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0]; i++) {
-    size_t length = strlen(KINDS[i].word);
-    if (strncmp(line, KINDS[i].word, length) != 0) {
-      continue;
-    }
-    char *end = NULL;
-    uint64_t key = strtoull(line + length, &end, 16);
-    for (int k = 0; k < study->entry_count; k++) {
-      if (study->entries[k]->key == key) {
-        KINDS[i].take(study, study->entries[k], end);
-      }
-    }
-  }
-}
-
 static void take_line(const baum_i_study_file *file, baum_study *study, char *line)
 {
-  static const char REFERENCE[] = "reference";
   if (!baum_i_study_unseal(line, file->seed)) {
     return;
   }
   if (strncmp(line, REFERENCE, strlen(REFERENCE)) == 0) {
     take_reference(study, line + strlen(REFERENCE));
-  } else {
-    take_of_row(study, line);
+  } else if (strncmp(line, ENTRY, strlen(ENTRY)) == 0) {
+    char *rest = NULL;
+    uint64_t key = strtoull(line + strlen(ENTRY), &rest, 16);
+    for (int k = 0; k < study->entry_count; k++) { /* several may be the same */
+      if (study->entries[k]->key == key) {
+        take_entry(study, study->entries[k], rest);
+      }
+    }
   }
 }
 
@@ -358,20 +317,12 @@ static baum_status begin(baum_i_study_file *file, const baum_study *study, bool 
 /* What is known but not in the file, which may have been full. */
 static baum_status catch_up(baum_i_study_file *file, const baum_study *study)
 {
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < study->entry_count && status == BAUM_OK; k++) {
-    const baum_i_entry *entry = study->entries[k];
-    if (entry->measured && !(entry->filed & FILED_MEASURED)) {
-      status = baum_i_study_file_measured(file, entry);
-    }
-    if (status == BAUM_OK && entry->timed && !(entry->filed & FILED_TIMED)) {
-      status = baum_i_study_file_timed(file, entry);
-    }
-    if (status == BAUM_OK && entry->validated && !(entry->filed & FILED_VALIDATED)) {
-      status = baum_i_study_file_validated(file, entry);
+  for (int k = 0; k < study->entry_count; k++) {
+    if (study->entries[k]->stage > study->entries[k]->filed) {
+      BAUM_I_TRY(baum_i_study_file_entry(file, study->entries[k]));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
@@ -389,7 +340,7 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out)
   bool is_new = true;
   bool whole = true;
   for (int k = 0; k < study->entry_count; k++) {
-    study->entries[k]->filed = 0;
+    study->entries[k]->filed = BAUM_I_ADDED;
   }
   baum_status status = take_present(file, study, &is_new, &whole);
   if (status == BAUM_OK) {
@@ -424,46 +375,25 @@ baum_status baum_i_study_file_close(baum_i_study_file *file)
 
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study)
 {
-  char line[LINE] = "reference";
+  char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_study_write_fields(line, &study->reference.out, &baum_i_reference_fields);
+  baum_i_append(line, LINE, "%s", REFERENCE);
+  baum_i_study_write_fields(line, &study->reference.out, baum_i_reference_fields);
   baum_i_study_write_text(line, study->reference.text);
   return write_line(file, line, file->seed);
 }
 
-baum_status baum_i_study_file_measured(baum_i_study_file *file, const baum_i_entry *entry)
+baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry)
 {
   char line[LINE] = "";
   if (!file) {
     return BAUM_OK;
   }
-  baum_i_append(line, LINE, "entry %016" PRIx64 " %s", entry->key,
+  baum_i_append(line, LINE, "%s%016" PRIx64 " %d %s", ENTRY, entry->key, (int)entry->stage,
                 baum_i_exact(entry->limit, "inf").text);
-  baum_i_study_write_fields(line, &entry->out, &baum_i_measured_fields);
+  baum_i_study_write_fields(line, &entry->out, baum_i_entry_fields);
   baum_i_study_write_text(line, entry->message);
-  return write_line(file, line, file->seed);
-}
-
-baum_status baum_i_study_file_timed(baum_i_study_file *file, const baum_i_entry *entry)
-{
-  char line[LINE] = "";
-  if (!file) {
-    return BAUM_OK;
-  }
-  baum_i_append(line, LINE, "time %016" PRIx64, entry->key);
-  baum_i_study_write_fields(line, &entry->out, &baum_i_timed_fields);
-  return write_line(file, line, file->seed);
-}
-
-baum_status baum_i_study_file_validated(baum_i_study_file *file, const baum_i_entry *entry)
-{
-  char line[LINE] = "";
-  if (!file) {
-    return BAUM_OK;
-  }
-  baum_i_append(line, LINE, "validated %016" PRIx64, entry->key);
-  baum_i_study_write_fields(line, &entry->out, &baum_i_validated_fields);
   return write_line(file, line, file->seed);
 }

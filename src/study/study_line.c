@@ -4,11 +4,8 @@
 
 #include <inttypes.h>
 #include <math.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
-
-#include <baum/study.h>
 
 #include "base/digest.h"
 #include "base/text.h"
@@ -16,98 +13,7 @@
 
 enum { LINE = BAUM_I_STUDY_LINE };
 
-/* ---- fields ---- */
-
-typedef enum field_kind { NUMBER, COUNT, YES_OR_NO, STATE, STATUS, REPEATS } field_kind;
-
-struct baum_i_study_field {
-  size_t place;
-  field_kind kind;
-};
-
-#define ROW(name, kind)                      \
-  {                                          \
-    offsetof(baum_study_entry, name), (kind) \
-  }
-#define REFERENCE(name, kind)                    \
-  {                                              \
-    offsetof(baum_study_reference, name), (kind) \
-  }
-
-static const baum_i_study_field MEASURED[] = {
-  ROW(state, STATE),
-  ROW(status, STATUS),
-  ROW(at_floor, YES_OR_NO),
-  ROW(untrusted, YES_OR_NO),
-  ROW(off, YES_OR_NO),
-  ROW(unstable, YES_OR_NO),
-  ROW(error, NUMBER),
-  ROW(error_final, NUMBER),
-  ROW(error_half, NUMBER),
-  ROW(error_q, NUMBER),
-  ROW(error_q_final, NUMBER),
-  ROW(error_v, NUMBER),
-  ROW(error_v_final, NUMBER),
-  ROW(error_lambda, NUMBER),
-  ROW(error_lambda_final, NUMBER),
-  ROW(energy_error, NUMBER),
-  ROW(energy_error_final, NUMBER),
-  ROW(max_phi, NUMBER),
-  ROW(max_phi_rate, NUMBER),
-  ROW(violation_work, NUMBER),
-  ROW(projection_work, NUMBER),
-  ROW(gains_work, NUMBER),
-  ROW(steps, COUNT),
-  ROW(rejected, COUNT),
-  ROW(nonlinear_iterations, COUNT),
-  ROW(forced_steps, COUNT),
-  ROW(warnings, COUNT),
-  ROW(near_singular_intervals, COUNT),
-  ROW(branch_warnings, COUNT),
-  ROW(alpha, NUMBER),
-  ROW(beta, NUMBER),
-  ROW(doubts, COUNT),
-  ROW(error_estimate, NUMBER),
-};
-
-static const baum_i_study_field TIMED[] = {
-  ROW(evaluations, COUNT), ROW(factorizations, COUNT), ROW(work, NUMBER),
-  ROW(cpu, NUMBER),        ROW(cpu_spread, NUMBER),    ROW(repeats, REPEATS),
-};
-
-static const baum_i_study_field VALIDATED[] = {ROW(error_validated, NUMBER)};
-
-static const baum_i_study_field KNOWN[] = {
-  REFERENCE(trusted, YES_OR_NO),         REFERENCE(digits, NUMBER),
-  REFERENCE(uncertainty, NUMBER),        REFERENCE(uncertainty_q, NUMBER),
-  REFERENCE(uncertainty_v, NUMBER),      REFERENCE(uncertainty_lambda, NUMBER),
-  REFERENCE(uncertainty_energy, NUMBER),
-};
-
-#define FIELDS(list)                       \
-  {                                        \
-    (list), sizeof(list) / sizeof(list)[0] \
-  }
-
-const baum_i_study_fields baum_i_measured_fields = FIELDS(MEASURED);
-const baum_i_study_fields baum_i_timed_fields = FIELDS(TIMED);
-const baum_i_study_fields baum_i_validated_fields = FIELDS(VALIDATED);
-const baum_i_study_fields baum_i_reference_fields = FIELDS(KNOWN);
-
 /* ---- writing ---- */
-
-static int64_t whole_of(const void *place, field_kind kind)
-{
-  switch (kind) {
-  case COUNT: return *(const int64_t *)place;
-  case YES_OR_NO: return *(const bool *)place;
-  case STATE:
-  case STATUS:
-  case REPEATS: return *(const int32_t *)place;
-  case NUMBER: break;
-  }
-  return 0;
-}
 
 static const char *name_of_not_finite(double x)
 {
@@ -117,17 +23,14 @@ static const char *name_of_not_finite(double x)
   return x > 0.0 ? "inf" : "-inf";
 }
 
-void baum_i_study_write_fields(char line[LINE], const void *object,
-                               const baum_i_study_fields *fields)
+void baum_i_study_write_fields(char line[LINE], const void *object, const baum_i_field *fields)
 {
-  for (int k = 0; k < fields->count; k++) {
-    const baum_i_study_field *field = &fields->list[k];
-    const void *place = (const char *)object + field->place;
-    if (field->kind == NUMBER) {
-      double x = *(const double *)place;
+  for (const baum_i_field *f = fields; f->key; f++) {
+    if (f->filed && f->kind == BAUM_I_NUMBER) {
+      double x = *(const double *)((const char *)object + f->place);
       baum_i_append(line, LINE, " %s", baum_i_exact(x, name_of_not_finite(x)).text);
-    } else {
-      baum_i_append(line, LINE, " %" PRId64, whole_of(place, field->kind));
+    } else if (f->filed) {
+      baum_i_append(line, LINE, " %" PRId64, baum_i_field_whole(f, object));
     }
   }
 }
@@ -145,52 +48,44 @@ void baum_i_study_write_text(char line[LINE], const char *text)
 
 /* ---- reading ---- */
 
-static bool is_one_of(field_kind kind, int64_t value)
+static bool is_one_of(baum_i_kind kind, int64_t value)
 {
-  switch (kind) {
-  case YES_OR_NO: return value == 0 || value == 1;
-  case STATE: return value >= BAUM_STUDY_DONE && value <= BAUM_STUDY_TIMED_OUT;
-  case STATUS:
-    return value >= INT32_MIN && value <= INT32_MAX &&
-           strcmp(baum_status_name((baum_status)value), "BAUM_?") != 0;
-  case REPEATS: return value >= 1 && value <= INT32_MAX;
-  case COUNT:
-  case NUMBER: break;
-  }
-  return value >= 0;
+  bool is_status = kind == BAUM_I_STATUS;
+  bool is_state = kind == BAUM_I_STATE;
+  int64_t least = is_state ? BAUM_STUDY_DONE : is_status ? INT32_MIN : 0;
+  int64_t most = is_state               ? BAUM_STUDY_TIMED_OUT
+                 : kind == BAUM_I_FLAG  ? 1
+                 : kind == BAUM_I_COUNT ? INT64_MAX
+                                        : INT32_MAX;
+  return value >= least && value <= most &&
+         !(is_status && strcmp(baum_status_name((baum_status)value), "BAUM_?") == 0);
 }
 
-static void put_whole(void *place, field_kind kind, int64_t value)
+static void put_whole(void *place, baum_i_kind kind, int64_t value)
 {
-  switch (kind) {
-  case COUNT: *(int64_t *)place = value; break;
-  case YES_OR_NO: *(bool *)place = value != 0; break;
-  case STATE:
-  case STATUS:
-  case REPEATS: *(int32_t *)place = (int32_t)value; break;
-  case NUMBER: break;
+  if (kind == BAUM_I_COUNT) {
+    *(int64_t *)place = value;
+  } else if (kind == BAUM_I_FLAG) {
+    *(bool *)place = value != 0;
+  } else {
+    *(int32_t *)place = (int32_t)value; /* enums, too */
   }
 }
 
-static const char *read_whole(const char *text, void *place, field_kind kind)
+const char *baum_i_study_read_fields(const char *text, void *object, const baum_i_field *fields)
 {
-  char *end = NULL;
-  int64_t value = strtoll(text, &end, 10);
-  if (end == text || !is_one_of(kind, value)) {
-    return NULL;
-  }
-  put_whole(place, kind, value);
-  return end;
-}
-
-const char *baum_i_study_read_fields(const char *text, void *object,
-                                     const baum_i_study_fields *fields)
-{
-  for (int k = 0; k < fields->count && text; k++) {
-    const baum_i_study_field *field = &fields->list[k];
-    void *place = (char *)object + field->place;
-    text = field->kind == NUMBER ? baum_i_read_number(text, place)
-                                 : read_whole(text, place, field->kind);
+  for (const baum_i_field *f = fields; f->key && text; f++) {
+    void *place = (char *)object + f->place;
+    if (f->filed && f->kind == BAUM_I_NUMBER) {
+      text = baum_i_read_number(text, place);
+    } else if (f->filed) {
+      char *end = NULL;
+      int64_t value = strtoll(text, &end, 10);
+      text = end != text && is_one_of(f->kind, value) ? end : NULL;
+      if (text) {
+        put_whole(place, f->kind, value);
+      }
+    }
   }
   return text;
 }

@@ -3,31 +3,17 @@
 #ifndef BAUM_I_STUDY_STUDY_LINE_H
 #define BAUM_I_STUDY_STUDY_LINE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "study/fields.h"
 
 enum { BAUM_I_STUDY_LINE = 4096 }; /* characters of a line at most, with its zero */
 
-typedef struct baum_i_study_field baum_i_study_field;
-
-/* Some of a struct, in the order of the line. */
-typedef struct baum_i_study_fields {
-  const baum_i_study_field *list;
-  int count;
-} baum_i_study_fields;
-
-extern const baum_i_study_fields baum_i_measured_fields;  /* of baum_study_entry: the motion */
-extern const baum_i_study_fields baum_i_timed_fields;     /* of baum_study_entry: the cost */
-extern const baum_i_study_fields baum_i_validated_fields; /* of baum_study_entry */
-extern const baum_i_study_fields baum_i_reference_fields; /* of baum_study_reference */
-
+/* Add those of the fields that are filed, in their order. */
 void baum_i_study_write_fields(char line[BAUM_I_STUDY_LINE], const void *object,
-                               const baum_i_study_fields *fields);
+                               const baum_i_field *fields);
 
 /* Returns where the fields end; NULL where one is missing or has no such value, the object being
  * half-read then. */
-const char *baum_i_study_read_fields(const char *text, void *object,
-                                     const baum_i_study_fields *fields);
+const char *baum_i_study_read_fields(const char *text, void *object, const baum_i_field *fields);
 
 /* Add " | TEXT", without what would end a line. */
 void baum_i_study_write_text(char line[BAUM_I_STUDY_LINE], const char *text);

@@ -19,15 +19,6 @@
 static const double NUDGE = 0.05;
 static const double NEAR = 2.5;
 
-void baum_i_study_clear_samples(baum_i_samples *samples)
-{
-  baum_i_free(samples->times);
-  baum_i_free(samples->values);
-  baum_i_free(samples->q);
-  baum_i_free(samples->v);
-  *samples = (baum_i_samples){0};
-}
-
 /* ---- motions ---- */
 
 static baum_status allocate(const baum_study *study, baum_i_samples *samples)
@@ -135,7 +126,8 @@ static bool is_near_front(const baum_study *study, const baum_i_entry *entry)
 
 bool baum_i_study_wants_validation(const baum_study *study, const baum_i_entry *entry)
 {
-  return !entry->validated && baum_i_study_is_answer(entry) && is_near_front(study, entry);
+  return entry->stage == BAUM_I_TIMED && baum_i_study_is_answer(entry) &&
+         is_near_front(study, entry);
 }
 
 baum_status baum_i_study_validate(const baum_study *study, const baum_i_entry *entry,

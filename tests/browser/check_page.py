@@ -83,8 +83,8 @@ def check_layout(browser, checks):
 
 
 def check_charts(browser, study, checks):
-    checks.expect(browser.run("document.querySelectorAll('svg.chart').length") == CHARTS, "charts")
-    checks.expect(browser.run("document.querySelectorAll('svg.map').length") == MAPS, "maps")
+    checks.expect(count(browser, "svg.chart") == CHARTS, "charts")
+    checks.expect(count(browser, "svg.map") == MAPS, "maps")
     drawn = sum(entry.state == "done" and entry.error <= 10 for entry in study.entries)
     for k in range(CHARTS):
         chart = f"document.querySelectorAll('svg.chart')[{k}]"
@@ -101,6 +101,35 @@ def check_charts(browser, study, checks):
         checks.expect(marks == drawn, f"chart {k}: {marks} marks of {drawn} entries")
         checks.expect(lines >= 8, f"chart {k}: {lines} lines")
         checks.expect(outside == 0, f"chart {k}: {outside} marks lie outside")
+
+
+def count(browser, selector):
+    return browser.run(f"document.querySelectorAll({selector!r}).length")
+
+
+def check_maps(browser, study, checks):
+    """Gains in use are drawn, and those of refused runs whose rule tells them."""
+    candidates = [entry for entry in study.entries if entry.formulation == "baumgarte" and entry.step > 0]
+    known = [entry for entry in candidates if entry.alpha >= 0]
+    titles = browser.run("Array.from(document.querySelectorAll('svg.map use')).map(u => u.textContent)")
+    checks.expect(len(known) <= len(titles) <= len(candidates), f"{len(titles)} gains are drawn")
+    for entry in known:
+        drawn = any(title.startswith(f"{entry.name}\nαh") for title in titles)
+        checks.expect(drawn, f"the gains of {entry.name} are not drawn")
+
+
+def check_parts(browser, study, checks):
+    """Everything else that the page shows is there, as often as the study has it."""
+    said = {entry.message for entry in study.entries if entry.message}
+    wanted = {"#legend li": 10, ".floor": CHARTS, "path.front": 3, "#advice tbody": 5,
+              "#methods tbody tr": len(study.methods), "#methods svg": 8, "#rows tbody tr": len(study),
+              "#said tbody tr": len(said), "#environment dd": 6}
+    for selector, number in wanted.items():
+        got = count(browser, selector)
+        checks.expect(got == number, f"{got} of {selector}, not {number}")
+    remarks = count(browser, "#rows .remark.good")
+    front = len(study.front("work")) + len(study.front("cpu"))
+    checks.expect(remarks == front, f"{remarks} remarks on the fronts, not {front}")
 
 
 def cells(browser, column):
@@ -140,8 +169,8 @@ def check_table(browser, study, checks):
 def check_filters(browser, study, checks):
     front = set(study.front("work")) | set(study.front("cpu"))
     browser.click("#front")
-    count = len(cells(browser, 2))
-    checks.expect(count == len(front), f"{count} entries on a front, not {len(front)}")
+    shown = len(cells(browser, 2))
+    checks.expect(shown == len(front), f"{shown} entries on a front, not {len(front)}")
     browser.click("#front")
     browser.click(".chips button:nth-child(1)")
     shown = browser.run(
@@ -185,6 +214,8 @@ def main():
                 browser.screenshot(os.path.join(folder, f"study_{width}_{scheme}.png"))
                 check_layout(browser, checks)
                 check_charts(browser, study, checks)
+                check_maps(browser, study, checks)
+                check_parts(browser, study, checks)
                 check_colours(browser, checks)
                 check_table(browser, study, checks)
                 check_filters(browser, study, checks)

@@ -113,10 +113,10 @@ class Reports(unittest.TestCase):
 
     def test_keys_of_json_stay(self):
         report = json.loads(self.study.report("json"))
-        keys = ["report", "version", "environment", "study", "reference", "units",
+        keys = ["report", "version", "environment", "study", "reference", "units", "meanings",
                 "recommendations", "front", "methods", "entries"]
         self.assertEqual(list(report), keys)
-        self.assertEqual(report["version"], 1)
+        self.assertEqual(report["version"], 2)
         entry = {"name", "state", "integrator", "formulation", "gains", "gain_1", "gain_2", "method",
                "step", "rtol", "error", "error_final", "error_half", "work", "cpu", "cpu_spread",
                "repeats", "evaluations", "factorizations", "steps", "rejected",
@@ -134,7 +134,7 @@ class Reports(unittest.TestCase):
         page.close()
         self.assertEqual(page.wrong, [])
         self.assertEqual(page.handlers, [])
-        self.assertEqual(page.count["script"], 1)
+        self.assertEqual(page.count["script"], 2)  # its data and its program
         self.assertNotIn("img", page.count)
         self.assertNotIn("link", page.count)
 

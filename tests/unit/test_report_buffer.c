@@ -25,11 +25,10 @@ static void check_put(put_fn *put, const char *text, const char *want)
   baum_i_buffer_clear(&buffer);
 }
 
-static void html_has_no_markup_of_users(void **state)
+static void json_ends_no_script_that_it_stands_in(void **state)
 {
   (void)state;
-  check_put(baum_i_put_html, "<a href=\"x\" id='y'>&amp;</a>",
-            "&lt;a href=&quot;x&quot; id=&#39;y&#39;&gt;&amp;amp;&lt;/a&gt;");
+  check_put(baum_i_put_json, "</script><!--", "\\u003c/script>\\u003c!--");
 }
 
 static void json_and_csv_keep_their_quotes(void **state)
@@ -42,7 +41,7 @@ static void json_and_csv_keep_their_quotes(void **state)
 static void control_characters_become_spaces(void **state)
 {
   (void)state;
-  check_put(baum_i_put_html, "a\x1b[1m\r\nb\x7f", "a [1m  b ");
+  check_put(baum_i_put_csv, "a\x1b[1m\r\nb\x7f", "a [1m  b ");
   check_put(baum_i_put_json, "a\tb\nc", "a b c");
   check_put(baum_i_put_plain, "a\x1b]0;<b>\"", "a ]0;<b>\"");
 }
@@ -95,8 +94,6 @@ static void short_numbers_are_for_people(void **state)
   assert_string_equal(baum_i_short(1.2e7, 2).text, "1.2e+07");
   assert_string_equal(baum_i_short((double)NAN, 3).text, "-");
   assert_string_equal(baum_i_short((double)INFINITY, 3).text, "infinite");
-  assert_string_equal(baum_i_fixed(-2.25, 1).text, "-2.2");
-  assert_int_equal(strlen(baum_i_fixed(1e300, 1).text), strlen("1000000000000000.0"));
 }
 
 static void columns_are_as_wide_as_characters(void **state)
@@ -112,7 +109,7 @@ static void columns_are_as_wide_as_characters(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(html_has_no_markup_of_users),
+    cmocka_unit_test(json_ends_no_script_that_it_stands_in),
     cmocka_unit_test(json_and_csv_keep_their_quotes),
     cmocka_unit_test(control_characters_become_spaces),
     cmocka_unit_test(what_is_no_utf8_is_replaced),

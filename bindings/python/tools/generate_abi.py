@@ -8,6 +8,7 @@ else, so a declaration is never dropped in silence. --check writes nothing and f
 would change.
 """
 import argparse
+import csv
 import re
 import sys
 from pathlib import Path
@@ -52,18 +53,25 @@ def strip(text):
     text = re.sub(r"/\*.*?\*/", " ", text, flags=re.S)
     text = re.sub(r"//[^\n]*", " ", text)
     text = re.sub(r"#ifdef __cplusplus\n.*?#endif", " ", text, flags=re.S)
-    text = expand_status(text)
-    text = re.sub(r"\\\n", " ", text)
+    text = expand_lists(text)
     text = re.sub(r"^[ \t]*#.*$", " ", text, flags=re.M)
     return re.sub(r"static inline [^{;]*\{.*?\n\}", " ", text, flags=re.S)
 
 
-def expand_status(text):
-    """The one X-macro of the interface: the enumerators of baum_status."""
-    rows = re.findall(r'X\((BAUM_\w+), *(-?\d+), *"', text)
-    names = ", ".join(f"{name} = {value}" for name, value in rows)
-    text = re.sub(r"#define BAUM_STATUS_LIST\(X\)(.*\\\n)*.*", " ", text)
-    return re.sub(r"#define BAUM_X.*\n\s*BAUM_STATUS_LIST\(BAUM_X\)", names, text)
+def expand_lists(text):
+    """The X-macros of the interface: what BAUM_X makes of each line of a list."""
+    text = text.replace("\\\n", " ")
+    lists = {}
+    for name, body in re.findall(r"#define (\w+_LIST)\(X\) *(.*)", text):
+        lines = re.findall(r'X\(((?:[^()"]|"[^"]*")*)\)', body)
+        lists[name] = [next(csv.reader([line], skipinitialspace=True)) for line in lines]
+
+    def expand(match):
+        arguments, body, name = re.split(r", *", match[1]), match[2], match[3]
+        return " ".join(re.sub(r"\w+", lambda word: dict(zip(arguments, line)).get(word[0], word[0]),
+                               body) for line in lists[name])
+
+    return re.sub(r"#define BAUM_X\((.*?)\) *(.*)\n\s*(\w+_LIST)\(BAUM_X\)", expand, text)
 
 
 def split(text):
