@@ -65,7 +65,7 @@ typedef struct baum_i_samples {
   int n;
   double *times;  /* (n) */
   double *values; /* (n x width) NULL: not known */
-  double *q;      /* (nq) the start, or NULL: as drawn */
+  double *q;      /* (nq) the start, or NULL: as designed */
   double *v;      /* (nv) likewise */
 } baum_i_samples;
 
@@ -203,7 +203,7 @@ typedef struct baum_i_task {
   bool with_account; /* of energy, if the study has it */
 } baum_i_task;
 
-/* Run through the samples, and from the start as drawn on to the end of the span;
+/* Run through the samples, and from the start as designed on to the end of the span;
  * values (n x width) NULL: no samples are taken. */
 void baum_i_study_run_one(const baum_i_task *task, baum_i_deadline *deadline, double *values,
                           baum_i_outcome *out);

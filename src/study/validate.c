@@ -3,7 +3,7 @@
  *
  * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they
  * may grow hundredfold. So entries that may be recommended are run again over twice the span, from
- * the start as drawn and from two others whose velocities differ by NUDGE of their size, or, where
+ * the start as designed and from two others whose velocities differ by NUDGE of their size, or, where
  * all is at rest, of the rate of the motion. There is a reference for each, by the setting of the
  * study's own. Entries that cost more than NEAR times another one that is as exact are left out.
  */
@@ -34,7 +34,7 @@ static baum_status allocate(const baum_study *study, baum_i_samples *samples)
                                                                        : baum_i_fail_memory();
 }
 
-/* Start as drawn, nudged by a share of the velocities. */
+/* Start as designed, nudged by a share of the velocities. */
 static baum_status set_start(const baum_study *study, double nudge, baum_i_samples *samples)
 {
   const baum_mechanism *m = study->mechanism;
