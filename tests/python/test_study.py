@@ -96,7 +96,7 @@ class Meaning(unittest.TestCase):
         study.add("rk4", step=1e-2).run()
         entry = study.entries[0]
         # In millimetres and milliradians of the slider alone, against all bodies by the scale.
-        self.assertLess(entry.error, 1e3 * entry.error_q * max(m.scale, 1) * 1.001)
+        self.assertLess(entry.error, 1e3 * entry.error_q * max(m.characteristic_length, 1) * 1.001)
         self.assertNotAlmostEqual(entry.error, entry.error_q)
 
     def test_a_solution_by_formulas_is_a_reference(self):
