@@ -89,10 +89,7 @@ baum_status baum_study_front(const baum_study *study, baum_study_cost cost, int3
                              int32_t *entries, int32_t *count)
 {
   const char *call = "baum_study_front";
-  baum_status status = check_cost(study, cost, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_cost(study, cost, call));
   if (!count || capacity < 0 || (capacity > 0 && !entries)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count or entries are NULL, or capacity is negative",
                        call);
@@ -164,17 +161,20 @@ typedef struct levelled {
   const char *call;
 } levelled;
 
+static baum_status check_error(double error, const char *call)
+{
+  return error > 0.0 && isfinite(error)
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", call, error);
+}
+
 static baum_status check_levelled(const levelled *at, const double *out, const char *name)
 {
-  baum_status status = check_cost(at->study, at->cost, at->call);
-  if (status == BAUM_OK && !out) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", at->call, name);
+  BAUM_I_TRY(check_cost(at->study, at->cost, at->call));
+  if (!out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", at->call, name);
   }
-  if (status == BAUM_OK && !(at->error > 0.0 && isfinite(at->error))) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", at->call,
-                         at->error);
-  }
-  return status;
+  return check_error(at->error, at->call);
 }
 
 static baum_status find_cost(const levelled *at, int32_t method, double *out)
@@ -207,8 +207,8 @@ baum_status baum_study_cost_at(const baum_study *study, int32_t method, double e
                                baum_study_cost cost, double *out)
 {
   const levelled at = {study, error, cost, "baum_study_cost_at"};
-  baum_status status = check_levelled(&at, out, "out");
-  return status == BAUM_OK ? find_cost(&at, method, out) : status;
+  BAUM_I_TRY(check_levelled(&at, out, "out"));
+  return find_cost(&at, method, out);
 }
 
 baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
@@ -216,17 +216,11 @@ baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, do
 {
   const levelled at = {study, error, cost, "baum_study_compare"};
   double costs[2] = {(double)NAN, (double)NAN};
-  baum_status status = check_levelled(&at, ratio, "ratio");
-  if (status == BAUM_OK) {
-    status = find_cost(&at, a, &costs[0]);
-  }
-  if (status == BAUM_OK) {
-    status = find_cost(&at, b, &costs[1]);
-  }
-  if (status == BAUM_OK) {
-    *ratio = costs[0] / costs[1];
-  }
-  return status;
+  BAUM_I_TRY(check_levelled(&at, ratio, "ratio"));
+  BAUM_I_TRY(find_cost(&at, a, &costs[0]));
+  BAUM_I_TRY(find_cost(&at, b, &costs[1]));
+  *ratio = costs[0] / costs[1];
+  return BAUM_OK;
 }
 
 /* ---- recommendation ---- */
@@ -442,16 +436,9 @@ baum_status baum_study_recommend(const baum_study *study, double error, baum_stu
                                  size_t size)
 {
   const char *call = "baum_study_recommend";
-  baum_status status = check_cost(study, cost, call);
-  if (status == BAUM_OK) {
-    status = check_answerable(study, best, caller_size, call);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  if (!(error > 0.0 && isfinite(error))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: error is %g, must be finite and > 0", call, error);
-  }
+  BAUM_I_TRY(check_cost(study, cost, call));
+  BAUM_I_TRY(check_answerable(study, best, caller_size, call));
+  BAUM_I_TRY(check_error(error, call));
   place p;
   question q = {.error = error, .cost = cost, .with_margin = true};
   bool found = find_best(study, &q, &p);
@@ -522,10 +509,7 @@ baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
                                         char *why, size_t size)
 {
   const char *call = "baum_study_recommend_budget";
-  baum_status status = check_answerable(study, best, caller_size, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_answerable(study, best, caller_size, call));
   if (!(isfinite(seconds) && seconds > 0.0)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: seconds is %g s, must be finite and > 0", call,
                        seconds);

@@ -81,27 +81,22 @@ static baum_status take(const baum_study *study, const baum_simulation_options *
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   *out = baum_simulation_options_default();
-  baum_status status = baum_i_study_take(out, sizeof *out, options, call);
-  if (status == BAUM_OK && !out->integrator) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
-  }
-  return status == BAUM_OK ? baum_i_study_check_idle(study, call) : status;
+  BAUM_I_TRY(baum_i_study_take(out, sizeof *out, options, call));
+  return out->integrator ? baum_i_study_check_idle(study, call)
+                         : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: integrator is NULL", call);
 }
 
 baum_status baum_study_add(baum_study *study, const baum_simulation_options *options)
 {
   baum_simulation_options taken;
-  baum_status status = take(study, options, &taken);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(take(study, options, &taken));
   baum_i_entry *entry = baum_i_alloc(1, sizeof *entry);
   if (!entry) {
     return baum_i_fail_memory();
   }
   entry->options = taken;
   entry->options.start_time = study->t0;
-  status = copy_row_gains(entry);
+  baum_status status = copy_row_gains(entry);
   if (status == BAUM_OK) {
     describe(entry);
     status = keep(study, entry);
@@ -134,23 +129,18 @@ static baum_status check_read(const baum_study *study, int32_t k, const void *ou
 baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_entry *out,
                                 size_t caller_size)
 {
-  baum_status status = check_read(study, k, out, caller_size, "baum_study_entry_at");
-  if (status == BAUM_OK) {
-    baum_study_entry whole = study->entries[k]->out;
-    whole.name = study->entries[k]->name;
-    whole.message = study->entries[k]->message;
-    baum_i_give_sized(out, caller_size, &whole, sizeof whole);
-  }
-  return status;
+  BAUM_I_TRY(check_read(study, k, out, caller_size, "baum_study_entry_at"));
+  baum_study_entry whole = study->entries[k]->out;
+  whole.name = study->entries[k]->name;
+  whole.message = study->entries[k]->message;
+  baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  return BAUM_OK;
 }
 
 baum_status baum_study_entry_options(const baum_study *study, int32_t k,
                                      baum_simulation_options *out, size_t caller_size)
 {
-  baum_status status = check_read(study, k, out, caller_size, "baum_study_entry_options");
-  if (status == BAUM_OK) {
-    baum_i_give_sized(out, caller_size, &study->entries[k]->options,
-                      sizeof(baum_simulation_options));
-  }
-  return status;
+  BAUM_I_TRY(check_read(study, k, out, caller_size, "baum_study_entry_options"));
+  baum_i_give_sized(out, caller_size, &study->entries[k]->options, sizeof(baum_simulation_options));
+  return BAUM_OK;
 }

@@ -68,10 +68,8 @@ baum_status baum_i_study_rate(const baum_study *study, double *rate)
   o.start_time = study->t0;
   o.max_steps = 100000;
   baum_simulation *run = NULL;
-  baum_status status = baum_simulation_create(study->mechanism, &o, &run);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_simulation_create(study->mechanism, &o, &run));
+  baum_status status = BAUM_OK;
   double sum = 0.0;
   int seen = 0;
   while (seen < LOOKS && status >= BAUM_OK) {
@@ -132,13 +130,12 @@ static double rtol_at(const grid *g, int k)
 
 static baum_status add_ladder(const grid *g, baum_simulation_options o, bool fixed)
 {
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < settings_of(g) && status == BAUM_OK; k++) {
+  for (int k = 0; k < settings_of(g); k++) {
     o.step = fixed ? step_at(g, o.integrator->order, k) : (double)NAN;
     o.rtol = fixed ? (double)NAN : rtol_at(g, k);
-    status = baum_study_add(g->study, &o);
+    BAUM_I_TRY(baum_study_add(g->study, &o));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Both kinds of settings that the integrator takes. */
@@ -147,34 +144,30 @@ static baum_status add_settings(const grid *g, const baum_simulation_options *o)
   if (o->integrator->without_freedom) {
     return baum_study_add(g->study, o);
   }
-  baum_status status = BAUM_OK;
   if (baum_integrator_has_variable_step(o->integrator)) {
-    status = add_ladder(g, *o, false);
+    BAUM_I_TRY(add_ladder(g, *o, false));
   }
-  if (status == BAUM_OK && baum_integrator_has_fixed_step(o->integrator)) {
-    status = add_ladder(g, *o, true);
-  }
-  return status;
+  return baum_integrator_has_fixed_step(o->integrator) ? add_ladder(g, *o, true) : BAUM_OK;
 }
 
 /* By the rule of the integrator, auto, and constants. */
 static baum_status add_gains(const grid *g, baum_simulation_options o)
 {
-  baum_status status = add_settings(g, &o);
+  BAUM_I_TRY(add_settings(g, &o));
   if (g->wanted->quick || o.formulation != BAUM_FORMULATION_BAUMGARTE) {
-    return status;
+    return BAUM_OK;
   }
-  if (status == BAUM_OK && o.integrator->gains != BAUM_GAINS_AUTO) {
+  if (o.integrator->gains != BAUM_GAINS_AUTO) {
     o.gains = baum_gains_auto();
-    status = add_settings(g, &o);
+    BAUM_I_TRY(add_settings(g, &o));
   }
   double gain = g->rate;
-  for (int k = 0; k < g->wanted->constants && status == BAUM_OK; k++) {
+  for (int k = 0; k < g->wanted->constants; k++) {
     o.gains = baum_gains_fixed(gain, gain);
-    status = add_settings(g, &o);
+    BAUM_I_TRY(add_settings(g, &o));
     gain *= 10.0;
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status add_integrator(const grid *g, const baum_integrator *integrator)
@@ -185,15 +178,14 @@ static baum_status add_integrator(const grid *g, const baum_integrator *integrat
   if (integrator->without_freedom || (g->wanted->quick && all)) {
     return all ? add_gains(g, o) : BAUM_OK;
   }
-  baum_status status = BAUM_OK;
   for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
     bool wanted = all || g->wanted->formulation == (baum_formulation)f;
     o.formulation = (baum_formulation)f;
-    if (wanted && status == BAUM_OK && baum_i_integrator_offers(integrator, o.formulation)) {
-      status = add_gains(g, o);
+    if (wanted && baum_i_integrator_offers(integrator, o.formulation)) {
+      BAUM_I_TRY(add_gains(g, o));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 bool baum_i_study_in_build(const baum_integrator *integrator)
@@ -205,15 +197,14 @@ bool baum_i_study_in_build(const baum_integrator *integrator)
 
 static baum_status add_all(const grid *g)
 {
-  baum_status status = BAUM_OK;
   const baum_integrator *integrator = NULL;
-  for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
+  for (int k = 0; (integrator = baum_integrator_at(k)) != NULL; k++) {
     bool wanted = !g->wanted->integrator || g->wanted->integrator == integrator;
     if (wanted && baum_i_study_in_build(integrator)) {
-      status = add_integrator(g, integrator);
+      BAUM_I_TRY(add_integrator(g, integrator));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid_wanted)
@@ -224,21 +215,14 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   }
   baum_study_grid wanted = baum_study_grid_default();
   if (grid_wanted) {
-    baum_status status = baum_i_study_take(&wanted, sizeof wanted, grid_wanted, call);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(baum_i_study_take(&wanted, sizeof wanted, grid_wanted, call));
   }
-  baum_status status = check_grid(&wanted);
+  BAUM_I_TRY(check_grid(&wanted));
   grid g = {.study = study, .wanted = &wanted};
-  if (status == BAUM_OK) {
-    status = baum_i_study_rate(study, &g.rate);
-  }
+  BAUM_I_TRY(baum_i_study_rate(study, &g.rate));
   int entries = study->entry_count;
   int methods = study->method_count;
-  if (status == BAUM_OK) {
-    status = add_all(&g);
-  }
+  baum_status status = add_all(&g);
   if (status == BAUM_OK && study->entry_count == entries) {
     const char *formulation = baum_formulation_name(wanted.formulation);
     status = baum_i_fail(BAUM_ERR_ARGUMENT,

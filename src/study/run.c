@@ -451,19 +451,16 @@ static bool wants_check(const baum_study *study)
 static baum_status prepare(workers *c)
 {
   baum_study *study = c->study;
-  baum_status status = BAUM_OK;
-  if (study->reference.known && !needs_reference(c)) {
+  bool was_known = study->reference.known;
+  if (was_known && !needs_reference(c)) {
     return BAUM_OK;
   }
-  if (wants_check(study) && !study->reference.known) {
-    status = baum_mechanism_check_derivatives(study->mechanism);
+  if (wants_check(study) && !was_known) {
+    BAUM_I_TRY(baum_mechanism_check_derivatives(study->mechanism));
   }
-  bool was_known = study->reference.known;
   baum_i_deadline deadline = deadline_of(c, 1.0);
-  if (status == BAUM_OK) {
-    status = baum_i_study_make_reference(study, &deadline);
-  }
-  return status == BAUM_OK && !was_known ? baum_i_study_file_reference(c->file, study) : status;
+  BAUM_I_TRY(baum_i_study_make_reference(study, &deadline));
+  return was_known ? BAUM_OK : baum_i_study_file_reference(c->file, study);
 }
 
 static void run_entries(workers *c)
@@ -496,26 +493,19 @@ static baum_status conclude(workers *c)
            : baum_i_fail(BAUM_WARNED, "study: the reference: %s", study->reference.text);
 }
 
-/* Memory, samples, file and reference, then all entries. */
-static baum_status run_all(workers *c)
+/* Memory, samples, file and reference. */
+static baum_status begin(workers *c)
 {
   baum_study *study = c->study;
   c->order = baum_i_alloc((size_t)study->entry_count, sizeof(baum_i_entry *));
-  baum_status status = c->order ? baum_i_study_set_times(study) : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    status = baum_i_study_file_open(study, &c->file);
+  if (!c->order) {
+    return baum_i_fail_memory();
   }
-  if (status == BAUM_OK) {
-    study->begun = true;
-    status = prepare(c);
-  }
-  if (status == BAUM_OK) {
-    status = set_order(c);
-  }
-  if (status == BAUM_OK) {
-    run_entries(c);
-  }
-  return status == BAUM_OK || status == BAUM_STOP_CANCELLED ? conclude(c) : status;
+  BAUM_I_TRY(baum_i_study_set_times(study));
+  BAUM_I_TRY(baum_i_study_file_open(study, &c->file));
+  study->begun = true;
+  BAUM_I_TRY(prepare(c));
+  return set_order(c);
 }
 
 baum_status baum_study_run(baum_study *study)
@@ -526,13 +516,14 @@ baum_status baum_study_run(baum_study *study)
   if (study->entry_count == 0) {
     return baum_i_fail(BAUM_ERR_STATE, "baum_study_run: there are no entries; add settings");
   }
-  baum_status status = baum_i_study_check_idle(study, "baum_study_run");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_study_check_idle(study, "baum_study_run"));
   study->running = true;
   workers c = {.study = study, .wall_end = baum_i_wall_seconds() + study->options.time_budget};
-  status = run_all(&c);
+  baum_status status = begin(&c);
+  if (status == BAUM_OK) {
+    run_entries(&c);
+  }
+  status = status == BAUM_OK || status == BAUM_STOP_CANCELLED ? conclude(&c) : status;
   baum_status closed = baum_i_study_file_close(c.file);
   baum_i_free(c.order);
   atomic_store(&study->cancelled, 0);

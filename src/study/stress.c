@@ -39,53 +39,47 @@ static baum_status add_rtol(const ladders *l, baum_simulation_options o, int dec
 
 static baum_status add_settings(const ladders *l, const baum_simulation_options *o)
 {
-  baum_status status = BAUM_OK;
   bool fixed = baum_integrator_has_fixed_step(o->integrator);
   bool variable = baum_integrator_has_variable_step(o->integrator);
-  for (int k = FIRST_STEP; fixed && k <= LAST_STEP && status == BAUM_OK; k++) {
-    status = add_step(l, *o, k);
+  for (int k = FIRST_STEP; fixed && k <= LAST_STEP; k++) {
+    BAUM_I_TRY(add_step(l, *o, k));
   }
-  for (int k = FIRST_RTOL; variable && k <= LAST_RTOL && status == BAUM_OK; k++) {
-    status = add_rtol(l, *o, k);
+  for (int k = FIRST_RTOL; variable && k <= LAST_RTOL; k++) {
+    BAUM_I_TRY(add_rtol(l, *o, k));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* None, and alpha = beta through the decades, each with one step or tolerance that is moderate. */
 static baum_status add_gains(const ladders *l, baum_simulation_options o)
 {
-  baum_status status = BAUM_OK;
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
-  if (!baum_integrator_offers(o.integrator, o.formulation)) {
-    return status;
-  }
   bool variable = baum_integrator_has_variable_step(o.integrator);
-  for (int k = FIRST_GAIN - 1; k <= LAST_GAIN && status == BAUM_OK; k++) {
+  for (int k = FIRST_GAIN - 1; k <= LAST_GAIN; k++) {
     double gain = k < FIRST_GAIN ? 0.0 : pow(10.0, k);
     o.gains = baum_gains_fixed(gain, gain);
-    status = variable ? add_rtol(l, o, RTOL_WITH_GAINS) : add_step(l, o, STEP_WITH_GAINS);
+    BAUM_I_TRY(variable ? add_rtol(l, o, RTOL_WITH_GAINS) : add_step(l, o, STEP_WITH_GAINS));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status add_integrator(const ladders *l, const baum_integrator *integrator)
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
-  baum_status status = add_settings(l, &o);
-  return status == BAUM_OK ? add_gains(l, o) : status;
+  BAUM_I_TRY(add_settings(l, &o));
+  return baum_integrator_offers(integrator, BAUM_FORMULATION_BAUMGARTE) ? add_gains(l, o) : BAUM_OK;
 }
 
 static baum_status add_all(const ladders *l, const baum_integrator *only)
 {
-  baum_status status = BAUM_OK;
   const baum_integrator *integrator = NULL;
-  for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
+  for (int k = 0; (integrator = baum_integrator_at(k)) != NULL; k++) {
     if ((!only || only == integrator) && baum_i_study_in_build(integrator)) {
-      status = add_integrator(l, integrator);
+      BAUM_I_TRY(add_integrator(l, integrator));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator)
@@ -95,13 +89,11 @@ baum_status baum_study_add_stress(baum_study *study, const baum_integrator *inte
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
   double rate = 0.0;
-  baum_status status = baum_i_study_rate(study, &rate);
+  BAUM_I_TRY(baum_i_study_rate(study, &rate));
   int entries = study->entry_count;
   int methods = study->method_count;
-  if (status == BAUM_OK) {
-    const ladders l = {.study = study, .period = 2.0 * PI / rate};
-    status = add_all(&l, integrator);
-  }
+  const ladders l = {.study = study, .period = 2.0 * PI / rate};
+  baum_status status = add_all(&l, integrator);
   if (status == BAUM_OK && study->entry_count == entries) {
     status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: this build has no %s with a step or a tolerance",
                          call, baum_integrator_name(integrator));

@@ -180,14 +180,12 @@ static bool same_file(const char *a, const char *b)
 
 static baum_status check_begun(const baum_study *study, const baum_study_options *o)
 {
-  const char *call = "baum_study_set_options";
-  if (study->begun && o->samples != study->options.samples) {
-    return begun(call, "samples");
-  }
-  if (study->begun && o->energy_account != study->options.energy_account) {
-    return begun(call, "energy_account");
-  }
-  return study->begun && !same_file(o->file, study->options.file) ? begun(call, "file") : BAUM_OK;
+  const baum_study_options *now = &study->options;
+  const char *what = o->samples != now->samples                 ? "samples"
+                     : o->energy_account != now->energy_account ? "energy_account"
+                     : !same_file(o->file, now->file)           ? "file"
+                                                                : NULL;
+  return study->begun && what ? begun("baum_study_set_options", what) : BAUM_OK;
 }
 
 baum_status baum_i_study_take(void *to, size_t size, const void *from, const char *call)
@@ -219,19 +217,10 @@ baum_status baum_study_set_options(baum_study *study, const baum_study_options *
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or options are NULL", call);
   }
   baum_study_options o = baum_study_options_default();
-  baum_status status = baum_i_study_take(&o, sizeof o, options, call);
-  if (status == BAUM_OK) {
-    status = check_options(study, &o);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_study_check_idle(study, call);
-  }
-  if (status == BAUM_OK) {
-    status = check_begun(study, &o);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_study_take(&o, sizeof o, options, call));
+  BAUM_I_TRY(check_options(study, &o));
+  BAUM_I_TRY(baum_i_study_check_idle(study, call));
+  BAUM_I_TRY(check_begun(study, &o));
   char *file = o.file ? baum_i_copy_text(o.file) : NULL;
   if (o.file && !file) {
     return baum_i_fail_memory();
@@ -358,15 +347,10 @@ baum_status baum_study_set_reference(baum_study *study, const double *times, int
   if (!study || !times || !q || n < 1) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study, times or q are NULL, or n is not >= 1", call);
   }
-  baum_status status = check_digits(call, digits);
-  if (status == BAUM_OK) {
-    status = check_sample_times(study, times, n);
-  }
-  if (status == BAUM_OK && study->begun) {
-    status = begun(call, "the reference");
-  }
-  if (status != BAUM_OK) {
-    return status;
+  BAUM_I_TRY(check_digits(call, digits));
+  BAUM_I_TRY(check_sample_times(study, times, n));
+  if (study->begun) {
+    return begun(call, "the reference");
   }
   baum_i_study_reference r = {
     .samples = {.n = n}, .digits = digits, .out = {.origin = BAUM_STUDY_GIVEN}};
@@ -390,16 +374,14 @@ baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *s
   if (!study || !solution) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: study or solution are NULL", call);
   }
-  baum_status status = check_digits(call, digits);
-  if (status == BAUM_OK && study->begun) {
-    status = begun(call, "the reference");
+  BAUM_I_TRY(check_digits(call, digits));
+  if (study->begun) {
+    return begun(call, "the reference");
   }
-  if (status == BAUM_OK) {
-    const baum_i_study_reference r = {
-      .solution = solution, .user = user, .digits = digits, .out = {.origin = BAUM_STUDY_SOLUTION}};
-    put_reference(study, &r);
-  }
-  return status;
+  const baum_i_study_reference r = {
+    .solution = solution, .user = user, .digits = digits, .out = {.origin = BAUM_STUDY_SOLUTION}};
+  put_reference(study, &r);
+  return BAUM_OK;
 }
 
 baum_status baum_study_reference_read(const baum_study *study, baum_study_reference *out,
@@ -409,17 +391,15 @@ baum_status baum_study_reference_read(const baum_study *study, baum_study_refere
   if (!study) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL", call);
   }
-  baum_status status = baum_i_check_sized(out, caller_size, call);
-  if (status == BAUM_OK) {
-    baum_study_reference whole = study->reference.out;
-    whole.text = study->reference.text;
-    if (!study->reference.known) {
-      whole.uncertainty = whole.uncertainty_q = whole.uncertainty_v = (double)NAN;
-      whole.uncertainty_lambda = whole.uncertainty_energy = whole.digits = (double)NAN;
-    }
-    baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  BAUM_I_TRY(baum_i_check_sized(out, caller_size, call));
+  baum_study_reference whole = study->reference.out;
+  whole.text = study->reference.text;
+  if (!study->reference.known) {
+    whole.uncertainty = whole.uncertainty_q = whole.uncertainty_v = (double)NAN;
+    whole.uncertainty_lambda = whole.uncertainty_energy = whole.digits = (double)NAN;
   }
-  return status;
+  baum_i_give_sized(out, caller_size, &whole, sizeof whole);
+  return BAUM_OK;
 }
 
 static void give(double *to, const double *from, int count)

@@ -70,14 +70,11 @@ static baum_simulation_options reference_options(const baum_study *study)
   return o;
 }
 
-/* One motion; its entries are given up where it cannot be made. */
+/* One motion; its values are given up where it cannot be made. */
 static baum_status make_one(const baum_study *study, double nudge, baum_i_deadline *deadline,
                             baum_i_samples *samples)
 {
-  baum_status status = allocate(study, samples);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(allocate(study, samples));
   for (int k = 0; k < samples->n; k++) {
     samples->times[k] = study->t0 + 2.0 * (study->reference.samples.times[k] - study->t0);
   }
@@ -100,13 +97,12 @@ static baum_status make_one(const baum_study *study, double nudge, baum_i_deadli
 baum_status baum_i_study_make_validations(baum_study *study, baum_i_deadline *deadline)
 {
   static const double NUDGES[BAUM_I_VALIDATIONS] = {0.0, NUDGE, -NUDGE};
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < BAUM_I_VALIDATIONS && status == BAUM_OK; k++) {
+  for (int k = 0; k < BAUM_I_VALIDATIONS; k++) {
     baum_i_study_clear_samples(&study->validations[k]);
-    status = make_one(study, NUDGES[k], deadline, &study->validations[k]);
+    BAUM_I_TRY(make_one(study, NUDGES[k], deadline, &study->validations[k]));
   }
-  study->validated = status == BAUM_OK && !baum_i_deadline_stops(deadline);
-  return status;
+  study->validated = !baum_i_deadline_stops(deadline);
+  return BAUM_OK;
 }
 
 /* ---- an entry ---- */
