@@ -167,8 +167,9 @@ int main(int count, char **words)
     fine = (!wanted || price_all(problem_at(k))) && fine;
   }
   if (!known) {
-    (void)fprintf(stderr,
-                  "usage: bench_work_precision [pendulum | slider_crank | four_bar | andrews | window]\n");
+    (void)fprintf(
+      stderr,
+      "usage: bench_work_precision [pendulum | slider_crank | four_bar | andrews | window]\n");
     return 2;
   }
   return fine ? 0 : 1;
