@@ -115,6 +115,7 @@ typedef struct baum_coordinates_def {
   bool constant_mass;     /**< mass() depends on nothing. Default: false. */
   bool held;              /**< Assembly keeps the drawn positions. Default: false. */
   void *user;             /**< Passed to the functions, not owned. Default: NULL. */
+  bool depends_on_velocity; /**< force() reads v; RATTLE takes false alone. Default: true. */
 } baum_coordinates_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -341,6 +342,7 @@ typedef struct baum_user_force_def {
   baum_force_fn *force_v;     /**< out (nv x nv). Default: NULL, by differences. */
   baum_q_fn *potential;       /**< out (1) [J]. Default: NULL, none. */
   void *user;                 /**< Passed to the functions, not owned. Default: NULL. */
+  bool depends_on_velocity;   /**< force() reads v; RATTLE takes false alone. Default: true. */
 } baum_user_force_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

@@ -376,6 +376,7 @@ typedef struct baum_planar_spring_def {
   double free_length;  /**< [m] >= 0. Default: NaN, that of the design configuration. */
   baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
   void *user;          /**< Passed to law, not owned. Default: NULL. */
+  bool depends_on_velocity; /**< law reads rate; RATTLE takes false alone. Default: true. */
 } baum_planar_spring_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -430,6 +431,7 @@ typedef struct baum_planar_torsion_spring_def {
   double free_angle;   /**< [rad] angle_b - angle_a without torque. Default: NaN, as designed. */
   baum_spring_fn *law; /**< Replaces the three above, without potential energy. Default: NULL. */
   void *user;          /**< Passed to law, not owned. Default: NULL. */
+  bool depends_on_velocity; /**< law reads rate; RATTLE takes false alone. Default: true. */
 } baum_planar_torsion_spring_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

@@ -22,7 +22,6 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "dynamics/chord.h"
-#include "dynamics/dependence.h"
 #include "integrate/integrator.h"
 
 enum { ITERATIONS = 50 };
@@ -135,27 +134,44 @@ static void destroy(void *self)
   }
 }
 
-/* What the method is not for, by name. */
-static baum_status check_mechanism(const baum_i_problem *problem, const baum_i_state *start)
+static baum_status fail_velocities(const baum_i_element *element, const char *family)
 {
   char label[BAUM_I_LABEL_SIZE];
-  baum_i_dependence found;
-  const baum_i_dependence_probe probe = {.t = start->t, .q = start->q, .rate = problem->rate};
-  baum_status status = baum_i_find_dependence(problem->workspace, &probe, &found, label);
-  if (status != BAUM_OK || found == BAUM_I_DEPENDS_NOT) {
-    return status;
-  }
-  if (found == BAUM_I_DEPENDS_MASS) {
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "simulation options: rattle is for masses that are constant, but that of %s "
-                       "is not",
-                       label);
-  }
   return baum_i_fail(
     BAUM_ERR_UNSUPPORTED,
-    "simulation options: rattle is for forces of time and position, but that of %s "
-    "depends on velocities; take rk4 or rk8, or generalized_alpha where it is stiff",
-    label);
+    "simulation options: rattle is for forces of time and position, but that of %s depends on "
+    "velocities, or does not say depends_on_velocity = false; take rk4 or rk8, or "
+    "generalized_alpha where it is stiff",
+    baum_i_label(element, family, label));
+}
+
+static baum_status check_body(const baum_i_body *body)
+{
+  const void *def = body->element.def;
+  char label[BAUM_I_LABEL_SIZE];
+  if (!body->type->constant_mass(def)) {
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                       "simulation options: rattle is for masses that are constant, but %s does "
+                       "not say constant_mass = true",
+                       baum_i_label(&body->element, "body", label));
+  }
+  bool depends = body->type->depends_on_velocity && body->type->depends_on_velocity(def);
+  return depends ? fail_velocities(&body->element, "body") : BAUM_OK;
+}
+
+/* The method is not for masses that vary and forces that depend on velocities. */
+static baum_status check_mechanism(const baum_mechanism *m)
+{
+  for (int i = 1; i <= m->body_count; i++) {
+    BAUM_I_TRY(check_body(m->bodies[i]));
+  }
+  for (int k = 0; k < m->force_count; k++) {
+    const baum_i_force *force = m->forces[k];
+    if (force->type->depends_on_velocity && force->type->depends_on_velocity(force->element.def)) {
+      return fail_velocities(&force->element, "force");
+    }
+  }
+  return BAUM_OK;
 }
 
 static baum_status make_run(const baum_i_problem *problem, void **out)
@@ -180,9 +196,10 @@ static baum_status make_run(const baum_i_problem *problem, void **out)
 
 static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
 {
+  (void)start;
   *out = NULL;
-  baum_status status = check_mechanism(problem, start);
-  return status == BAUM_OK ? make_run(problem, out) : status;
+  BAUM_I_TRY(check_mechanism(problem->workspace->mechanism));
+  return make_run(problem, out);
 }
 
 static void count(const void *self, baum_i_statistics *out)

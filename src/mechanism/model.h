@@ -90,6 +90,7 @@ typedef struct baum_i_body {
   int v;            /* first velocity */
   int nv;           /* number of both */
   int mass;         /* start of its nv x nv values in the mass blocks */
+  bool fixed;       /* welded to ground */
 } baum_i_body;
 
 typedef struct baum_i_joint {
@@ -100,6 +101,8 @@ typedef struct baum_i_joint {
   int rows;
   int jacobian; /* start of its rows x nl values */
   int square;   /* start of its nl x nl values, for second derivatives */
+  bool fixed;   /* between fixed bodies */
+  bool fixes;   /* the weld by which one of them is fixed */
 } baum_i_joint;
 
 typedef struct baum_i_force {
@@ -239,6 +242,7 @@ struct baum_i_body_type {
   int nv;                       /* of all of the type; 0: size() tells */
   int (*size)(const void *def); /* of one; or NULL */
   bool (*constant_mass)(const void *def);
+  bool (*depends_on_velocity)(const void *def); /* force() does; NULL: never */
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
   /* Start pose, and given velocities or NaN. */
@@ -302,6 +306,8 @@ struct baum_i_joint_type {
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
+  /* Where one body is, by the pose of the other (body_a's if from_a; NULL: ground); NULL: no weld. */
+  void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
   /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
   /* Include its points in the design configuration; NULL: it has none. */
@@ -327,6 +333,7 @@ struct baum_i_force_type {
                        double *parameters);
   /* Adds to (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
+  bool (*depends_on_velocity)(const void *def); /* NULL: never */
   /* Adds; NULL: 0. */
   baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
   /* One force. Blocks arrive zeroed. */
@@ -377,6 +384,9 @@ struct baum_mechanism {
   double *design_v; /* (nv) NaN where free */
   bool *held;       /* (nq) */
   double *scale;    /* (nv) relevant change of each coordinate */
+  int fixed_count;  /* fixed bodies without ground, */
+  int fixed_nv;     /* their velocities, */
+  double *fixed_q;  /* (nq) and where they are */
   int body_group_count;
   baum_i_body_group *body_groups;
   int joint_group_count;

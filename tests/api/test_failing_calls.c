@@ -181,6 +181,7 @@ static baum_mechanism *make_bead(variant of, fault *f)
   def.q = DRAWN;
   def.mass = of.constant_mass ? bead_constant_mass : bead_mass;
   def.constant_mass = of.constant_mass;
+  def.depends_on_velocity = !of.constant_mass;
   def.force = bead_force;
   def.potential = bead_potential;
   def.user = f;

@@ -48,6 +48,7 @@ static const element_field coordinates_fields[] = {
   FIELD(baum_coordinates_def, constant_mass, FLAG),
   FIELD(baum_coordinates_def, held, FLAG),
   FIELD(baum_coordinates_def, user, FUNCTION),
+  FIELD(baum_coordinates_def, depends_on_velocity, FLAG),
 };
 
 static const element_field planar_revolute_fields[] = {
@@ -123,6 +124,7 @@ static const element_field planar_spring_fields[] = {
   FIELD(baum_planar_spring_def, free_length, NUMBERS),
   FIELD(baum_planar_spring_def, law, FUNCTION),
   FIELD(baum_planar_spring_def, user, FUNCTION),
+  FIELD(baum_planar_spring_def, depends_on_velocity, FLAG),
 };
 
 static const element_field planar_load_fields[] = {
@@ -133,11 +135,16 @@ static const element_field planar_load_fields[] = {
 };
 
 static const element_field user_force_fields[] = {
-  FIELD(baum_user_force_def, struct_size, SIZE), FIELD(baum_user_force_def, name, NAME),
-  FIELD(baum_user_force_def, bodies, ARRAY),     FIELD(baum_user_force_def, body_count, INTEGER),
-  FIELD(baum_user_force_def, force, FUNCTION),   FIELD(baum_user_force_def, force_q, FUNCTION),
-  FIELD(baum_user_force_def, force_v, FUNCTION), FIELD(baum_user_force_def, potential, FUNCTION),
+  FIELD(baum_user_force_def, struct_size, SIZE),
+  FIELD(baum_user_force_def, name, NAME),
+  FIELD(baum_user_force_def, bodies, ARRAY),
+  FIELD(baum_user_force_def, body_count, INTEGER),
+  FIELD(baum_user_force_def, force, FUNCTION),
+  FIELD(baum_user_force_def, force_q, FUNCTION),
+  FIELD(baum_user_force_def, force_v, FUNCTION),
+  FIELD(baum_user_force_def, potential, FUNCTION),
   FIELD(baum_user_force_def, user, FUNCTION),
+  FIELD(baum_user_force_def, depends_on_velocity, FLAG),
 };
 
 static const element_field planar_torsion_spring_fields[] = {
@@ -150,6 +157,7 @@ static const element_field planar_torsion_spring_fields[] = {
   FIELD(baum_planar_torsion_spring_def, free_angle, NUMBERS),
   FIELD(baum_planar_torsion_spring_def, law, FUNCTION),
   FIELD(baum_planar_torsion_spring_def, user, FUNCTION),
+  FIELD(baum_planar_torsion_spring_def, depends_on_velocity, FLAG),
 };
 
 static const element_field planar_pin_in_slot_fields[] = {

@@ -85,6 +85,7 @@ class baum_coordinates_def(Structure):
         ("constant_mass", c_bool),
         ("held", c_bool),
         ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
     ]
 
 
@@ -143,6 +144,7 @@ class baum_user_force_def(Structure):
         ("force_v", baum_force_fn),
         ("potential", baum_q_fn),
         ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
     ]
 
 
@@ -549,6 +551,7 @@ class baum_planar_spring_def(Structure):
         ("free_length", c_double),
         ("law", baum_spring_fn),
         ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
     ]
 
 
@@ -563,6 +566,7 @@ class baum_planar_torsion_spring_def(Structure):
         ("free_angle", c_double),
         ("law", baum_spring_fn),
         ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
     ]
 
 

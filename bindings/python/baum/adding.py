@@ -66,12 +66,14 @@ class Adding:
         constant_mass=None,
         held=None,
         inputs=None,
+        depends_on_velocity=None,
         user=None,
     ):
         """Add `size` generalized coordinates: mass(t, q) gives M (size x size), force(t, q, v) the
         force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
         energy [J]. q, v, scale: (size) drawn positions, velocities at start, a relevant change of
-        each. inputs: those that force, force_q and force_v are given after v."""
+        each. inputs: those that force, force_q and force_v are given after v.
+        depends_on_velocity: False where force() does not read v (rattle needs that)."""
         return self._add(
             "coordinates",
             name,
@@ -87,6 +89,7 @@ class Adding:
             constant_mass=constant_mass,
             held=held,
             inputs=inputs,
+            depends_on_velocity=depends_on_velocity,
             user=user,
         )
 
@@ -307,11 +310,13 @@ class Adding:
         damping=None,
         free_length=None,
         law=None,
+        depends_on_velocity=None,
         user=None,
     ):
         """Add a spring [N/m] and damper [N s/m] between two points; free_length [m], default that
         of the drawing. Or law(length, rate), which returns the tension [N] and its derivatives by
-        length and by rate, and has no potential energy."""
+        length and by rate, and has no potential energy; depends_on_velocity: False where it does not
+        read the rate (rattle needs that)."""
         return self._add(
             "planar_spring",
             name,
@@ -323,6 +328,7 @@ class Adding:
             damping=damping,
             free_length=free_length,
             law=law,
+            depends_on_velocity=depends_on_velocity,
             user=user,
         )
 
@@ -336,12 +342,13 @@ class Adding:
         damping=None,
         free_angle=None,
         law=None,
+        depends_on_velocity=None,
         user=None,
     ):
         """Add a spring [N m/rad] and damper [N m s/rad] on angle_b - angle_a, which goes on over
         turns; free_angle [rad], default that of the drawing. Or law(angle, rate), which returns the
         torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
-        potential energy."""
+        potential energy; depends_on_velocity as of springs."""
         return self._add(
             "planar_torsion_spring",
             name,
@@ -351,6 +358,7 @@ class Adding:
             damping=damping,
             free_angle=free_angle,
             law=law,
+            depends_on_velocity=depends_on_velocity,
             user=user,
         )
 
@@ -381,12 +389,13 @@ class Adding:
         force_v=None,
         potential=None,
         inputs=None,
+        depends_on_velocity=None,
         user=None,
     ):
         """Add a generalized force on `bodies`: force(t, q, v) gives it (nv), force_q and force_v
         its derivatives (nv x nv), potential(t, q) an energy [J]. inputs: those that force, force_q
         and force_v are given after v: with inputs=["torque"] they are called as force(t, q, v,
-        torque)."""
+        torque). depends_on_velocity: False where force() does not read v (rattle needs that)."""
         return self._add(
             "user_force",
             name,
@@ -396,6 +405,7 @@ class Adding:
             force_v=force_v,
             potential=potential,
             inputs=inputs,
+            depends_on_velocity=depends_on_velocity,
             user=user,
         )
 

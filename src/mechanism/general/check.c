@@ -256,6 +256,28 @@ enum { POSE_COUNT = 4 };
 /* [1/s] Velocities, of the scales, that are rounding: what they move is lost in that of q. */
 static const double REST = 1e-12;
 
+baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
+                                     const baum_i_field *field, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *moving = baum_i_take(&here, field->size);
+  double *resting = baum_i_take(&here, field->size);
+  double *zeros = baum_i_take(&here, at->nl);
+  memset(zeros, 0, (size_t)at->nl * sizeof *zeros);
+  BAUM_I_TRY(field->evaluate(field->context, &here, moving));
+  here.v = zeros;
+  BAUM_I_TRY(field->evaluate(field->context, &here, resting));
+  for (int i = 0; i < field->size; i++) {
+    if (moving[i] != resting[i]) {
+      char text[BAUM_I_ENTRY_SIZE];
+      return baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "%s is %.9g at rest and %.9g in motion, but depends_on_velocity is false",
+                         baum_i_user_entry(function, i, text), resting[i], moving[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
 /* Pose 0 is the drawn one, with the velocities given; others are beside it and move. */
 static void set_pose(place *p, int pose)
 {

@@ -24,4 +24,8 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
 baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
                                    baum_i_variable variable, const baum_i_local *at);
 
+/* A function whose element says that it does not depend on velocities, against itself at rest. */
+baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
+                                     const baum_i_field *field, const baum_i_local *at);
+
 #endif

@@ -15,7 +15,8 @@
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
 
-static const baum_coordinates_def defaults = {.struct_size = sizeof(baum_coordinates_def)};
+static const baum_coordinates_def defaults = {.struct_size = sizeof(baum_coordinates_def),
+                                              .depends_on_velocity = true};
 
 /* ---- definition ---- */
 
@@ -99,6 +100,12 @@ static void digest(const void *given, baum_i_digest *sum)
 {
   const baum_coordinates_def *def = given;
   baum_i_digest_add_integer(sum, def->constant_mass);
+}
+
+static bool depends_on_velocity(const void *given)
+{
+  const baum_coordinates_def *def = given;
+  return def->depends_on_velocity;
 }
 
 static bool constant_mass(const void *given)
@@ -429,6 +436,11 @@ static baum_status check_derivatives(const baum_i_body *body, baum_i_point *poin
 {
   baum_i_local at = baum_i_gather(point, &body->span);
   baum_status status = check_mass(body, &at);
+  if (status == BAUM_OK && !def_of(body)->depends_on_velocity) {
+    baum_i_user_function f = function(body, "force", body->nv, 0);
+    baum_i_field field = {.evaluate = force_field, .context = body, .size = body->nv};
+    status = baum_i_compare_with_rest(&f, &field, &at);
+  }
   if (status == BAUM_OK) {
     status = check_force(body, &at, BAUM_I_VARIABLE_Q);
   }
@@ -449,6 +461,7 @@ static const baum_i_body_type type = {
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
   .constant_mass = constant_mass,
+  .depends_on_velocity = depends_on_velocity,
   .design = design,
   .scale = scale,
   .mass = mass,

@@ -87,5 +87,11 @@ baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_poin
   for (int which = BY_LENGTH; which <= BY_RATE && status == BAUM_OK; which++) {
     status = check_entry(&(entry){spring, which}, &at, given[which]);
   }
+  if (status == BAUM_OK && !spring->depends_on_rate) {
+    baum_i_user_function f = function(spring);
+    entry value = {spring, VALUE};
+    baum_i_field field = {.evaluate = tension_field, .context = &value, .size = 1};
+    status = baum_i_compare_with_rest(&f, &field, &at);
+  }
   return status;
 }

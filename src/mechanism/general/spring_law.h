@@ -19,6 +19,7 @@ typedef struct baum_i_spring_law {
   const double *numbers; /* (BAUM_I_SPRING_NUMBERS) */
   baum_spring_fn *law;   /* replaces the numbers; or NULL */
   void *user;
+  bool depends_on_rate; /* so does the law */
 } baum_i_spring_law;
 
 /* T and its derivatives by l and l'. */

@@ -10,7 +10,8 @@
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
 
-static const baum_user_force_def defaults = {.struct_size = sizeof(baum_user_force_def)};
+static const baum_user_force_def defaults = {.struct_size = sizeof(baum_user_force_def),
+                                             .depends_on_velocity = true};
 
 /* ---- definition ---- */
 
@@ -42,6 +43,12 @@ static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_sp
 {
   const baum_user_force_def *def = given;
   baum_i_user_bodies(mechanism, def->bodies, def->body_count, span);
+}
+
+static bool depends_on_velocity(const void *given)
+{
+  const baum_user_force_def *def = given;
+  return def->depends_on_velocity;
 }
 
 /* ---- calls ---- */
@@ -175,6 +182,11 @@ static baum_status check_derivatives(const baum_i_force *element, baum_i_point *
   baum_i_local here = at;
   double *value = baum_i_take(&here, at.nl);
   baum_status status = force_at(element, &here, value);
+  if (status == BAUM_OK && !def_of(element)->depends_on_velocity) {
+    baum_i_user_function f = function(element, "force", at.nl, 0);
+    baum_i_field field = {.evaluate = force_field, .context = element, .size = at.nl};
+    status = baum_i_compare_with_rest(&f, &field, &at);
+  }
   if (status == BAUM_OK) {
     status = check_block(element, &at, BAUM_I_VARIABLE_Q);
   }
@@ -193,6 +205,7 @@ static const baum_i_force_type type = {
                  .release = release},
   .bodies = bodies,
   .force = force,
+  .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,

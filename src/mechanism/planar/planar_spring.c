@@ -28,6 +28,7 @@ static const baum_planar_spring_def defaults = {
   .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
   .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
   .free_length = BAUM_I_NOT_GIVEN,
+  .depends_on_velocity = true,
 };
 
 /* ---- definition ---- */
@@ -46,6 +47,12 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
     status = baum_i_check_not_negative(label, "free_length", "m", def->free_length);
   }
   return status;
+}
+
+static bool depends_on_velocity(const void *given)
+{
+  const baum_planar_spring_def *def = given;
+  return def->law ? def->depends_on_velocity : def->damping != 0.0;
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
@@ -98,7 +105,8 @@ static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *p
   return (baum_i_spring_law){.element = &force->element,
                              .numbers = point->parameters + force->element.parameter + LAW,
                              .law = def->law,
-                             .user = def->user};
+                             .user = def->user,
+                             .depends_on_rate = def->depends_on_velocity};
 }
 
 /* l_qq */
@@ -245,6 +253,7 @@ static const baum_i_force_type type = {
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .force = force,
+  .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,

@@ -20,6 +20,7 @@
 static const baum_planar_torsion_spring_def defaults = {
   .struct_size = sizeof(baum_planar_torsion_spring_def),
   .free_angle = BAUM_I_NOT_GIVEN,
+  .depends_on_velocity = true,
 };
 
 /* ---- definition ---- */
@@ -41,6 +42,12 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
     status = baum_i_check_optional(label, "free_angle", "rad", def->free_angle);
   }
   return status;
+}
+
+static bool depends_on_velocity(const void *given)
+{
+  const baum_planar_torsion_spring_def *def = given;
+  return def->law ? def->depends_on_velocity : def->damping != 0.0;
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
@@ -78,7 +85,8 @@ static baum_i_spring_law law_of(const baum_i_force *force, const baum_i_point *p
   return (baum_i_spring_law){.element = &force->element,
                              .numbers = point->parameters + force->element.parameter,
                              .law = def->law,
-                             .user = def->user};
+                             .user = def->user,
+                             .depends_on_rate = def->depends_on_velocity};
 }
 
 static baum_status torque_at(const baum_i_force *force, baum_i_point *point, baum_i_tension *out)
@@ -165,6 +173,7 @@ static const baum_i_force_type type = {
   .bodies = baum_i_planar_bodies,
   .lower = lower,
   .force = force,
+  .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
