@@ -17,6 +17,7 @@
 
 #include <baum/dynamics.h>
 
+#include "base/message.h"
 #include "linear/kkt.h"
 #include "mechanism/mechanism.h"
 
@@ -123,6 +124,17 @@ void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLV
 
 /* BAUM_ERR_STATE within a function of the user that the workspace is calling; `what` is what he used it through. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
+
+/* A look at another state in the workspace of a motion: what it finds near singular is not counted, and of its failures
+ * only the status that is returned in the end leaves a message. */
+typedef struct baum_i_probe {
+  baum_workspace *workspace;
+  int64_t near_singular;
+  baum_i_sentence message;
+} baum_i_probe;
+
+void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace);
+baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status);
 
 /* Choose pivots anew at the next factorizations, so that nothing depends on the ones before. */
 void baum_i_workspace_forget(baum_workspace *workspace);

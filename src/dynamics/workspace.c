@@ -170,6 +170,19 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   return w->blocks_only && !w->path ? refuse(w) : baum_i_message_settle(BAUM_OK, &kept);
 }
 
+void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace)
+{
+  probe->workspace = workspace;
+  probe->near_singular = workspace->near_singular;
+  baum_i_message_keep(&probe->message);
+}
+
+baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status)
+{
+  probe->workspace->near_singular = probe->near_singular;
+  return baum_i_message_settle(status, &probe->message);
+}
+
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 {
   baum_i_kkt_counters sum = baum_i_kkt_get_counters(w->kkt);

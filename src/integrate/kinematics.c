@@ -122,10 +122,8 @@ static baum_status say_when(const baum_i_pose *from, baum_status status)
   if (status != BAUM_ERR_CALLBACK && status != BAUM_ERR_NOT_FINITE) {
     return status;
   }
-  baum_i_sentence reason;
-  baum_i_message_keep(&reason);
   return baum_i_fail(status, "t = %.9g s: kinematics: in a step from here: %.800s", from->t,
-                     reason.text);
+                     baum_message());
 }
 
 /* By how much the step that gave this verdict may change. */

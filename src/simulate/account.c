@@ -324,8 +324,6 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
   if (account->broken) {
     return;
   }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   follow(run);
   baum_status status = starts_elsewhere(run) ? move_start(run, account->before) : BAUM_OK;
   if (status == BAUM_OK) {
@@ -337,7 +335,6 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
                     "t = %.9g s: the energy account ends here: %.200s", account->from.t,
                     baum_message());
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 /* ---- in the course of a run ---- */
@@ -427,6 +424,8 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
     return baum_i_fail(BAUM_ERR_STATE, "channel: the run keeps no energy account; set the option "
                                        "energy_account");
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   baum_i_account_read(run, state);
   baum_status status =
     baum_i_energy(account->workspace, state->t, state->q, state->v, &out[0], &out[1]);
@@ -436,7 +435,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
     works += i == BAUM_I_WORK_GAINS ? 0.0 : out[2 + i];
   }
   out[2 + BAUM_I_WORKS] = out[0] + out[1] - run->start_energy - works;
-  return status;
+  return baum_i_message_settle(status, &kept);
 }
 
 /* ---- life ---- */

@@ -318,8 +318,23 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
                                                       : advance_variable(run, t, taken);
 }
 
+/* What a call begins with. */
+typedef struct public_call {
+  struct timespec start;
+  baum_i_sentence before;
+  int64_t taken; /* steps */
+} public_call;
+
+static void begin(baum_simulation *run, public_call *c)
+{
+  (void)clock_gettime(CLOCK_MONOTONIC, &c->start);
+  run->last_progress = c->start;
+  c->taken = 0;
+  baum_i_message_keep(&c->before);
+}
+
 /* Look at the state where the call ends, which no later step has looked at yet. */
-static baum_status finish(baum_simulation *run, baum_status status, const struct timespec *begin)
+static baum_status finish(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
   baum_i_sentence reason;
@@ -328,22 +343,14 @@ static baum_status finish(baum_simulation *run, baum_status status, const struct
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
+    baum_i_companion_end_call(run);
   }
-  baum_i_companion_end_call(run);
-  run->counters.wall += baum_i_seconds_since(begin);
-  if (status != BAUM_OK) {
-    (void)baum_i_fail(status, "%s", reason.text);
-    return baum_i_run_fail(run, status);
+  run->counters.wall += baum_i_seconds_since(&c->start);
+  if (status == BAUM_OK && look != BAUM_OK) {
+    return baum_i_run_fail(run, look);
   }
-  return look == BAUM_OK ? baum_i_run_finish(run) : baum_i_run_fail(run, look);
-}
-
-static struct timespec begin(baum_simulation *run)
-{
-  struct timespec now;
-  (void)clock_gettime(CLOCK_MONOTONIC, &now);
-  run->last_progress = now;
-  return now;
+  (void)baum_i_message_settle(BAUM_OK, status == BAUM_OK ? &c->before : &reason);
+  return status == BAUM_OK ? baum_i_run_finish(run) : baum_i_run_fail(run, status);
 }
 
 static baum_status check_time(const baum_simulation *run, const char *call, double t)
@@ -363,10 +370,10 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
   if (status != BAUM_OK) {
     return status;
   }
-  struct timespec start = begin(simulation);
-  int64_t taken = 0;
-  status = advance(simulation, t, &taken);
-  return finish(simulation, status, &start);
+  public_call c;
+  begin(simulation, &c);
+  status = advance(simulation, t, &c.taken);
+  return finish(simulation, status, &c);
 }
 
 static baum_status one_step(baum_simulation *run)
@@ -405,7 +412,8 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_step: count is %lld, must be > 0",
                        (long long)count);
   }
-  struct timespec start = begin(simulation);
+  public_call c;
+  begin(simulation, &c);
   status = turn(simulation, INFINITY);
   for (int64_t k = 0; k < count && status == BAUM_OK; k++) {
     status = baum_i_run_may_go_on(simulation, k);
@@ -413,7 +421,7 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
       status = one_step(simulation);
     }
   }
-  return finish(simulation, status, &start);
+  return finish(simulation, status, &c);
 }
 
 /* ---- sampling ---- */
@@ -493,14 +501,14 @@ baum_status baum_simulation_sample(baum_simulation *simulation, const double *ti
   if (status != BAUM_OK) {
     return status;
   }
-  struct timespec start = begin(simulation);
+  public_call c;
+  begin(simulation, &c);
   int width = baum_i_output_width(simulation->workspace->mechanism, channels, count);
-  int64_t taken = 0;
   for (int64_t k = 0; k < n && status == BAUM_OK; k++) {
     const baum_i_state *at = NULL;
     status = baum_i_run_is_wanted(simulation);
     if (status == BAUM_OK) {
-      status = sample_one(simulation, times[k], k == n - 1, &taken, &at);
+      status = sample_one(simulation, times[k], k == n - 1, &c.taken, &at);
     }
     if (status == BAUM_OK) {
       status = baum_i_output(simulation, at, channels, count, rows + k * width);
@@ -509,5 +517,5 @@ baum_status baum_simulation_sample(baum_simulation *simulation, const double *ti
       *done = k + 1;
     }
   }
-  return finish(simulation, status, &start);
+  return finish(simulation, status, &c);
 }

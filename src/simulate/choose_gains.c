@@ -119,12 +119,10 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  baum_i_sentence why;
-  baum_i_message_keep(&why);
   char label[BAUM_I_LABEL_SIZE];
   (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
   return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label,
-                     why.text);
+                     baum_message());
 }
 
 /* Every factor that differs from that of the row before. */

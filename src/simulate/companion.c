@@ -256,8 +256,6 @@ static void give_up(baum_simulation *run)
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   use_present_equations(run);
   baum_status status = pass(run, state->t);
   if (status == BAUM_OK) {
@@ -268,7 +266,6 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
   } else {
     give_up(run);
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
   return status == BAUM_OK;
 }
 

@@ -59,17 +59,15 @@ static void exchange(baum_simulation *run, standing *s)
  * that does. */
 static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
 {
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   if (run->options.start != BAUM_START_AS_GIVEN) {
     baum_i_look_at_immobile(run->workspace, theirs->q, theirs->v);
     baum_status status = baum_i_project(run->workspace, t, theirs->q, theirs->v);
     if (status != BAUM_OK) {
       baum_i_look_at_immobile(run->workspace, run->state.q, run->state.v);
-      return baum_i_run_fail(run, status);
+      return status;
     }
   }
-  return baum_i_message_settle(baum_simulation_set_state(run, t, theirs->q, theirs->v), &kept);
+  return baum_simulation_set_state(run, t, theirs->q, theirs->v);
 }
 
 static baum_status check_both(const baum_simulation *run, const baum_simulation *from)
@@ -94,6 +92,8 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
   if (status != BAUM_OK) {
     return status;
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
@@ -103,5 +103,5 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
     }
   }
   clear_standing(&theirs);
-  return status;
+  return baum_i_run_end_call(simulation, status, &kept);
 }

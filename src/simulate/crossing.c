@@ -324,16 +324,14 @@ static void look_outside(baum_simulation *run)
 
 static void look(baum_simulation *run)
 {
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  int64_t near_singular = run->workspace->near_singular; /* of the motion, not of looks at it */
+  baum_i_probe probe;
+  baum_i_probe_begin(&probe, run->workspace);
   if (run->crossings->open) {
     look_inside(run);
   } else {
     look_outside(run);
   }
-  run->workspace->near_singular = near_singular;
-  (void)baum_i_message_settle(BAUM_OK, &kept);
+  (void)baum_i_probe_end(&probe, BAUM_OK);
 }
 
 /* Most states have nothing to look for. */
@@ -413,9 +411,8 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
   if (!p) {
     return;
   }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  int64_t near_singular = w->near_singular;
+  baum_i_probe probe;
+  baum_i_probe_begin(&probe, w);
   baum_status status =
     run->integrator->solves_residuals ? baum_i_find_pivot(w, end->t, end->q, end->v) : BAUM_OK;
   int joint = -1;
@@ -428,8 +425,7 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
   if (status == BAUM_OK) {
     note(run, end, pivot, joint);
   }
-  w->near_singular = near_singular;
-  (void)baum_i_message_settle(BAUM_OK, &kept);
+  (void)baum_i_probe_end(&probe, BAUM_OK);
 }
 
 /* ---- public ---- */

@@ -105,7 +105,6 @@ static void say_where(baum_simulation *run, const baum_i_state *at, char *text, 
 {
   baum_workspace *w = run->workspace;
   int64_t evaluations = w->evaluations;
-  int64_t near_singular = w->near_singular;
   baum_status status = baum_i_acceleration(w, at->t, at->q, at->v, 0.0, 0.0);
   if (status == BAUM_OK) {
     status = baum_i_need_jacobian(w);
@@ -118,7 +117,6 @@ static void say_where(baum_simulation *run, const baum_i_state *at, char *text, 
     say_history(run, text, size);
   }
   w->evaluations = evaluations;
-  w->near_singular = near_singular;
 }
 
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
@@ -128,9 +126,10 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
   if (!help) {
     return status;
   }
-  baum_i_sentence reason;
+  baum_i_probe probe;
   char text[BAUM_I_MESSAGE_SIZE / 2] = "";
-  baum_i_message_keep(&reason);
+  baum_i_probe_begin(&probe, run->workspace);
   say_where(run, at, text, sizeof text);
-  return baum_i_fail(status, "%.500s%s; %s", reason.text, text, help);
+  return baum_i_fail(baum_i_probe_end(&probe, status), "%.500s%s; %s", probe.message.text, text,
+                     help);
 }

@@ -30,17 +30,19 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   }
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   if (value != before) {
     baum_i_run_end_before_change(simulation);
     *present = value;
     status = baum_i_run_restart(simulation);
   }
-  if (status != BAUM_OK) {
+  if (status == BAUM_OK) {
+    baum_i_schedule_end(simulation, input.index1 - 1);
+  } else {
     *present = before;
-    return baum_i_run_fail(simulation, status);
   }
-  baum_i_schedule_end(simulation, input.index1 - 1);
-  return BAUM_OK;
+  return baum_i_run_end_call(simulation, status, &kept);
 }
 
 double baum_simulation_input(const baum_simulation *simulation, baum_input_id input)
@@ -177,8 +179,10 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
     baum_i_schedule_end(simulation, index);
     return BAUM_OK;
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   status = replace(simulation, &g);
-  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
+  return baum_i_run_end_call(simulation, status, &kept);
 }
 
 /* ---- drivers ---- */
@@ -251,10 +255,12 @@ baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_i
   if (status != BAUM_OK) {
     return status;
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   const baum_mechanism *m = simulation->workspace->mechanism;
   status = baum_i_run_own_parameters(simulation);
   if (status == BAUM_OK) {
     status = set_driver(simulation, m->joints[baum_i_joint_index(m, driver)], law);
   }
-  return status == BAUM_OK ? BAUM_OK : baum_i_run_fail(simulation, status);
+  return baum_i_run_end_call(simulation, status, &kept);
 }

@@ -64,23 +64,13 @@ static double may_be_off(const baum_simulation *run, double kept)
   return NEGLIGIBLE + TIMES * sqrt(kept * fmin(1.0, kept / pivot));
 }
 
-/* A function of the user that has just answered may fail now; then it will soon be reported. */
-static bool has_jacobian(baum_workspace *w)
-{
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  baum_status status = baum_i_need_jacobian(w);
-  (void)baum_i_message_settle(BAUM_OK, &kept);
-  return status == BAUM_OK;
-}
-
 static void observe_redundant(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
   if (w->redundancy.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
-      !has_jacobian(w)) {
-    return;
+      baum_i_need_jacobian(w) != BAUM_OK) {
+    return; /* a function of the user that fails now will soon be reported */
   }
   double *distance = w->work_c;
   baum_i_row_displacements(w, distance);
@@ -165,7 +155,7 @@ static void observe_large(baum_simulation *run, double t)
     return;
   }
   run->judged_phi = c->max_phi;
-  if (!has_jacobian(w)) {
+  if (baum_i_need_jacobian(w) != BAUM_OK) {
     return;
   }
   predict(run, c);
@@ -190,13 +180,10 @@ void baum_i_run_excuse_violation(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;
   baum_counters *c = &run->counters;
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   if (baum_i_violation(run->workspace, state->t, state->q, state->v) == BAUM_OK) {
     observe_row(run, run->workspace->phi, &c->max_phi, &c->max_phi_joint);
     run->judged_phi = c->max_phi;
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)

@@ -29,10 +29,8 @@ static baum_status check_finite(const baum_simulation *run, const baum_i_state *
 static baum_status explain_callback(const baum_simulation *run, baum_status status)
 {
   if (status == BAUM_ERR_CALLBACK) {
-    baum_i_sentence reason;
-    baum_i_message_keep(&reason);
     bool retry = run->workspace->point.retry;
-    (void)baum_i_fail(status, "t = %.9g s: %.600s%s%s%s", run->state.t, reason.text,
+    (void)baum_i_fail(status, "t = %.9g s: %.600s%s%s%s", run->state.t, baum_message(),
                       retry ? "; " : "", retry ? run->integrator->name : "",
                       retry ? " cannot take a smaller step" : "");
   }

@@ -82,9 +82,8 @@ static bool step(pilot *p)
 double baum_i_run_pilot(baum_simulation *run, double swing)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  int64_t near_singular = run->workspace->near_singular;
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
+  baum_i_probe probe;
+  baum_i_probe_begin(&probe, run->workspace);
   baum_i_run_copy(run, &run->trial, &run->ahead);
   memset(run->state.q, 0, (size_t)m->nq * sizeof *run->state.q);
   memset(run->state.v, 0, (size_t)m->nv * sizeof *run->state.v);
@@ -96,7 +95,6 @@ double baum_i_run_pilot(baum_simulation *run, double swing)
              .ready = true};
   for (int k = 0; k < STEPS && step(&p); k++) {
   }
-  run->workspace->near_singular = near_singular;
-  (void)baum_i_message_settle(BAUM_OK, &kept);
+  (void)baum_i_probe_end(&probe, BAUM_OK);
   return p.turned / p.time;
 }

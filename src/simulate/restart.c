@@ -15,15 +15,13 @@ static baum_status restart_method(baum_simulation *run)
   if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
     return BAUM_OK;
   }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   baum_i_run_copy(run, &run->state, &run->ahead);
   if (run->account) {
     baum_i_account_go_on(run);
   }
   baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
   run->counters.restarts += status == BAUM_OK;
-  return baum_i_message_settle(status, &kept);
+  return status;
 }
 
 baum_status baum_i_run_restart(baum_simulation *run)

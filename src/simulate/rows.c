@@ -11,14 +11,11 @@
 /* Without memory the account and the companion go on with those before, which are no worse than they were. */
 static void tell_others(baum_simulation *run)
 {
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   for (int k = 0; k < 2; k++) {
     if (run->beside[k]) {
       (void)baum_i_omit_rows(run->beside[k], run->workspace->redundancy.omitted);
     }
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 /* Rows that were left out are off by more than those that were kept, the more the nearer these came to dependent: from
@@ -29,13 +26,10 @@ static void settle(baum_simulation *run)
   if (run->options.start == BAUM_START_AS_GIVEN) {
     return;
   }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   baum_i_run_copy(run, &run->state, trial);
   if (baum_i_project(run->workspace, trial->t, trial->q, trial->v) == BAUM_OK) {
     baum_i_run_copy(run, trial, &run->state);
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 static const double WHILE = 0.1; /* [rad] */

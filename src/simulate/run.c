@@ -114,6 +114,12 @@ void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int
 
 /* ---- tell ---- */
 
+baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
+                                const baum_i_sentence *before)
+{
+  return status == BAUM_OK ? baum_i_message_settle(BAUM_OK, before) : baum_i_run_fail(run, status);
+}
+
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status)
 {
   memcpy(run->message, baum_message(), sizeof run->message);

@@ -126,6 +126,10 @@ baum_status baum_i_run_finish(baum_simulation *run);
 /* Remember the sentence of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
+/* A call that may have tried what fails ends: it leaves the message of a failure, or the one from before. */
+baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
+                                const baum_i_sentence *before);
+
 /* ---- start.c ---- */
 
 /* Bring a state onto the constraints as the option `start` says, into trial;

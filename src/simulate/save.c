@@ -90,12 +90,9 @@ static void forget(baum_simulation *run)
 /* Values there have been asked for before; should one fail now, what is known of them stays. */
 static void go_on_with_events(baum_simulation *run)
 {
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   if (baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
     baum_i_events_go_on(run);
   }
-  (void)baum_i_message_settle(BAUM_OK, &kept);
 }
 
 /* The state that is reported becomes the one from which the next step goes. */
@@ -196,11 +193,13 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
                        "NULL",
                        call, capacity, most);
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   begin_anew(simulation);
   baum_i_run_count(simulation);
   baum_i_saved_list(simulation, &list); /* there may be more of them now */
   *size = write_all(simulation, &list, buffer);
-  return BAUM_OK;
+  return baum_i_run_end_call(simulation, BAUM_OK, &kept);
 }
 
 /* ---- check ---- */
@@ -585,6 +584,8 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
   if (status != BAUM_OK) {
     return status;
   }
+  baum_i_sentence kept;
+  baum_i_message_keep(&kept);
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   reader r = {.bytes = buffer, .size = size};
@@ -592,9 +593,8 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
   if (status == BAUM_OK) {
     status = make_room(simulation, &r, &list);
   }
-  if (status != BAUM_OK) {
-    return baum_i_run_fail(simulation, status);
+  if (status == BAUM_OK) {
+    put_back(simulation, &r, &list);
   }
-  put_back(simulation, &r, &list);
-  return BAUM_OK;
+  return baum_i_run_end_call(simulation, status, &kept);
 }

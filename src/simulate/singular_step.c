@@ -44,13 +44,11 @@ static bool stays_unprojected(const baum_simulation *run, baum_status status, do
 baum_status baum_i_run_project(baum_simulation *run, double t)
 {
   baum_i_state *trial = &run->trial;
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   baum_i_run_copy(run, trial, &run->spare);
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
   if (run->crossings && stays_unprojected(run, status, t - run->state.t)) {
     baum_i_run_copy(run, &run->spare, trial);
-    status = baum_i_message_settle(BAUM_OK, &kept);
+    return BAUM_OK;
   }
   return status;
 }
@@ -71,13 +69,11 @@ baum_status baum_i_run_limit_acceleration(baum_simulation *run)
   if (!run->crossings || !is_in_pose(run, find_present_pivot(run))) {
     return BAUM_OK;
   }
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
-  int64_t near_singular = w->near_singular;
+  baum_i_probe probe;
+  baum_i_probe_begin(&probe, w);
   if (baum_i_limit_acceleration(&run->problem, state, run->trial.q, run->spare.v)) {
     memcpy(run->acceleration, run->spare.v, (size_t)w->mechanism->nv * sizeof *run->spare.v);
   }
   baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
-  w->near_singular = near_singular;
-  return status == BAUM_OK ? baum_i_message_settle(BAUM_OK, &kept) : status;
+  return baum_i_probe_end(&probe, status);
 }

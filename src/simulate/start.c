@@ -182,12 +182,10 @@ static baum_status tell_open(baum_simulation *run, int row, double rate, double 
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
-  baum_i_sentence kept;
-  baum_i_message_keep(&kept);
   baum_status status = baum_i_change_of_velocities(w, state->t, state->q, state->v);
   if (status == BAUM_ERR_SINGULAR) {
     *change = baum_i_kkt_rcond(w->kkt) > 0.0 ? 1.0 : 0.0;
-    return baum_i_message_settle(BAUM_OK, &kept);
+    return BAUM_OK;
   }
   *change = baum_i_scaled_size(w->mechanism, w->a) / size;
   return status;
@@ -362,8 +360,8 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
     baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
-    return baum_i_run_fail(simulation, status);
+  } else {
+    baum_i_run_accept(simulation, energy);
   }
-  baum_i_run_accept(simulation, energy);
-  return baum_i_message_settle(status, &kept);
+  return baum_i_run_end_call(simulation, status, &kept);
 }
