@@ -195,11 +195,11 @@ static baum_branch judge(double jump, double error, bool gap, double largest_tur
   return jump > LARGE_JUMP ? BAUM_BRANCH_LEFT : BAUM_BRANCH_UNKNOWN;
 }
 
-void baum_i_branch_decide(baum_simulation *run, const baum_i_crossing *crossing,
-                          baum_near_singular *out)
+void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out)
 {
-  out->t = crossing->at;
-  out->pivot = crossing->smallest;
+  const baum_i_crossings *p = run->crossings;
+  out->t = p->lowest.t;
+  out->pivot = p->lowest.pivot;
   find_jump(run, &out->jump, &out->jump_error);
-  out->branch = judge(out->jump, out->jump_error, crossing->gap, crossing->largest_turn);
+  out->branch = judge(out->jump, out->jump_error, p->present.gap, p->present.largest_turn);
 }

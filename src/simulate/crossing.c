@@ -39,7 +39,7 @@ static void place_knots(baum_i_knot *knots, int count, int nv, double **next)
 baum_status baum_i_crossings_create(baum_simulation *run)
 {
   int nv = run->workspace->mechanism->nv; /* nq = nv so far */
-  size_t numbers = 2 * (size_t)nv * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 3);
+  size_t numbers = 2 * (size_t)nv * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 4);
   baum_i_crossings *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
   if (!p) {
     return baum_i_fail_memory();
@@ -51,6 +51,7 @@ baum_status baum_i_crossings_create(baum_simulation *run)
   place_knots(&p->at, 1, nv, &next);
   place_knots(&p->other, 1, nv, &next);
   place_knots(&p->between, 1, nv, &next);
+  place_knots(&p->lowest, 1, nv, &next);
   run->crossings = p;
   return BAUM_OK;
 }
@@ -175,8 +176,9 @@ static void see_turn(baum_simulation *run)
 static void begin(baum_i_crossings *p, double from)
 {
   p->open = true;
-  p->present =
-    (baum_i_crossing){.from = from, .at = from, .smallest = (double)INFINITY, .joint = -1};
+  p->lowest.t = from;
+  p->lowest.pivot = (double)INFINITY;
+  p->present = (baum_i_crossing){.from = from, .joint = -1};
 }
 
 /* Small, or opened by the violation of the run. */
@@ -192,20 +194,30 @@ static bool keeps_its_rank(baum_simulation *run, double t, const double *q, doub
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
 }
 
+/* Where it is the least so far of those that are singular. */
+static bool is_lowest(baum_simulation *run, double t, const double *q, double pivot, int joint)
+{
+  baum_i_crossings *p = run->crossings;
+  if (!(pivot < p->lowest.pivot) || keeps_its_rank(run, t, q, pivot)) {
+    return false;
+  }
+  p->lowest.t = t;
+  p->lowest.pivot = pivot;
+  memcpy(p->lowest.q, q, (size_t)p->nv * sizeof *q);
+  p->present.joint = joint;
+  return true;
+}
+
 /* Between the last three states. */
 static void search(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  baum_i_crossing *present = &p->present;
   double at = 0.0;
   int joint = -1;
   double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
   baum_i_hermite(p->recent, BAUM_I_RECENT, p->nv, at, p->at.q, p->at.v);
-  if (pivot < present->smallest && !keeps_its_rank(run, at, p->at.q, pivot)) {
-    present->smallest = pivot;
-    present->at = at;
-    present->joint = joint;
-    present->gap = baum_i_branch_has_gap(run, at, pivot);
+  if (is_lowest(run, at, p->at.q, pivot, joint)) {
+    p->present.gap = baum_i_branch_has_gap(run, at, pivot);
   }
 }
 
@@ -214,12 +226,8 @@ static void see_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   const baum_i_knot *last = &p->recent[p->recent_count - 1];
-  baum_i_crossing *present = &p->present;
-  if (last->pivot < present->smallest && !keeps_its_rank(run, last->t, last->q, last->pivot)) {
-    present->smallest = last->pivot;
-    present->at = last->t;
-    present->joint = p->joint_noted;
-    present->gap = last->pivot < SINGULAR && baum_i_branch_has_gap_at_end(run);
+  if (is_lowest(run, last->t, last->q, last->pivot, p->joint_noted)) {
+    p->present.gap = last->pivot < SINGULAR && baum_i_branch_has_gap_at_end(run);
   }
 }
 
@@ -237,7 +245,7 @@ static void record(baum_simulation *run, double to)
 {
   baum_i_crossings *p = run->crossings;
   baum_near_singular entry = {.struct_size = sizeof entry, .begin = p->present.from, .end = to};
-  baum_i_branch_decide(run, &p->present, &entry);
+  baum_i_branch_decide(run, &entry);
   char label[BAUM_I_LABEL_SIZE] = "no joint";
   if (p->present.joint >= 0) {
     entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
@@ -259,10 +267,12 @@ static void record(baum_simulation *run, double to)
   }
 }
 
+/* The violation may have opened it only since its pivot was the least. */
 static void close_crossing(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  if (is_singular(run, p->present.smallest)) {
+  double pivot = p->lowest.pivot;
+  if (is_singular(run, pivot) && !keeps_its_rank(run, p->lowest.t, p->lowest.q, pivot)) {
     record(run, p->recent[p->recent_count - 1].t);
   }
   p->open = false;
@@ -291,7 +301,7 @@ static bool has_jumped(baum_simulation *run)
   }
   begin(p, p->recent[0].t);
   search(run);
-  p->open = is_singular(run, p->present.smallest);
+  p->open = is_singular(run, p->lowest.pivot);
   return p->open;
 }
 

@@ -14,11 +14,9 @@ enum {
 /* One under way, or just found between two steps. */
 typedef struct baum_i_crossing {
   double from;         /* [s] last clear state before */
-  double at;           /* [s] of the smallest pivot */
-  double smallest;     /* [-] of the usual one */
   bool gap;            /* no singular pose is on the way, as far as can be seen there */
   double largest_turn; /* [-] change of the velocity in a step, of its size */
-  int joint;           /* of the smallest pivot, -1: none */
+  int joint;           /* of the least pivot, -1: none */
 } baum_i_crossing;
 
 struct baum_i_crossings {
@@ -32,8 +30,9 @@ struct baum_i_crossings {
   baum_i_knot at;               /* a state between two */
   baum_i_knot other;
   baum_i_knot between;
-  bool unseen;     /* the last recent state has not been looked at */
-  int joint_noted; /* of its smallest pivot, where it is near; -1: none */
+  baum_i_knot lowest; /* of the passage under way: t, pivot and q */
+  bool unseen;        /* the last recent state has not been looked at */
+  int joint_noted;    /* of its smallest pivot, where it is near; -1: none */
   bool open;
   baum_i_crossing present;
   baum_near_singular kept[BAUM_I_PASSAGES];
@@ -59,8 +58,7 @@ void baum_i_crossings_look(baum_simulation *run);
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end);
 
 /* branch.c: what has become of the motion, from the clear states before to the last recent one, into *out. */
-void baum_i_branch_decide(baum_simulation *run, const baum_i_crossing *crossing,
-                          baum_near_singular *out);
+void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
 
 /* branch.c: least pivot, of the usual one, of the motion through `knots` from the first to the last; time and joint of it.
  * INFINITY where evaluations fail. */

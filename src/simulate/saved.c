@@ -234,8 +234,7 @@ static void list_passages(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD_BOUNDED(list, "joint noted", p->joint_noted, -1, joints - 1);
   BAUM_I_SAVED_ADD_FLAG(list, "passage open", p->open);
   BAUM_I_SAVED_ADD(list, "passage from", p->present.from);
-  BAUM_I_SAVED_ADD(list, "passage at", p->present.at);
-  BAUM_I_SAVED_ADD(list, "passage smallest", p->present.smallest);
+  list_knots(list, "passage lowest", &p->lowest, 1, p->nv);
   BAUM_I_SAVED_ADD_FLAG(list, "passage gap", p->present.gap);
   BAUM_I_SAVED_ADD(list, "passage largest turn", p->present.largest_turn);
   BAUM_I_SAVED_ADD_BOUNDED(list, "passage joint", p->present.joint, -1, joints - 1);

@@ -10,7 +10,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 7, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 8, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
 
 typedef enum baum_i_saved_kind {
   /* must be here as it was there: */
