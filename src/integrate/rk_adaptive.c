@@ -345,7 +345,8 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
   for (int k = 0; k < MOST_TRIES && !baum_i_rk_crossing_is_held(&run->crossing); k++) {
     double error = 0.0;
     bool forced = false;
-    double length = baum_i_rk_crossing_length(&run->crossing, run->control.step, &forced);
+    double length = baum_i_rk_crossing_length(&run->crossing, &run->rk, problem, run->t,
+                                              run->control.step, &forced);
     baum_status status = choose_end(run, problem, length);
     if (status != BAUM_OK) {
       return status;

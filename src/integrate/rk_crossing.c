@@ -134,10 +134,15 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
 
 /* The pose is passed between two stages, from as far as the length allows. Not before a step so short that the next one
  * could not grow to the length, nor from so close that stages are no further away than it is. */
-double baum_i_rk_crossing_length(const baum_i_rk_crossing *crossing, double length, bool *forced)
+double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                 const baum_i_problem *problem, double t, double length,
+                                 bool *forced)
 {
   double over = crossing->ahead / crossing->gap;
   double before = crossing->ahead - crossing->gap * length;
+  if (length < crossing->least && baum_i_rows_are_apart(problem->workspace, t, rk->start)) {
+    crossing->least = 0.0; /* a light body turns, for which steps have to be short */
+  }
   *forced = length < crossing->least;
   if (*forced) {
     return crossing->over;

@@ -31,8 +31,10 @@ void baum_i_rk_crossing_begin(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
 void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                              const baum_i_problem *problem, double t);
 
-/* [s] What becomes of a step of this length. forced: that step is below least. */
-double baum_i_rk_crossing_length(const baum_i_rk_crossing *crossing, double length, bool *forced);
+/* [s] What becomes of a step of this length from t. forced: that step is below least. */
+double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
+                                 const baum_i_problem *problem, double t, double length,
+                                 bool *forced);
 
 /* Error of the scales that a step by h may have, whatever the tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
