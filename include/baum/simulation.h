@@ -183,8 +183,8 @@ typedef struct baum_simulation_options {
   int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
   bool error_check; /**< Estimate the error of the motion by a second integration from the start on,
                          see counters.error_estimate, and warn where it is large. Beside a fixed
-                         step that is rk8 at 1e-8, beside a variable one the same method at rtol/10,
-                         which doubles the cost or more. Without this option fixed steps are
+                         step that is rk8 at 1e-8, beside a variable one the same method at 0.03
+                         rtol, which doubles the cost or more. Without this option fixed steps are
                          checked as soon as their error may matter. Default: false. */
 } baum_simulation_options;
 
