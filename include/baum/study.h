@@ -156,7 +156,8 @@ static inline baum_study_grid baum_study_grid_default(void)
  *  fine.
  *  @param[in] grid  NULL: the default
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has no such integrator with that
- *             formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the
+ *             formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
+ *             BAUM_STOP_CANCELLED; and when the
  *             mechanism cannot be started, whose rate is looked for, what baum_simulation_create()
  *             returns. Unchanged on failure
  */
@@ -168,7 +169,7 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *  tiny steps take.
  *  @param[in] integrator  NULL: all of the build that take a step or a tolerance
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator),
- *             BAUM_ERR_STATE, BAUM_ERR_MEMORY; and when the mechanism cannot be started, what
+ *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; and when the mechanism cannot be started, what
  *             baum_simulation_create() returns. Unchanged on failure
  */
 BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
@@ -236,7 +237,8 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop; entries under way are not kept. From any thread or signal handler.
+/** Ask baum_study_run() to stop, which does not keep entries under way, or a call that adds
+ *  entries, which then adds none. From any thread or signal handler.
  *  @param study  may be NULL
  */
 BAUM_API void baum_study_cancel(baum_study *study);

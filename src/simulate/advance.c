@@ -339,12 +339,12 @@ static baum_status finish(baum_simulation *run, baum_status status, const public
   const baum_i_state *state = &run->state;
   baum_i_sentence reason;
   baum_i_message_keep(&reason);
-  atomic_store(&run->cancelled, 0);
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {
     baum_i_run_observe(run, state->t, false);
     baum_i_companion_end_call(run);
   }
+  atomic_store(&run->cancelled, 0); /* also by functions that were called here */
   run->counters.wall += baum_i_seconds_since(&c->start);
   if (status == BAUM_OK && look != BAUM_OK) {
     return baum_i_run_fail(run, look);

@@ -59,7 +59,15 @@ static baum_status check_grid(const baum_study_grid *g)
 
 /* ---- the rate of the motion ---- */
 
-baum_status baum_i_study_rate(const baum_study *study, double *rate)
+static int is_cancelled(const baum_simulation *run, double t, void *user)
+{
+  const baum_study *study = user;
+  (void)run;
+  (void)t;
+  return atomic_load(&study->cancelled);
+}
+
+baum_status baum_i_study_rate(baum_study *study, double *rate)
 {
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = baum_dp5();
@@ -67,12 +75,15 @@ baum_status baum_i_study_rate(const baum_study *study, double *rate)
   o.rtol = 1e-3;
   o.start_time = study->t0;
   o.max_steps = 100000;
+  o.progress = is_cancelled;
+  o.progress_interval = 0.0;
+  o.user = study;
   baum_simulation *run = NULL;
   BAUM_I_TRY(baum_simulation_create(study->mechanism, &o, &run));
   baum_status status = BAUM_OK;
   double sum = 0.0;
   int seen = 0;
-  while (seen < LOOKS && status >= BAUM_OK) {
+  while (seen < LOOKS && status >= BAUM_OK && status != BAUM_STOP_CANCELLED) {
     seen++;
     double t = study->t0 + (study->t1 - study->t0) * seen / LOOKS;
     status = baum_simulation_advance_to(run, t);
@@ -80,7 +91,8 @@ baum_status baum_i_study_rate(const baum_study *study, double *rate)
   }
   *rate = fmax(run->problem.rate, sum / seen);
   baum_simulation_destroy(run);
-  return BAUM_OK;
+  atomic_store(&study->cancelled, 0);
+  return status == BAUM_STOP_CANCELLED ? status : BAUM_OK;
 }
 
 /* ---- settings ---- */

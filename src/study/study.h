@@ -134,8 +134,9 @@ void baum_i_study_truncate(baum_study *study, int entries, int methods);
 /* ---- grid.c ---- */
 
 /* [1/s] of the motion: that at the start, or the mean |v| / scale of a rough run where that is
- * more. A rough run that fails tells what it has seen. What baum_simulation_create() returns. */
-baum_status baum_i_study_rate(const baum_study *study, double *rate);
+ * more. A rough run that fails tells what it has seen. What baum_simulation_create() returns, and
+ * BAUM_STOP_CANCELLED. */
+baum_status baum_i_study_rate(baum_study *study, double *rate);
 
 /* Those of SUNDIALS are there by name without it. */
 bool baum_i_study_in_build(const baum_integrator *integrator);

@@ -137,6 +137,51 @@ static void kinematics_go_on_likewise(void **unused)
   baum_mechanism_destroy(four_bar);
 }
 
+/* ---- by a function of the user ---- */
+
+/* How often the law has been called, and at which call it cancels. */
+typedef struct caller {
+  int calls;
+  int last;
+  baum_simulation *run;
+} caller;
+
+static int turn_and_cancel(double t, double s[3], void *user)
+{
+  caller *c = user;
+  s[0] = 0.4 + t;
+  s[1] = 1.0;
+  s[2] = 0.0;
+  if (++c->calls == c->last) {
+    baum_simulation_cancel(c->run);
+  }
+  return 0;
+}
+
+/* Its last call is made at the end, where no step is left that it could stop. */
+static void a_call_that_is_over_is_not_cancelled_nor_is_the_next(void **unused)
+{
+  (void)unused;
+  caller c = {0};
+  const drive motor = {.angle = 0.4, .law = turn_and_cancel, .user = &c};
+  baum_mechanism *four_bar = four_bar_make(&motor);
+  baum_simulation_options o = baum_simulation_options_default();
+  o.integrator = baum_kinematics();
+  o.max_step = 0.03;
+  for (int round = 0; round < 2; round++) {
+    c.last = c.calls;
+    c.calls = 0;
+    check(baum_simulation_create(four_bar, &o, &c.run));
+    assert_int_equal(baum_simulation_advance_to(c.run, END), BAUM_OK);
+    if (round == 1) {
+      assert_int_equal(c.calls, c.last);
+      assert_int_equal(baum_simulation_advance_to(c.run, 2.0 * END), BAUM_OK);
+    }
+    baum_simulation_destroy(c.run);
+  }
+  baum_mechanism_destroy(four_bar);
+}
+
 /* ---- sampling ---- */
 
 /* Rows of positions and energies; what is cancelled goes on with the samples that are left. */
@@ -257,14 +302,32 @@ static void a_study_goes_on_to_the_same_entries(void **unused)
   model_destroy(&pendulum);
 }
 
+static void entries_are_not_added_by_a_study_that_is_cancelled(void **unused)
+{
+  (void)unused;
+  model pendulum;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &pendulum), BAUM_OK);
+  baum_study *study = NULL;
+  check(baum_study_create(pendulum.mechanism, 0.0, 1000.0, &study));
+  baum_study_cancel(study);
+  assert_int_equal(baum_study_add_standard(study, NULL), BAUM_STOP_CANCELLED);
+  assert_int_equal(baum_study_row_count(study), 0);
+  assert_int_equal(baum_study_add_standard(study, NULL), BAUM_OK);
+  assert_true(baum_study_row_count(study) > 0);
+  baum_study_destroy(study);
+  model_destroy(&pendulum);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(a_run_goes_on_as_if_it_had_not_been_cancelled),
     cmocka_unit_test(kinematics_go_on_likewise),
+    cmocka_unit_test(a_call_that_is_over_is_not_cancelled_nor_is_the_next),
     cmocka_unit_test(samples_are_the_same_wherever_they_were_cancelled),
     cmocka_unit_test(samples_that_need_no_step_are_cancelled),
     cmocka_unit_test(a_study_goes_on_to_the_same_entries),
+    cmocka_unit_test(entries_are_not_added_by_a_study_that_is_cancelled),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
