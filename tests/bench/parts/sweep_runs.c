@@ -172,11 +172,38 @@ sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, 
   return r.class;
 }
 
+/* Its place among those of all parts. */
+static int place_of(sweep_tally *all, const sweep_method *method)
+{
+  int k = 0;
+  while (k < all->method_count && memcmp(&all->methods[k], method, sizeof *method) != 0) {
+    k++;
+  }
+  if (k == all->method_count) {
+    all->methods[all->method_count++] = *method;
+  }
+  return k;
+}
+
+void sweep_add(const sweep_tally *part, sweep_tally *all)
+{
+  for (int k = 0; k < part->method_count; k++) {
+    int place = place_of(all, &part->methods[k]);
+    for (int c = 0; c < SWEEP_CLASSES; c++) {
+      all->runs[place][c] += part->runs[k][c];
+      all->doubted[place][c] += part->doubted[k][c];
+    }
+  }
+}
+
 /* ---- print ---- */
 
 static void print_counts(const char *name, const int *runs, const int *doubted)
 {
   int all = runs[SWEEP_RIGHT] + runs[SWEEP_GREY] + runs[SWEEP_WRONG] + runs[SWEEP_STOPPED];
+  if (all == 0) {
+    return;
+  }
   double share = runs[SWEEP_RIGHT] ? 100.0 * doubted[SWEEP_RIGHT] / runs[SWEEP_RIGHT] : 0.0;
   printf("%-34s %6d %6d %6d %5.1f%% %6d %6d %6d %6d %6d\n", name, all, runs[SWEEP_RIGHT],
          doubted[SWEEP_RIGHT], share, runs[SWEEP_GREY], doubted[SWEEP_GREY], runs[SWEEP_WRONG],

@@ -46,7 +46,9 @@ typedef struct sweep_tally {
 void sweep_begin(sweep_tally *tally, const char *part, bool fixed, FILE *csv);
 /* setting: step [s] or rtol. */
 sweep_class sweep_run(sweep_tally *tally, const sweep_scene *scene, int method, double setting);
-/* A line for each method, and the silently wrong runs; returns how many these are. */
+/* Counts of a part into those of others. */
+void sweep_add(const sweep_tally *part, sweep_tally *all);
+/* A line for each method that has run, and the silently wrong runs; returns how many these are. */
 int sweep_print(const sweep_tally *tally);
 
 void sweep_csv_head(FILE *csv);

@@ -231,7 +231,7 @@ static const four_bar FOUR_BARS[SWEEP_FOUR_BARS] = {
 };
 
 /* Three revolutions at the rate of the start, which gravity does not stop. */
-sweep_scene sweep_four_bar(int k, bool gravity)
+sweep_scene sweep_four_bar(int k, bool gravity, double turns)
 {
   const four_bar *f = &FOUR_BARS[k];
   sweep_scene s = {.name = f->name, .parameter = f->by, .gravity = gravity ? GRAVITY : 0.0};
@@ -245,7 +245,7 @@ sweep_scene sweep_four_bar(int k, bool gravity)
   close_linkage(&at, 1.0L, f->left, th);
   s.nq = 9;
   s.rate = gravity ? 5.0 : 3.0;
-  s.span = 6.0 * acos(-1.0) / s.rate;
+  s.span = 2.0 * acos(-1.0) * turns / s.rate;
   set_units(&s, l[0]);
   build_linkage(&s, &at, th);
   follow_linkage(&s, &at, th);

@@ -27,7 +27,7 @@ typedef struct sweep_scene {
 
 /* Linkages within 1 % of a change point, s + l = p + q. */
 enum { SWEEP_FOUR_BARS = 10 };
-sweep_scene sweep_four_bar(int k, bool gravity);
+sweep_scene sweep_four_bar(int k, bool gravity, double turns);
 
 /* A light rod that comes taut: it slides with one end in a slot and carries a bob at the other. */
 sweep_scene sweep_taut(double mass_ratio, bool growth);
