@@ -3,7 +3,6 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -293,30 +292,6 @@ static void wrong_arguments_are_refused_with_the_argument(void **state)
   assert_true(x == 7.0 && y == 7.0);
 }
 
-/* ---- builds ---- */
-
-static void without_sundials_its_integrators_refuse_by_name(void **state)
-{
-  (void)state;
-  if (baum_has("sundials")) {
-    skip();
-  }
-  for (int k = 0; k < COUNT; k++) {
-    const baum_integrator *integrator = baum_integrator_at(k);
-    if (FACTS[k].order > 0 || integrator == baum_kinematics()) {
-      continue; /* always there */
-    }
-    int unwanted = 0;
-    void *self = &unwanted;
-    char sentence[128];
-    (void)snprintf(sentence, sizeof sentence, "%s needs SUNDIALS, which this build does not have",
-                   FACTS[k].name);
-    ASSERT_REFUSED(integrator->create(NULL, NULL, &self), BAUM_ERR_UNSUPPORTED, sentence);
-    assert_null(self);
-    integrator->destroy(NULL);
-  }
-}
-
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -330,7 +305,6 @@ int main(void)
     cmocka_unit_test(stability_comes_from_the_integrators_own_description),
     cmocka_unit_test(amplification_is_cut_to_the_callers_size),
     cmocka_unit_test(wrong_arguments_are_refused_with_the_argument),
-    cmocka_unit_test(without_sundials_its_integrators_refuse_by_name),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
