@@ -311,9 +311,9 @@ static void entries_are_not_added_by_a_study_that_is_cancelled(void **unused)
   check(baum_study_create(pendulum.mechanism, 0.0, 1000.0, &study));
   baum_study_cancel(study);
   assert_int_equal(baum_study_add_standard(study, NULL), BAUM_STOP_CANCELLED);
-  assert_int_equal(baum_study_row_count(study), 0);
+  assert_int_equal(baum_study_entry_count(study), 0);
   assert_int_equal(baum_study_add_standard(study, NULL), BAUM_OK);
-  assert_true(baum_study_row_count(study) > 0);
+  assert_true(baum_study_entry_count(study) > 0);
   baum_study_destroy(study);
   model_destroy(&pendulum);
 }
