@@ -98,12 +98,31 @@ typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
 
-/** Generalized coordinates with mass and force given by functions. q' = v. */
+/** Rates of positions, linear in v: dq = N(q) v. It is also called with a q that is off the manifold by
+ *  as much as a step may leave it; scaling q scales dq. */
+typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
+
+/** Moves q, in place, to where it is after the time h at constant v, at least to second order in h. With
+ *  h = 1, v is a displacement of velocity size. */
+typedef void baum_move_fn(double h, const double *v, double *q, void *user);
+
+/** The displacement dx, of velocity size, by which baum_move_fn leads with h = 1 from one position to
+ *  another. */
+typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
+
+/** Replaces q by the nearest one on the manifold. */
+typedef void baum_normalize_fn(double *q, void *user);
+
+/** Generalized coordinates with mass and force given by functions. v = q', or, where positions are not a
+ *  vector (a unit quaternion, say), q' = N(q) v with the last fields. Every other function then sees a
+ *  normalized q; derivatives by q, as those of constraints on these coordinates, are those along
+ *  displacements of velocity size: (Phi_q N) in place of Phi_q. Functions that cannot answer give NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
-  int32_t size;       /**< [-] > 0, number of coordinates. Default: 0, must be set. */
-  const double *q;    /**< (size) drawn positions. Copied. Default: NULL, zeros. */
+  int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
+  const double *q;    /**< (position_count) drawn positions, on the manifold. Copied.
+                           Default: NULL, zeros; with `rate` it must be set. */
   const double *v; /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
   const double *scale;    /**< (size) > 0, relevant changes. Copied. Default: NULL, ones. */
   baum_q_fn *mass;        /**< out (size x size), symmetric, no energy below 0. Default: NULL, must
@@ -115,7 +134,14 @@ typedef struct baum_coordinates_def {
   bool constant_mass;     /**< mass() depends on nothing. Default: false. */
   bool held;              /**< Assembly keeps the drawn positions. Default: false. */
   void *user;             /**< Passed to the functions, not owned. Default: NULL. */
-  bool depends_on_velocity; /**< force() reads v; RATTLE takes false alone. Default: true. */
+  bool depends_on_velocity;       /**< force() reads v; RATTLE takes false alone. Default: true. */
+  int32_t position_count;         /**< [-] Number of positions. Default: 0, `size`. */
+  const double *position_scale;   /**< (position_count) > 0, relevant changes of positions. Copied.
+                                       Used with `rate`. Default: NULL, ones. */
+  baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
+  baum_move_fn *move;             /**< Default: NULL; with `rate` it must be set. */
+  baum_difference_fn *difference; /**< Default: NULL; with `rate` it must be set. */
+  baum_normalize_fn *normalize;   /**< Default: NULL, every q is on the manifold. */
 } baum_coordinates_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -150,7 +176,7 @@ BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechan
                                                     baum_body_id id, baum_coordinates_def *out,
                                                     size_t caller_size);
 
-/** Replace a definition; `size` must stay.
+/** Replace a definition; `size` must stay, and so must `position_count`.
  *  @return as baum_mechanism_add_coordinates()
  */
 BAUM_API baum_status baum_mechanism_set_coordinates(baum_mechanism *mechanism, baum_body_id id,

@@ -357,7 +357,9 @@ void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *t
   baum_i_body *body = item_new(mechanism, &k, def, number);
   if (body) {
     body->type = type;
+    body->nq = type->positions ? type->positions(body->element.def) : type->nq;
     body->nv = type->size ? type->size(body->element.def) : type->nv;
+    body->manifold = type->manifold ? type->manifold(body->element.def) : NULL;
   }
   return body;
 }

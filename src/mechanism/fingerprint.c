@@ -50,6 +50,7 @@ baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *m)
   add_numbers(&numbers, m->gravity, 3);
   add_numbers(&numbers, &m->length, 1);
   add_numbers(&numbers, m->scale, m->nv);
+  add_numbers(&numbers, m->position_scale, m->flat ? 0 : m->nq);
   add_numbers(&numbers, m->parameters, m->parameter_count);
   return (baum_i_fingerprint){.structure = structure.value, .numbers = numbers.value};
 }

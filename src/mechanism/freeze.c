@@ -20,7 +20,9 @@ static void drop_columns(baum_i_span *span)
 {
   baum_i_free(span->columns);
   span->columns = NULL;
+  span->positions = NULL;
   span->nl = 0;
+  span->ql = 0;
 }
 
 void baum_i_mechanism_thaw(baum_mechanism *mechanism)
@@ -51,6 +53,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->design_v);
   baum_i_free(mechanism->held);
   baum_i_free(mechanism->scale);
+  baum_i_free(mechanism->position_scale);
   baum_i_free(mechanism->places);
   mechanism->body_groups = NULL;
   mechanism->joint_groups = NULL;
@@ -63,6 +66,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   mechanism->design_v = NULL;
   mechanism->held = NULL;
   mechanism->scale = NULL;
+  mechanism->position_scale = NULL;
   mechanism->places = NULL;
   mechanism->frozen = false;
 }
@@ -82,11 +86,11 @@ static baum_status fail_too_large(const baum_i_element *element, const char *fam
                      baum_i_label(element, family, label), INT_MAX);
 }
 
-/* Scratch memory for the largest element: nl columns, that many rows. False when it is too
+/* Scratch memory for the largest element: that many local columns and rows. False when it is too
  * large. */
-static bool widen_scratch(baum_mechanism *mechanism, int nl, int rows)
+static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
 {
-  int64_t size = baum_i_scratch_size(nl, rows);
+  int64_t size = baum_i_scratch_size(columns, rows);
   if (!fits(0, size)) {
     return false;
   }
@@ -96,46 +100,74 @@ static bool widen_scratch(baum_mechanism *mechanism, int nl, int rows)
   return true;
 }
 
+static int larger(int a, int b)
+{
+  return a > b ? a : b;
+}
+
 static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
 {
+  mechanism->nq = 0;
   mechanism->nv = 0;
   mechanism->mass_size = 0;
   mechanism->constant_mass = true;
+  mechanism->flat = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     baum_i_body *body = mechanism->bodies[i];
     if (!fits(mechanism->mass_size, (int64_t)body->nv * body->nv) ||
-        !widen_scratch(mechanism, body->nv, body->nv)) {
+        !widen_scratch(mechanism, larger(body->nq, body->nv), body->nv)) {
       return fail_too_large(&body->element, "body");
     }
-    body->q = mechanism->nv;
+    body->q = mechanism->nq;
     body->v = mechanism->nv;
     body->mass = mechanism->mass_size;
     body->element.parameter = *parameters;
     *parameters += body->type->parameter_count;
+    mechanism->nq += body->nq;
     mechanism->nv += body->nv;
     mechanism->mass_size += body->nv * body->nv;
     mechanism->constant_mass &= body->type->constant_mass(body->element.def);
+    mechanism->flat &= !body->manifold;
   }
-  mechanism->nq = mechanism->nv;
+  return BAUM_OK;
+}
+
+/* Columns of a body behind those that the span has. */
+static void add_columns(const baum_i_body *body, baum_i_span *span)
+{
+  for (int j = 0; j < body->nv; j++) {
+    span->columns[span->nl++] = body->v + j;
+  }
+  for (int j = 0; j < body->nq; j++) {
+    span->positions[span->ql++] = body->q + j;
+  }
+  span->flat &= !body->manifold;
+}
+
+static baum_status make_columns(baum_i_span *span, int ql, int nl)
+{
+  span->columns = baum_i_alloc((size_t)nl + (size_t)ql, sizeof *span->columns);
+  if (!span->columns) {
+    return baum_i_fail_memory();
+  }
+  span->positions = span->columns + nl;
+  span->nl = 0;
+  span->ql = 0;
+  span->flat = true;
   return BAUM_OK;
 }
 
 static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *span)
 {
+  int ql = 0;
   int nl = 0;
   for (int i = 0; i < span->body_count; i++) {
+    ql += mechanism->bodies[span->bodies[i]]->nq;
     nl += mechanism->bodies[span->bodies[i]]->nv;
   }
-  span->columns = baum_i_alloc((size_t)nl, sizeof *span->columns);
-  if (!span->columns) {
-    return baum_i_fail_memory();
-  }
-  span->nl = 0;
+  BAUM_I_TRY(make_columns(span, ql, nl));
   for (int i = 0; i < span->body_count; i++) {
-    const baum_i_body *body = mechanism->bodies[span->bodies[i]];
-    for (int j = 0; j < body->nv; j++) {
-      span->columns[span->nl++] = body->v + j;
-    }
+    add_columns(mechanism->bodies[span->bodies[i]], span);
   }
   return BAUM_OK;
 }
@@ -144,14 +176,8 @@ static baum_status number_body_spans(baum_mechanism *mechanism)
 {
   for (int i = 1; i <= mechanism->body_count; i++) {
     baum_i_body *body = mechanism->bodies[i];
-    body->span.columns = baum_i_alloc((size_t)body->nv, sizeof *body->span.columns);
-    if (!body->span.columns) {
-      return baum_i_fail_memory();
-    }
-    body->span.nl = body->nv;
-    for (int j = 0; j < body->nv; j++) {
-      body->span.columns[j] = body->v + j;
-    }
+    BAUM_I_TRY(make_columns(&body->span, body->nq, body->nv));
+    add_columns(body, &body->span);
   }
   return BAUM_OK;
 }
@@ -170,7 +196,7 @@ static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
     int nl = joint->span.nl;
     if (!fits(mechanism->jacobian_size, (int64_t)joint->rows * nl) ||
         !fits(mechanism->joint_square_size, (int64_t)nl * nl) ||
-        !widen_scratch(mechanism, nl, joint->rows)) {
+        !widen_scratch(mechanism, larger(joint->span.ql, nl), joint->rows)) {
       return fail_too_large(&joint->element, "joint");
     }
     joint->row = mechanism->nc;
@@ -196,7 +222,7 @@ static baum_status number_forces(baum_mechanism *mechanism, int *parameters)
     }
     int nl = force->span.nl;
     if (!fits(mechanism->force_square_size, (int64_t)nl * nl) ||
-        !widen_scratch(mechanism, nl, nl)) {
+        !widen_scratch(mechanism, larger(force->span.ql, nl), nl)) {
       return fail_too_large(&force->element, "force");
     }
     force->square = mechanism->force_square_size;
@@ -328,16 +354,19 @@ static double design_size(const baum_mechanism *mechanism)
 
 static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
 {
+  size_t nq = (size_t)mechanism->nq;
   size_t nv = (size_t)mechanism->nv;
   mechanism->parameter_count = parameters;
   mechanism->parameters = baum_i_alloc((size_t)parameters, sizeof(double));
-  mechanism->design_q = baum_i_alloc(nv, sizeof(double));
+  mechanism->design_q = baum_i_alloc(nq, sizeof(double));
   mechanism->design_v = baum_i_alloc(nv, sizeof(double));
   mechanism->held = baum_i_alloc(nv, sizeof(bool));
   mechanism->scale = baum_i_alloc(nv, sizeof(double));
+  mechanism->position_scale = baum_i_alloc(nq, sizeof(double));
   mechanism->places = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof(baum_i_body_place));
   bool complete = mechanism->parameters && mechanism->design_q && mechanism->design_v &&
-                  mechanism->held && mechanism->scale && mechanism->places;
+                  mechanism->held && mechanism->scale && mechanism->position_scale &&
+                  mechanism->places;
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
@@ -352,13 +381,16 @@ static void draw_bodies(baum_mechanism *mechanism)
     if (body->type->lower) {
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
-    mechanism->places[i] = (baum_i_body_place){.q = body->q, .kind = body->type->frame};
+    mechanism->places[i] =
+      (baum_i_body_place){.q = body->q, .v = body->v, .kind = body->type->frame};
     mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;
     body->type->design(body->element.def, mechanism->design_q + body->q,
                        mechanism->design_v + body->v, &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);
+    (body->manifold ? body->type->position_scale : body->type->scale)(
+      body->element.def, mechanism->length, mechanism->position_scale + body->q);
     for (int j = 0; j < body->nv; j++) {
-      mechanism->held[body->q + j] = held;
+      mechanism->held[body->v + j] = held;
     }
   }
 }

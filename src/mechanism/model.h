@@ -61,13 +61,16 @@ typedef struct baum_i_element {
   int parameter; /* start of its numbers in the parameter array; set at freeze */
 } baum_i_element;
 
-/* Bodies, and the velocities of theirs, that an element acts on. Local columns are those of its
- * bodies one after the other, ground left out. Set at freeze but for bodies and body_count. */
+/* Bodies that an element acts on, with their velocities and positions. Local columns are those of
+ * the bodies one after the other, without ground. Set at freeze but for bodies and body_count. */
 typedef struct baum_i_span {
   int body_count;
-  int *bodies;  /* (body_count) indices, 0 = ground */
-  int nl;       /* number of local columns */
-  int *columns; /* (nl) columns in v (and, all bodies having nq = nv so far, in q) */
+  int *bodies;    /* (body_count) indices, 0 = ground */
+  int nl;         /* number of local velocities */
+  int *columns;   /* (nl) their columns in v */
+  int ql;         /* number of local positions */
+  int *positions; /* (ql) their columns in q; memory of `columns` */
+  bool flat;      /* none of the bodies has a manifold */
 } baum_i_span;
 
 /* Where a body's frame comes from. */
@@ -79,18 +82,21 @@ typedef enum baum_i_frame_kind {
 } baum_i_frame_kind;
 
 typedef struct baum_i_body_type baum_i_body_type;
+typedef struct baum_i_manifold baum_i_manifold;
 typedef struct baum_i_joint_type baum_i_joint_type;
 typedef struct baum_i_force_type baum_i_force_type;
 
 typedef struct baum_i_body {
   baum_i_element element;
   const baum_i_body_type *type;
-  baum_i_span span; /* itself; columns set at freeze */
-  int q;            /* first position */
-  int v;            /* first velocity */
-  int nv;           /* number of both */
-  int mass;         /* start of its nv x nv values in the mass blocks */
-  bool fixed;       /* welded to ground */
+  const baum_i_manifold *manifold; /* NULL: q is a vector and v = q' */
+  baum_i_span span;                /* itself; columns set at freeze */
+  int q;                           /* first position */
+  int nq;                          /* number of positions */
+  int v;                           /* first velocity */
+  int nv;                          /* number of velocities */
+  int mass;                        /* start of its nv x nv values in the mass blocks */
+  bool fixed;                      /* welded to ground */
 } baum_i_body;
 
 typedef struct baum_i_joint {
@@ -144,6 +150,7 @@ typedef struct baum_i_frame {
 /* Where a body's frame comes from. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
+  int32_t v;    /* first velocity */
   int32_t kind; /* baum_i_frame_kind */
 } baum_i_body_place;
 
@@ -159,8 +166,9 @@ typedef struct baum_i_point {
   const baum_mechanism *mechanism;
   const double *parameters; /* of the mechanism, or a caller's own copy */
   double t;
-  const double *q;
+  const double *q;      /* of bodies with a manifold normalized, in own memory */
   const double *v;      /* NULL at position level */
+  double *normalized;   /* (nq); NULL where the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   const double *inputs; /* (input_count) present values; NULL while there are none */
@@ -177,7 +185,8 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
-/* Set t, q (and v, may be NULL) and the frames. q and v are referred to, not copied. */
+/* Set t, q (and v, may be NULL) and the frames. v is referred to, not copied, and so is q where
+ * the mechanism is flat. */
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v);
 
 /* ---- types ---- */
@@ -233,22 +242,40 @@ typedef enum baum_i_power {
   BAUM_I_POWERS
 } baum_i_power;
 
+/* Positions of a body that are not a vector: q' = N(q) v. Its q is (nq), its v (nv), its dx is of
+ * velocity size. See manifold.h. */
+struct baum_i_manifold {
+  /* dq = N(q) v; q may be off the manifold as far as an integrator's stage. */
+  void (*rate)(const baum_i_body *body, const double *q, const double *v, double *dq);
+  /* q becomes what it is after the time h at constant v, to second order in h. */
+  void (*move)(const baum_i_body *body, double h, const double *v, double *q);
+  /* The dx by which `move` with h = 1 leads from one to the other. */
+  void (*difference)(const baum_i_body *body, const double *from, const double *to, double *dx);
+  /* The nearest q on the manifold. */
+  void (*normalize)(const baum_i_body *body, double *q);
+};
+
 struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
   int parameter_count;
-  bool scleronomic;             /* mass and force of the type never depend on t */
-  bool constant_force;          /* force of the type depends on parameters only */
-  int nv;                       /* of all of the type; 0: size() tells */
-  int (*size)(const void *def); /* of one; or NULL */
+  bool scleronomic;                  /* mass and force of the type never depend on t */
+  bool constant_force;               /* force of the type depends on parameters only */
+  int nq, nv;                        /* of all of the type; 0: size() and positions() tell */
+  int (*size)(const void *def);      /* nv of one; or NULL */
+  int (*positions)(const void *def); /* nq of one; or NULL */
+  /* Of one; NULL, and a NULL answer: q is a vector and v = q'. */
+  const baum_i_manifold *(*manifold)(const void *def);
   bool (*constant_mass)(const void *def);
   bool (*depends_on_velocity)(const void *def); /* force() does; NULL: never */
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
   /* Start pose, and given velocities or NaN. */
   void (*design)(const void *def, double *q, double *v, bool *held);
-  /* (nv) relevant change of each coordinate. */
+  /* (nv) relevant change of each coordinate, as a displacement of velocity size. */
   void (*scale)(const void *def, double length, double *scale);
+  /* (nq) relevant change of each position; NULL where there is no manifold. */
+  void (*position_scale)(const void *def, double length, double *scale);
   /* Sets its blocks. */
   baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
   /* Adds to (nv). */
@@ -376,17 +403,19 @@ struct baum_mechanism {
   int scratch_size;
   int parameter_count;
   bool constant_mass;
+  bool flat;                 /* no body has a manifold: nq = nv and q' = v */
   double length;             /* scale L */
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   double *parameters;
-  double *design_q; /* (nq) */
-  double *design_v; /* (nv) NaN where free */
-  bool *held;       /* (nq) */
-  double *scale;    /* (nv) relevant change of each coordinate */
-  int fixed_count;  /* fixed bodies without ground, */
-  int fixed_nv;     /* their velocities, */
-  double *fixed_q;  /* (nq) and where they are */
+  double *design_q;       /* (nq) */
+  double *design_v;       /* (nv) NaN where free */
+  bool *held;             /* (nv) */
+  double *scale;          /* (nv) relevant change of each coordinate */
+  double *position_scale; /* (nq) likewise of each position */
+  int fixed_count;        /* fixed bodies without ground, */
+  int fixed_nv;           /* their velocities, */
+  double *fixed_q;        /* (nq) and where they are */
   int body_group_count;
   baum_i_body_group *body_groups;
   int joint_group_count;

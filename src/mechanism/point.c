@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points in state space and the frames of bodies there. */
 #include <math.h>
+#include <string.h>
 
 #include "base/alloc.h"
 #include "base/hot.h"
 #include "base/message.h"
+#include "mechanism/manifold.h"
 #include "mechanism/planar/frames.h"
 
 /* ---- frames ---- */
@@ -56,7 +58,9 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
                           .kernel = BAUM_I_HOT_TABLE(baum_i_frames_kernel)};
   point->frames = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->frames);
   point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
-  if (!point->frames || !point->scratch) {
+  point->normalized =
+    mechanism->flat ? NULL : baum_i_alloc((size_t)mechanism->nq, sizeof *point->normalized);
+  if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized)) {
     return baum_i_fail_memory();
   }
   for (int i = 0; i <= mechanism->body_count; i++) {
@@ -69,10 +73,16 @@ void baum_i_point_release(baum_i_point *point)
 {
   baum_i_free(point->frames);
   baum_i_free(point->scratch);
+  baum_i_free(point->normalized);
 }
 
 void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
 {
+  if (point->normalized) {
+    memcpy(point->normalized, q, (size_t)point->mechanism->nq * sizeof *q);
+    baum_i_normalize(point->mechanism, point->normalized);
+    q = point->normalized;
+  }
   point->t = t;
   point->q = q;
   point->v = v;

@@ -67,6 +67,10 @@ baum_q_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p)
 baum_qv_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p)
 baum_force_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p)
 baum_law_fn = CFUNCTYPE(c_int, c_double, c_void_p, c_void_p)
+baum_rate_fn = CFUNCTYPE(None, c_void_p, c_void_p, c_void_p, c_void_p)
+baum_move_fn = CFUNCTYPE(None, c_double, c_void_p, c_void_p, c_void_p)
+baum_difference_fn = CFUNCTYPE(None, c_void_p, c_void_p, c_void_p, c_void_p)
+baum_normalize_fn = CFUNCTYPE(None, c_void_p, c_void_p)
 
 
 class baum_coordinates_def(Structure):
@@ -86,6 +90,12 @@ class baum_coordinates_def(Structure):
         ("held", c_bool),
         ("user", c_void_p),
         ("depends_on_velocity", c_bool),
+        ("position_count", c_int32),
+        ("position_scale", c_void_p),
+        ("rate", baum_rate_fn),
+        ("move", baum_move_fn),
+        ("difference", baum_difference_fn),
+        ("normalize", baum_normalize_fn),
     ]
 
 

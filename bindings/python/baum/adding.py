@@ -3,7 +3,7 @@
 import ctypes
 
 from . import _abi
-from .definitions import KINDS, Definition
+from .definitions import KINDS, Definition, sizes
 from .elements import Entry, one
 from ._lib import lib
 from ._values import number
@@ -65,6 +65,12 @@ class Adding:
         potential=None,
         constant_mass=None,
         held=None,
+        position_count=None,
+        position_scale=None,
+        rate=None,
+        move=None,
+        difference=None,
+        normalize=None,
         inputs=None,
         depends_on_velocity=None,
         user=None,
@@ -73,7 +79,13 @@ class Adding:
         force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
         energy [J]. q, v, scale: (size) drawn positions, velocities at start, a relevant change of
         each. inputs: those that force, force_q and force_v are given after v.
-        depends_on_velocity: False where force() does not read v (rattle needs that)."""
+        depends_on_velocity: False where force() does not read v (rattle needs that).
+
+        Positions that are not a vector, such as a unit quaternion: position_count of them, with
+        rate(q, v) their rate N(q) v; move(h, v, q) where q is after the time h at constant v;
+        difference(a, b) the v by which move(1, v, a) is b; normalize(q) the nearest q on the
+        manifold; position_scale a relevant change of each. Derivatives by q are then along
+        displacements of velocity size."""
         return self._add(
             "coordinates",
             name,
@@ -88,6 +100,12 @@ class Adding:
             potential=potential,
             constant_mass=constant_mass,
             held=held,
+            position_count=position_count,
+            position_scale=position_scale,
+            rate=rate,
+            move=move,
+            difference=difference,
+            normalize=normalize,
             inputs=inputs,
             depends_on_velocity=depends_on_velocity,
             user=user,
@@ -432,8 +450,7 @@ class Adding:
         id = kind.id_type()
         self._hold(definition)
         self._owner.call(kind.function("add"), ctypes.byref(definition.struct), ctypes.byref(id))
-        size = kind.nq or getattr(definition.struct, "size", 0)
-        self._entries[name] = Entry(kind.family, kind, id, size, kind.nv or size)
+        self._entries[name] = Entry(kind.family, kind, id, *sizes(kind, definition.struct))
         return self[name]
 
     def _new_name(self, name, family):

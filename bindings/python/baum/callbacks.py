@@ -190,6 +190,60 @@ def _shell_curve(function, write, nq, nv):
     return shell
 
 
+def _shell_rate(function, write, nq, nv):
+    q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
+
+    def shell(q, v, dq, user):
+        try:
+            write(dq, function(q_at[q], v_at[v]))
+        except BaseException as error:
+            _answer_nan(error, dq, nq)
+
+    return shell
+
+
+def _shell_move(function, write, nq, nv):
+    q_at, v_at = _Views((nq,), writeable=False), _Views((nv,), writeable=False)
+
+    def shell(h, v, q, user):
+        try:
+            write(q, function(h, v_at[v], q_at[q]))
+        except BaseException as error:
+            _answer_nan(error, q, nq)
+
+    return shell
+
+
+def _shell_difference(function, write, nq, nv):
+    q_at = _Views((nq,), writeable=False)
+
+    def shell(start, end, dx, user):
+        try:
+            write(dx, function(q_at[start], q_at[end]))
+        except BaseException as error:
+            _answer_nan(error, dx, nv)
+
+    return shell
+
+
+def _shell_normalize(function, write, nq, nv):
+    q_at = _Views((nq,), writeable=False)
+
+    def shell(q, user):
+        try:
+            write(q, function(q_at[q]))
+        except BaseException as error:
+            _answer_nan(error, q, nq)
+
+    return shell
+
+
+def _answer_nan(error, out, count):
+    """For functions without a status: the library stops at numbers that are not finite."""
+    _calls.raise_later(error)
+    ctypes.cast(out, ctypes.POINTER(ctypes.c_double))[:count] = [np.nan] * count
+
+
 def _answer(error):
     """What the library is told about an exception."""
     asks_again = isinstance(error, Retry)
@@ -206,6 +260,10 @@ SHELLS = {
     _abi.baum_coupling_fn: _shell_coupling,
     _abi.baum_spring_fn: _shell_spring,
     _abi.baum_curve_fn: _shell_curve,
+    _abi.baum_rate_fn: _shell_rate,
+    _abi.baum_move_fn: _shell_move,
+    _abi.baum_difference_fn: _shell_difference,
+    _abi.baum_normalize_fn: _shell_normalize,
 }
 
 

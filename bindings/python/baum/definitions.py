@@ -106,8 +106,9 @@ class Definition:
             raise TypeError(f"{self._label}: inputs are given together with the functions of them")
         user = given.pop("user", None)
         self._set_count(given)
-        for name, value in given.items():
-            self._set(name, value)
+        # Sizes first: lengths of arrays follow from them.
+        for name in sorted(given, key=lambda name: self._types[name] is not ctypes.c_int32):
+            self._set(name, given[name])
         for name, function in functions.items():
             self._set_function(name, function, inputs)
         if user is not None:
@@ -165,7 +166,7 @@ class Definition:
                 raise TypeError(
                     f"{label}: an address or an object of ctypes is wanted, not {value!r}"
                 ) from None
-        array = vector(value, length(self.struct), label)
+        array = vector(value, length(self.struct, name), label)
         self.keep.append(array)
         return address(array)
 
@@ -184,6 +185,10 @@ class Definition:
             "jacobian": (rows, nv),
             "law": (3,),
             "curve": (6,),
+            "rate": (nq,),
+            "move": (nq,),
+            "difference": (nv,),
+            "normalize": (nq,),
         }[name]
         label = f"{self._label}: {name}"
         wrapped = callbacks.wrap(self._types[name], function, label, shape, nq, nv, inputs)
@@ -194,8 +199,8 @@ class Definition:
     def _sizes(self):
         """Lengths of the q and v that this definition's functions are given."""
         if self.kind.name == "coordinates":
-            size = max(self.struct.size, 0)  # the library refuses what is less
-            return size, size
+            # The library refuses what is less.
+            return max(position_count(self.struct), 0), max(self.struct.size, 0)
         if "body_count" not in self._types:
             return 0, 0
         count = self.struct.body_count
@@ -203,9 +208,23 @@ class Definition:
         return sum(body.nq for body in bodies), sum(body.nv for body in bodies)
 
 
-def length(definition):
-    """Number of entries of a definition's arrays."""
-    return definition.size if hasattr(definition, "size") else definition.count
+def position_count(coordinates):
+    """Number of positions of user coordinates."""
+    return coordinates.position_count or coordinates.size
+
+
+def sizes(kind, struct):
+    """nq and nv of a body with that definition; zeros for others."""
+    if kind.name == "coordinates":
+        return position_count(struct), struct.size
+    return kind.nq, kind.nv
+
+
+def length(definition, name):
+    """Number of entries of an array of a definition."""
+    if not hasattr(definition, "size"):
+        return definition.count
+    return position_count(definition) if name in ("q", "position_scale") else definition.size
 
 
 def as_dict(definition, find):
@@ -218,7 +237,7 @@ def as_dict(definition, find):
         if kind in FAMILIES:
             value = find(FAMILIES[kind], value)
         elif kind is ctypes.c_void_p:
-            value = numbers(value, length(definition))
+            value = numbers(value, length(definition, name))
         elif kind is ctypes.c_char_p:
             value = None if value is None else value.decode()
         elif isinstance(value, ctypes.Array):

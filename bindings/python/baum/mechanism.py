@@ -10,7 +10,7 @@ import numpy as np
 from . import _abi, _calls, design
 from .adding import Adding
 from .channels import WHOLE, Channel
-from .definitions import KINDS, Definition
+from .definitions import KINDS, Definition, sizes
 from .elements import CLASSES, GROUND, Element, Entry, one
 from ._lib import lib
 from ._values import number, numbers, vector
@@ -50,8 +50,7 @@ def _entry_of(address, family, id):
             struct = kind.struct()
             asked = kind.function("get")
             if asked(address, id, ctypes.byref(struct), ctypes.sizeof(struct)) == 0:
-                size = kind.nq or getattr(struct, "size", 0)
-                return Entry(family, kind, id, size, kind.nv or size)
+                return Entry(family, kind, id, *sizes(kind, struct))
     raise TypeError(f"{one(family)} of a kind that this package does not know")
 
 

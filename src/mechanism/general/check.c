@@ -26,6 +26,7 @@
 #include "base/alloc.h"
 #include "base/golden.h"
 #include "base/message.h"
+#include "mechanism/manifold.h"
 
 static const double tolerance = 1e-6;
 static const double row_tolerance = 1e-9;
@@ -283,14 +284,19 @@ static void set_pose(place *p, int pose)
 {
   static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};
   const baum_mechanism *mechanism = p->point.mechanism;
+  memcpy(p->q, mechanism->design_q, (size_t)mechanism->nq * sizeof *p->q);
+  for (int i = 0; i < mechanism->nv && pose > 0; i++) {
+    p->v[i] = mechanism->scale[i] * spread(3 * i + pose);
+  }
+  if (pose > 0) {
+    baum_i_move(mechanism, 0.3, p->v, p->q);
+  }
   for (int i = 0; i < mechanism->nv; i++) {
     double design_v = mechanism->design_v[i];
-    int k = 3 * i + pose;
-    p->q[i] = mechanism->design_q[i];
-    p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0; /* NaN: free */
     if (pose > 0) {
-      p->q[i] += 0.3 * mechanism->scale[i] * spread(k);
-      p->v[i] = mechanism->scale[i] * spread(k + 7 * pose + 1);
+      p->v[i] = mechanism->scale[i] * spread(3 * i + 8 * pose + 1);
+    } else {
+      p->v[i] = fabs(design_v) > REST * mechanism->scale[i] ? design_v : 0.0; /* NaN: free */
     }
   }
   baum_i_point_set(&p->point, times[pose], p->q, p->v);

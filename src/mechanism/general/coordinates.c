@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized coordinates of the user: q of any size, v = q', mass M(q, t) and force g(q, v, t) by
- * functions.
+/* Generalized coordinates of the user: q and v of any size, mass M(q, t) and force g(q, v, t) by
+ * functions; v = q', or q' = N(q) v with the functions of coordinates_manifold.c.
  *
  * Where the derivatives of g are not given they come from differences,
  * as always those of M a (difference.c).
@@ -12,6 +12,7 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
+#include "mechanism/general/coordinates_manifold.h"
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
 
@@ -21,39 +22,47 @@ static const baum_coordinates_def defaults = {.struct_size = sizeof(baum_coordin
 /* ---- definition ---- */
 
 /* Units are the user's own: sentences name none. */
+static baum_status check_scale(const char *label, const char *field, const double *scale, int count)
+{
+  for (int i = 0; scale && i < count; i++) {
+    if (!(isfinite(scale[i]) && scale[i] > 0.0)) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s[%d] is %g, must be finite and > 0", label,
+                         field, i, scale[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_arrays(const baum_coordinates_def *def, const char *label)
 {
-  for (int i = 0; i < def->size; i++) {
-    if (def->q && !isfinite(def->q[i])) {
+  int positions = baum_i_coordinates_positions(def);
+  for (int i = 0; i < positions && def->q; i++) {
+    if (!isfinite(def->q[i])) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %g, must be finite", label, i, def->q[i]);
     }
+  }
+  for (int i = 0; i < def->size; i++) {
     if (def->v && isinf(def->v[i])) {
       return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: v[%d] is %g, must be finite, or NaN for free",
                          label, i, def->v[i]);
     }
-    if (def->scale && !(isfinite(def->scale[i]) && def->scale[i] > 0.0)) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: scale[%d] is %g, must be finite and > 0", label, i,
-                         def->scale[i]);
-    }
   }
-  return BAUM_OK;
+  BAUM_I_TRY(check_scale(label, "position_scale", def->position_scale, positions));
+  return check_scale(label, "scale", def->scale, def->size);
 }
 
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   (void)mechanism;
   const baum_coordinates_def *def = given;
-  baum_status status = baum_i_check_count(label, "size", def->size);
-  if (status == BAUM_OK) {
-    status = check_arrays(def, label);
+  BAUM_I_TRY(baum_i_check_count(label, "size", def->size));
+  if (def->position_count != 0) {
+    BAUM_I_TRY(baum_i_check_count(label, "position_count", def->position_count));
   }
-  if (status == BAUM_OK) {
-    status = baum_i_check_given(label, "mass()", def->mass != NULL);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_given(label, "force()", def->force != NULL);
-  }
-  return status;
+  BAUM_I_TRY(check_arrays(def, label));
+  BAUM_I_TRY(baum_i_check_given(label, "mass()", def->mass != NULL));
+  BAUM_I_TRY(baum_i_check_given(label, "force()", def->force != NULL));
+  return baum_i_coordinates_check_manifold(def, label);
 }
 
 static void release(void *copy)
@@ -62,9 +71,11 @@ static void release(void *copy)
   baum_i_free(def->q);
   baum_i_free(def->v);
   baum_i_free(def->scale);
+  baum_i_free(def->position_scale);
   def->q = NULL;
   def->v = NULL;
   def->scale = NULL;
+  def->position_scale = NULL;
 }
 
 /* Replace an array by a copy; false when out of memory. */
@@ -80,10 +91,12 @@ static bool own_array(const double **array, int count)
 static baum_status own(void *copy)
 {
   baum_coordinates_def *def = copy;
-  bool q = own_array(&def->q, def->size);
+  int positions = baum_i_coordinates_positions(def);
+  bool q = own_array(&def->q, positions);
+  bool position_scale = own_array(&def->position_scale, positions);
   bool v = own_array(&def->v, def->size);
   bool scale = own_array(&def->scale, def->size);
-  if (q && v && scale) {
+  if (q && v && scale && position_scale) {
     return BAUM_OK;
   }
   release(def);
@@ -94,6 +107,21 @@ static int size(const void *given)
 {
   const baum_coordinates_def *def = given;
   return def->size;
+}
+
+static int positions(const void *given)
+{
+  return baum_i_coordinates_positions(given);
+}
+
+static const char *tied(const void *present, const void *next)
+{
+  const baum_coordinates_def *a = present;
+  const baum_coordinates_def *b = next;
+  if (baum_i_coordinates_positions(a) != baum_i_coordinates_positions(b)) {
+    return "position_count";
+  }
+  return !a->rate == !b->rate ? NULL : "rate";
 }
 
 static void digest(const void *given, baum_i_digest *sum)
@@ -117,8 +145,10 @@ static bool constant_mass(const void *given)
 static void design(const void *given, double *q, double *v, bool *held)
 {
   const baum_coordinates_def *def = given;
-  for (int i = 0; i < def->size; i++) {
+  for (int i = 0; i < baum_i_coordinates_positions(def); i++) {
     q[i] = def->q ? def->q[i] : 0.0;
+  }
+  for (int i = 0; i < def->size; i++) {
     v[i] = def->v ? def->v[i] : (double)NAN;
   }
   *held = def->held;
@@ -130,6 +160,15 @@ static void scale(const void *given, double length, double *out)
   const baum_coordinates_def *def = given;
   for (int i = 0; i < def->size; i++) {
     out[i] = def->scale ? def->scale[i] : 1.0;
+  }
+}
+
+static void position_scale(const void *given, double length, double *out)
+{
+  (void)length;
+  const baum_coordinates_def *def = given;
+  for (int i = 0; i < baum_i_coordinates_positions(def); i++) {
+    out[i] = def->position_scale ? def->position_scale[i] : 1.0;
   }
 }
 
@@ -245,7 +284,7 @@ static baum_status kinetic_field(const void *context, const baum_i_local *at, do
 /* v^T M' v / 2 along the motion. */
 static baum_status kinetic_rate(const baum_i_body *body, const baum_i_local *at, double *out)
 {
-  double rate = baum_i_rate(at);
+  double rate = baum_i_local_rate(at);
   *out = 0.0;
   if (def_of(body)->constant_mass || rate == 0.0) {
     return BAUM_OK;
@@ -363,7 +402,7 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
 {
   int n = body->nv;
   const double *design_q = at->point->mechanism->design_q + body->q;
-  bool design_pose = memcmp(at->q, design_q, (size_t)n * sizeof *design_q) == 0;
+  bool design_pose = memcmp(at->q, design_q, (size_t)body->nq * sizeof *design_q) == 0;
   char text[BAUM_I_ENTRY_SIZE];
   baum_i_user_function f = function(body, "mass", n, n);
   for (int i = 0; i < n && design_pose; i++) {
@@ -435,6 +474,7 @@ static baum_status check_force(const baum_i_body *body, const baum_i_local *at,
 static baum_status check_derivatives(const baum_i_body *body, baum_i_point *point)
 {
   baum_i_local at = baum_i_gather(point, &body->span);
+  BAUM_I_TRY(baum_i_coordinates_compare_manifold(body, &at));
   baum_status status = check_mass(body, &at);
   if (status == BAUM_OK && !def_of(body)->depends_on_velocity) {
     baum_i_user_function f = function(body, "force", body->nv, 0);
@@ -457,13 +497,17 @@ static const baum_i_body_type type = {
                  .check = check,
                  .own = own,
                  .release = release,
+                 .tied = tied,
                  .digest = digest},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
+  .positions = positions,
+  .manifold = baum_i_coordinates_manifold,
   .constant_mass = constant_mass,
   .depends_on_velocity = depends_on_velocity,
   .design = design,
   .scale = scale,
+  .position_scale = position_scale,
   .mass = mass,
   .force = force,
   .potential = potential,

@@ -135,6 +135,7 @@ static baum_i_user_function function(const baum_i_joint *joint)
 static baum_i_local place_at(baum_i_point *point, const double values[3])
 {
   return (baum_i_local){.point = point,
+                        .ql = 1,
                         .nl = 1,
                         .t = point->t,
                         .q = values,

@@ -24,6 +24,9 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
+
+#include "mechanism/manifold.h"
 
 const baum_i_stencil baum_i_stencil_first = {
   .order = 1,
@@ -61,7 +64,7 @@ static const double rounding = 64.0 * DBL_EPSILON;
 
 /* ---- rays ---- */
 
-double baum_i_rate(const baum_i_local *at)
+double baum_i_local_rate(const baum_i_local *at)
 {
   double rate = 0.0;
   for (int i = 0; i < at->nl; i++) {
@@ -81,7 +84,7 @@ baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, i
     ray.dq = direction;
   } else {
     ray.dv = direction;
-    ray.rate /= fmax(baum_i_rate(at), 1.0);
+    ray.rate /= fmax(baum_i_local_rate(at), 1.0);
   }
   return ray;
 }
@@ -98,7 +101,9 @@ double baum_i_first_step(const baum_i_stencil *stencil, const baum_i_ray *ray)
 /* The steps of all coordinates, and where the field is evaluated. */
 typedef struct probe {
   const baum_i_field *field;
+  const baum_i_ray *ray;
   const baum_i_local *at;
+  double step;
   double step_t;
   double *step_q;
   double *step_v;
@@ -128,22 +133,36 @@ static void set_steps(double *steps, const double *x, const double *direction, d
 static probe make_probe(baum_i_local *here, const baum_i_field *field, const baum_i_ray *ray,
                         const baum_i_local *at, double step)
 {
-  probe p = {.field = field, .at = at};
+  probe p = {.field = field, .ray = ray, .at = at, .step = step};
   p.step_t = exact_step(at->t, step * ray->dt);
   p.step_q = baum_i_take(here, at->nl);
   p.step_v = baum_i_take(here, at->nl);
-  p.q = baum_i_take(here, at->nl);
+  p.q = baum_i_take(here, at->ql);
   p.v = baum_i_take(here, at->nl);
-  set_steps(p.step_q, at->q, ray->dq, step, at->nl);
+  set_steps(p.step_q, at->q, at->span ? NULL : ray->dq, step, at->nl);
   set_steps(p.step_v, at->v, ray->dv, step, at->nl);
   return p;
+}
+
+static void move_along(const probe *p, int k, const double *dq)
+{
+  if (dq) {
+    baum_i_span_move(p->at->point->mechanism, p->at->span, k * p->step, dq, p->q);
+  }
 }
 
 /* F at k steps. */
 static baum_status sample(const probe *p, int k, double *out)
 {
+  if (p->at->span) {
+    memcpy(p->q, p->at->q, (size_t)p->at->ql * sizeof *p->q);
+    move_along(p, k, p->ray->dq_first);
+    move_along(p, k, p->ray->dq);
+  }
   for (int i = 0; i < p->at->nl; i++) {
-    p->q[i] = p->at->q[i] + k * p->step_q[i];
+    if (!p->at->span) {
+      p->q[i] = p->at->q[i] + k * p->step_q[i];
+    }
     p->v[i] = p->at->v[i] + k * p->step_v[i];
   }
   baum_i_local there = *p->at;

@@ -5,6 +5,8 @@
  *
  *   f(s) = F(t + s dt, q + s dq, v + s dv)
  *
+ * where q is no vector, q + s dq is q moved by s dq (manifold.h).
+ *
  * How differences are taken, and how far they can be trusted, is told in difference.c.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_DIFFERENCE_H
@@ -25,6 +27,8 @@ typedef struct baum_i_field {
 typedef struct baum_i_ray {
   double dt;
   const double *dq; /* (nl), or NULL for zeros */
+  /* (nl) where q is no vector: it is moved by s times this first, then by s dq. NULL: zeros. */
+  const double *dq_first;
   const double *dv; /* (nl), or NULL for zeros */
   double rate;      /* > 0; a relevant change takes s = 1 / rate */
 } baum_i_ray;
@@ -33,7 +37,7 @@ typedef struct baum_i_ray {
 typedef enum baum_i_variable { BAUM_I_VARIABLE_Q, BAUM_I_VARIABLE_V } baum_i_variable;
 
 /* Largest |v_i| / scale_i: how many relevant changes per unit of time. */
-double baum_i_rate(const baum_i_local *at);
+double baum_i_local_rate(const baum_i_local *at);
 
 /* Ray along one coordinate; direction (nl) is set and kept by the ray. */
 baum_i_ray baum_i_column_ray(const baum_i_local *at, baum_i_variable variable, int column,
@@ -45,7 +49,7 @@ baum_status baum_i_difference_first(const baum_i_field *field, const baum_i_ray 
 baum_status baum_i_difference_second(const baum_i_field *field, const baum_i_ray *ray,
                                      const baum_i_local *at, double *out);
 
-/* dF/dq or dF/dv; out (size x nl). */
+/* dF/dq, by a displacement of velocity size, or dF/dv; out (size x nl). */
 baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable variable,
                                       const baum_i_local *at, double *out);
 

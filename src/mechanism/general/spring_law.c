@@ -76,6 +76,7 @@ baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_poin
     return BAUM_OK;
   }
   const baum_i_local at = {.point = point,
+                           .ql = 1,
                            .nl = 1,
                            .t = point->t,
                            .q = &length,

@@ -206,7 +206,7 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
                              bool *moves)
 {
   const baum_user_constraint_def *def = def_of(joint);
-  *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_rate(at)};
+  *ray = (baum_i_ray){.dt = 1.0, .dq = at->v, .rate = baum_i_local_rate(at)};
   /* When fast the step is the same in any case; then only a missing nu has to be told from zero. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
@@ -327,21 +327,23 @@ static baum_status products_by_columns(const second *s, const baum_i_local *at)
   return status;
 }
 
-/* Phi_ij of all rows; work (nl + rows). */
+/* (J_i)_qj of all rows, i first where q is no vector; work (2 nl + rows). */
 static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, int i, int j,
                              double *work, double *out)
 {
   double *direction = work;
-  double *other = work + at->nl;
+  double *first = work + at->nl;
+  double *other = first + at->nl;
+  double *turned = at->span ? first : direction; /* where the part along j is */
   baum_i_field field = field_of(phi_field, joint);
-  baum_i_ray ray = {.dq = direction, .rate = 1.0};
-  memset(direction, 0, (size_t)at->nl * sizeof *direction);
+  baum_i_ray ray = {.dq = direction, .dq_first = at->span ? first : NULL, .rate = 1.0};
+  memset(direction, 0, 2 * (size_t)at->nl * sizeof *direction);
   direction[i] = at->scale[i];
-  direction[j] += i == j ? 0.0 : at->scale[j];
+  turned[j] += i == j ? 0.0 : at->scale[j];
   baum_status status = baum_i_difference_second(&field, &ray, at, out);
   double unit = at->scale[i] * at->scale[j];
   if (i != j && status == BAUM_OK) {
-    direction[j] = -at->scale[j];
+    turned[j] = -at->scale[j];
     status = baum_i_difference_second(&field, &ray, at, other);
     unit *= 4.0;
   }
@@ -351,31 +353,34 @@ static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, 
   return status;
 }
 
+/* value: (J_ki)_qj of all rows k. */
 static void add_curvature(const second *s, const double *value, int i, int j, int nl)
 {
   for (int k = 0; k < s->joint->rows; k++) {
     if (s->jw_q) {
       s->jw_q[k * nl + j] += value[k] * s->w[i];
-      s->jw_q[k * nl + i] += i != j ? value[k] * s->w[j] : 0.0;
     }
     if (s->jtl_q) {
       s->jtl_q[i * nl + j] += value[k] * s->lambda[k];
-      s->jtl_q[j * nl + i] += i != j ? value[k] * s->lambda[k] : 0.0;
     }
   }
 }
 
+/* Where q is a vector, Phi_ij = Phi_ji. */
 static baum_status products_by_pairs(const second *s, const baum_i_local *at)
 {
   baum_i_local here = *at;
-  double *work = baum_i_take(&here, at->nl + s->joint->rows);
+  double *work = baum_i_take(&here, 2 * at->nl + s->joint->rows);
   double *value = baum_i_take(&here, s->joint->rows);
   baum_status status = BAUM_OK;
   for (int i = 0; i < at->nl && status == BAUM_OK; i++) {
-    for (int j = i; j < at->nl && status == BAUM_OK; j++) {
+    for (int j = at->span ? 0 : i; j < at->nl && status == BAUM_OK; j++) {
       status = curvature(s->joint, &here, i, j, work, value);
       if (status == BAUM_OK) {
         add_curvature(s, value, i, j, at->nl);
+      }
+      if (status == BAUM_OK && i != j && !at->span) {
+        add_curvature(s, value, j, i, at->nl);
       }
     }
   }
@@ -494,7 +499,7 @@ static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at
   }
   baum_i_local here = *at;
   double *given = baum_i_take(&here, joint->rows);
-  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(baum_i_rate(at), 1.0)};
+  baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(baum_i_local_rate(at), 1.0)};
   baum_i_user_function f = function(joint, "gamma", 0);
   baum_status status = given_gamma_at(joint, &here, given);
   if (status != BAUM_OK) {

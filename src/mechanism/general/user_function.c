@@ -11,12 +11,12 @@
 
 /* ---- memory and coordinates ---- */
 
-int64_t baum_i_scratch_size(int nl, int rows)
+int64_t baum_i_scratch_size(int columns, int rows)
 {
   /* Differences may be nested twice, each level with a dozen vectors; matrices are never
    * differenced as a whole, but up to three of them (given, evaluated, one more) are kept. */
-  int64_t vectors = 48 * ((int64_t)nl + rows);
-  int64_t matrices = 3 * ((int64_t)nl * rows);
+  int64_t vectors = 48 * ((int64_t)columns + rows);
+  int64_t matrices = 3 * ((int64_t)columns * rows);
   return vectors + matrices;
 }
 
@@ -28,19 +28,29 @@ double *baum_i_take(baum_i_local *local, int count)
   return taken;
 }
 
-const double *baum_i_gather_vector(baum_i_local *local, const baum_i_span *span, const double *x)
+static const double *gather(baum_i_local *local, const int *columns, int count, const double *x)
 {
-  double *gathered = baum_i_take(local, span->nl);
-  for (int i = 0; i < span->nl; i++) {
-    gathered[i] = x ? x[span->columns[i]] : 0.0;
+  double *gathered = baum_i_take(local, count);
+  for (int i = 0; i < count; i++) {
+    gathered[i] = x ? x[columns[i]] : 0.0;
   }
   return gathered;
 }
 
+const double *baum_i_gather_vector(baum_i_local *local, const baum_i_span *span, const double *x)
+{
+  return gather(local, span->columns, span->nl, x);
+}
+
 baum_i_local baum_i_gather(baum_i_point *point, const baum_i_span *span)
 {
-  baum_i_local local = {.point = point, .nl = span->nl, .t = point->t, .free = point->scratch};
-  local.q = baum_i_gather_vector(&local, span, point->q);
+  baum_i_local local = {.point = point,
+                        .span = span->flat ? NULL : span,
+                        .ql = span->ql,
+                        .nl = span->nl,
+                        .t = point->t,
+                        .free = point->scratch};
+  local.q = gather(&local, span->positions, span->ql, point->q);
   local.v = baum_i_gather_vector(&local, span, point->v);
   local.scale = baum_i_gather_vector(&local, span, point->mechanism->scale);
   return local;

@@ -10,17 +10,20 @@
 
 #include "mechanism/identify.h"
 
-/* Doubles of point->scratch that an element with nl local columns and that many rows may use. */
-int64_t baum_i_scratch_size(int nl, int rows);
+/* Doubles of point->scratch that an element may use, with the larger number of its local columns,
+ * of q or of v, and that many rows. */
+int64_t baum_i_scratch_size(int columns, int rows);
 
 /* Where user functions are evaluated. Copies of it are cheap: a function that needs memory copies
  * the struct and takes from its own copy, so that everything it took is given back when it
  * returns. */
 typedef struct baum_i_local {
   baum_i_point *point;
+  const baum_i_span *span; /* whose q is moved on the manifold; NULL: q is a vector, ql = nl */
+  int ql;
   int nl;
   double t;
-  const double *q;     /* (nl) */
+  const double *q;     /* (ql) */
   const double *v;     /* (nl), zeros at position level */
   const double *scale; /* (nl) a relevant change of each coordinate */
   double *free;        /* what is left of point->scratch */

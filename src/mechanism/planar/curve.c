@@ -57,6 +57,7 @@ static baum_i_user_function function(const baum_i_joint *joint)
 static baum_i_local place_at(baum_i_point *point, const double values[6])
 {
   return (baum_i_local){.point = point,
+                        .ql = 2,
                         .nl = 2,
                         .t = point->t,
                         .q = values,

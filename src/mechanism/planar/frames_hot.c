@@ -24,7 +24,8 @@ typedef struct bodies {
 BAUM_I_INLINE baum_i_body_place place_of(const bodies *some, int k)
 {
   if (!some->places) {
-    return (baum_i_body_place){.q = 3 * (some->first + k - 1), .kind = BAUM_I_FRAME_BODY};
+    int32_t first = 3 * (some->first + k - 1);
+    return (baum_i_body_place){.q = first, .v = first, .kind = BAUM_I_FRAME_BODY};
   }
   return some->places[some->first + k];
 }
@@ -86,10 +87,10 @@ BAUM_I_INLINE void set_frame(baum_i_body_place place, const double *q, const dou
   double w = 0.0;
   if (place.kind != BAUM_I_FRAME_NONE) {
     baum_i_store(&frame->x, baum_i_load(q + place.q));
-    baum_i_store(&frame->vx, v ? baum_i_load(v + place.q) : baum_i_both(0.0));
+    baum_i_store(&frame->vx, v ? baum_i_load(v + place.v) : baum_i_both(0.0));
   }
   if (place.kind == BAUM_I_FRAME_BODY && v) {
-    w = v[place.q + 2];
+    w = v[place.v + 2];
   }
   baum_i_store(&frame->w, (baum_i_pair){w, angle});
 }

@@ -113,6 +113,7 @@ static const baum_i_body_type type = {
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
   .constant_force = true,
+  .nq = 3,
   .nv = 3,
   .constant_mass = constant_mass,
   .lower = lower,

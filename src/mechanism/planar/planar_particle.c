@@ -93,6 +93,7 @@ static const baum_i_body_type type = {
   .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
   .constant_force = true,
+  .nq = 2,
   .nv = 2,
   .constant_mass = constant_mass,
   .lower = lower,

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The manifold of a whole mechanism, body by body. */
+#include "mechanism/manifold.h"
+
+#include <math.h>
+#include <string.h>
+
+/* ---- one body; q, v and dx begin at its own ---- */
+
+static void rate_body(const baum_i_body *body, const double *q, const double *v, double *dq)
+{
+  if (body->manifold) {
+    body->manifold->rate(body, q, v, dq);
+  } else {
+    memcpy(dq, v, (size_t)body->nv * sizeof *v);
+  }
+}
+
+static void move_vector(int count, double h, const double *v, double *q)
+{
+  for (int i = 0; i < count; i++) {
+    q[i] += h * v[i];
+  }
+}
+
+static void move_body(const baum_i_body *body, double h, const double *v, double *q)
+{
+  if (body->manifold) {
+    body->manifold->move(body, h, v, q);
+  } else {
+    move_vector(body->nv, h, v, q);
+  }
+}
+
+static void subtract(int count, const double *from, const double *to, double *dx)
+{
+  for (int i = 0; i < count; i++) {
+    dx[i] = to[i] - from[i];
+  }
+}
+
+/* q + h dq, back on the manifold. */
+static void shift_body(const baum_i_body *body, double h, const double *dq, const double *q,
+                       double *out)
+{
+  for (int i = 0; i < body->nq; i++) {
+    out[i] = q[i] + h * dq[i];
+  }
+  body->manifold->normalize(body, out);
+}
+
+/* By a central difference, of which both errors are of that size: its step squared, and rounding over its step. */
+static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
+                         const double *dq, double *dx, double *work)
+{
+  static const double STEP = 1e-5;
+  double size = 0.0;
+  for (int i = 0; i < body->nq; i++) {
+    size = fmax(size, fabs(dq[i]) / scale[i]);
+  }
+  double h = size > 0.0 ? STEP / size : 0.0;
+  shift_body(body, -h, dq, q, work);
+  shift_body(body, h, dq, q, work + body->nq);
+  body->manifold->difference(body, work, work + body->nq, dx);
+  for (int i = 0; i < body->nv; i++) {
+    dx[i] = h > 0.0 ? dx[i] / (2.0 * h) : 0.0;
+  }
+}
+
+/* ---- the whole ---- */
+
+void baum_i_rate(const baum_mechanism *m, const double *q, const double *v, double *dq)
+{
+  if (m->flat) {
+    memcpy(dq, v, (size_t)m->nv * sizeof *v);
+    return;
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    rate_body(body, q + body->q, v + body->v, dq + body->q);
+  }
+}
+
+void baum_i_move(const baum_mechanism *m, double h, const double *v, double *q)
+{
+  if (m->flat) {
+    move_vector(m->nv, h, v, q);
+    return;
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    move_body(body, h, v + body->v, q + body->q);
+  }
+}
+
+void baum_i_difference(const baum_mechanism *m, const double *from, const double *to, double *dx)
+{
+  if (m->flat) {
+    subtract(m->nv, from, to, dx);
+    return;
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->manifold) {
+      body->manifold->difference(body, from + body->q, to + body->q, dx + body->v);
+    } else {
+      subtract(body->nv, from + body->q, to + body->q, dx + body->v);
+    }
+  }
+}
+
+void baum_i_normalize(const baum_mechanism *m, double *q)
+{
+  for (int k = 1; k <= m->body_count && !m->flat; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->manifold) {
+      body->manifold->normalize(body, q + body->q);
+    }
+  }
+}
+
+void baum_i_tangent(const baum_mechanism *m, const double *q, const double *dq, double *dx,
+                    double *work)
+{
+  if (m->flat) {
+    memcpy(dx, dq, (size_t)m->nv * sizeof *dx);
+    return;
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->manifold) {
+      tangent_body(body, m->position_scale + body->q, q + body->q, dq + body->q, dx + body->v,
+                   work);
+    } else {
+      memcpy(dx + body->v, dq + body->q, (size_t)body->nv * sizeof *dx);
+    }
+  }
+}
+
+void baum_i_span_move(const baum_mechanism *m, const baum_i_span *span, double h, const double *v,
+                      double *q)
+{
+  for (int k = 0; k < span->body_count; k++) {
+    const baum_i_body *body = m->bodies[span->bodies[k]];
+    move_body(body, h, v, q);
+    v += body->nv;
+    q += body->nq;
+  }
+}

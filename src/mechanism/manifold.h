@@ -1,0 +1,38 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The configuration manifold: positions q (nq), velocities v (nv) and q' = N(q) v.
+ *
+ * Where every body's q is a vector (mechanism->flat), N is the identity and q is moved by adding.
+ * Elsewhere q is moved by `move`, and compared by `difference`; nothing of velocity size is ever
+ * added to q. Integrators that combine rates q' = N v add these, of position size, and normalize
+ * what they accept.
+ */
+#ifndef BAUM_I_MECHANISM_MANIFOLD_H
+#define BAUM_I_MECHANISM_MANIFOLD_H
+
+#include "mechanism/mechanism.h"
+
+/* dq (nq) = N(q) v; q may be off the manifold as far as an integrator's stage. */
+void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v, double *dq);
+
+/* q moves by h v, v of velocity size (nv): where it is after the time h at constant v, to second
+ * order in h. */
+void baum_i_move(const baum_mechanism *mechanism, double h, const double *v, double *q);
+
+/* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. dx may be `to` where
+ * the mechanism is flat. */
+void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
+                       double *dx);
+
+/* q becomes the nearest one on the manifold; nothing where the mechanism is flat. */
+void baum_i_normalize(const baum_mechanism *mechanism, double *q);
+
+/* The nearest velocities to rates: dx (nv) of dq (nq) = N(q) dx, with q on the manifold. work
+ * (2 nq). Copies where the mechanism is flat. */
+void baum_i_tangent(const baum_mechanism *mechanism, const double *q, const double *dq, double *dx,
+                    double *work);
+
+/* As baum_i_move(), of the local columns of a span. */
+void baum_i_span_move(const baum_mechanism *mechanism, const baum_i_span *span, double h,
+                      const double *v, double *q);
+
+#endif
