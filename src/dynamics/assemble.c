@@ -32,8 +32,8 @@ typedef struct assembly {
   baum_workspace *w;
   const bool *held; /* (nv) or NULL */
   double t;
-  double *q;        /* (nv) present pose */
-  double *trial;    /* (nv) */
+  double *q;        /* (nq) present configuration */
+  double *trial;    /* (nq) */
   double *distance; /* (nc) d_i */
   bool fits;        /* the violation at q, when it was last looked at, is rounding */
 } assembly;
@@ -184,9 +184,8 @@ static baum_status search(assembly *s, double before, bool *fell)
   double fraction = 1.0;
   *fell = false;
   for (int k = 0; k < HALVINGS && !*fell; k++) {
-    for (int i = 0; i < w->mechanism->nv; i++) {
-      s->trial[i] = s->q[i] + fraction * w->a[i];
-    }
+    memcpy(s->trial, s->q, (size_t)w->mechanism->nq * sizeof *s->q);
+    baum_i_move(w->mechanism, fraction, w->a, s->trial);
     baum_i_point_set(&w->point, s->t, s->trial, NULL);
     baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
     if (status != BAUM_OK && !w->point.retry) {
@@ -196,7 +195,7 @@ static baum_status search(assembly *s, double before, bool *fell)
     fraction *= 0.5;
   }
   if (*fell) {
-    memcpy(s->q, s->trial, (size_t)w->mechanism->nv * sizeof *s->q);
+    memcpy(s->q, s->trial, (size_t)w->mechanism->nq * sizeof *s->q);
   }
   return BAUM_OK;
 }
@@ -336,9 +335,10 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held)
 {
+  size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
   size_t nc = (size_t)workspace->mechanism->nc;
-  double *memory = baum_i_alloc(3 * nv + nc, sizeof *memory);
+  double *memory = baum_i_alloc(2 * nq + nv + nc, sizeof *memory);
   bool *given = baum_i_alloc(nv, sizeof *given);
   if (!memory || !given) {
     baum_i_free(memory);
@@ -346,17 +346,18 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
     return baum_i_fail_memory();
   }
   assembly s = {.w = workspace, .held = held, .t = t, .q = memory};
-  s.trial = memory + nv;
-  s.distance = memory + 3 * nv;
-  double *velocity = memory + 2 * nv;
-  memcpy(s.q, q, nv * sizeof *q);
+  s.trial = memory + nq;
+  s.distance = memory + 2 * nq + nv;
+  double *velocity = memory + 2 * nq;
+  memcpy(s.q, q, nq * sizeof *q);
+  baum_i_normalize(workspace->mechanism, s.q);
   baum_status status = assemble_positions(&s);
   if (status == BAUM_OK && v) {
     memcpy(velocity, v, nv * sizeof *v);
     status = complete_velocities(&s, velocity, given);
   }
   if (status == BAUM_OK) {
-    memcpy(q, s.q, nv * sizeof *q);
+    memcpy(q, s.q, nq * sizeof *q);
     if (v) {
       memcpy(v, velocity, nv * sizeof *v);
     }

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements:
+/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements; q is moved by
+ * displacements of velocity size, and the rows of q' - N v are N^+ times those of the residual, so that it has nv
+ * rows and columns of q:
  *
  *          q                                             v                       lambda
- *   q      c I                                           -I
+ *   q      c I - N^+ (N v)_q N                           -I
  *   v      (M v')_q + (J^T lambda)_q - g_q               c M - g_v               J^T
  *   lambda index 1: (J w)_q - gamma_q - 2 alpha nu_q     (c + 2 alpha) J         0
  *                   + beta^2 J,  w = v' + 2 alpha v      - gamma_v
@@ -12,7 +14,7 @@
  * GGL has the rows of index 2, and
  *
  *          q                                             v                       lambda  mu
- *   q      c I + W^-1 (J^T mu)_q                         -I                      0       W^-1 J^T
+ *   q      c I - N^+ (N v)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
  * With gains alpha_i, beta_i of rows, (J w)_q is that of w = v' + 2 alpha v, and 2 (alpha_i - alpha) (J v)_q by a second
@@ -68,6 +70,12 @@ static void walk_rates(const factors *f, sink *s)
     emit(s, i, i, f->c);
     emit(s, i, nv + i, -1.0);
   }
+  for (int k = 1; k <= f->w->mechanism->body_count; k++) {
+    const baum_i_body *body = f->w->mechanism->bodies[k];
+    for (int i = 0; body->manifold && i < body->nv * body->nv; i++) {
+      emit(s, body->v + i / body->nv, body->v + i % body->nv, -f->w->rate_q[body->mass + i]);
+    }
+  }
 }
 
 static void walk_bodies(const factors *f, sink *s)
@@ -80,7 +88,7 @@ static void walk_bodies(const factors *f, sink *s)
       for (int j = 0; j < body->nv; j++) {
         int at = body->mass + i * body->nv + j;
         int row = nv + body->v + i;
-        emit(s, row, body->q + j, w->mass_q[at] - w->body_force_q[at]);
+        emit(s, row, body->v + j, w->mass_q[at] - w->body_force_q[at]);
         emit(s, row, nv + body->v + j, f->c * w->mass[at] - w->body_force_v[at]);
       }
     }
@@ -228,7 +236,8 @@ static size_t count_entries(const baum_mechanism *m, baum_residual index)
   size_t kinds = index == BAUM_RESIDUAL_GGL ? 2 : 1;      /* of multipliers */
   size_t columns = index == BAUM_RESIDUAL_INDEX3 ? 1 : 2; /* q, and v, in the row of lambda */
   size_t jacobians = kinds + columns + (kinds - 1);       /* J^T, and what rows have of J */
-  return 2 * ((size_t)m->nv + (size_t)m->mass_size + (size_t)m->force_square_size) +
+  size_t blocks = m->flat ? 2 : 3;                        /* of bodies */
+  return 2 * ((size_t)m->nv + (size_t)m->force_square_size) + blocks * (size_t)m->mass_size +
          jacobians * (size_t)m->jacobian_size +
          kinds * ((size_t)m->joint_square_size + (size_t)m->nc);
 }
@@ -268,7 +277,8 @@ baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_
   const baum_dae dae = {.index = index};
   const factors f = {.w = workspace, .dae = &dae, .c = 0.0};
   matrix->index = index;
-  matrix->size = baum_i_residual_size(workspace->mechanism, index);
+  matrix->size = baum_i_residual_size(workspace->mechanism, index) - workspace->mechanism->nq +
+                 workspace->mechanism->nv;
   baum_status status = learn(matrix, &f);
   if (status != BAUM_OK) {
     baum_i_residual_matrix_destroy(matrix);
@@ -354,6 +364,7 @@ static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, c
   const baum_i_force_blocks forces = {w->force_q, w->force_v};
   baum_status status = baum_i_velocity_stage(w, t, y, v);
   if (status == BAUM_OK) {
+    baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
     status = baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies);
   }
   if (status == BAUM_OK) {

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Residual forms of the equations of motion, y = (q, v, lambda), for implicit solvers:
  *
- *   q' - v
+ *   q' - N v                                                  N the identity where q is a vector
  *   M v' + J^T lambda - g
  *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu        index 3:  Phi
  *
  * and of C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90, of index 2 with y = (q, v, lambda, mu):
  *
- *   q' - v + W^-1 J^T mu
+ *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g
  *   Phi'
  *   Phi
@@ -44,14 +44,25 @@ static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const 
   }
 }
 
-/* residual += W^-1 J^T mu. */
-static void add_correction(baum_workspace *w, const double *mu, double *residual)
+/* v - W^-1 J^T mu. */
+static const double *correct_velocities(baum_workspace *w, const double *v, const double *mu)
 {
-  double *momentum = w->work_v;
-  memset(momentum, 0, (size_t)w->mechanism->nv * sizeof *momentum);
-  baum_i_jacobian_transposed_times(&w->structure, w->jacobian, mu, momentum);
+  double *out = w->work_v;
+  memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
+  baum_i_jacobian_transposed_times(&w->structure, w->jacobian, mu, out);
   for (int i = 0; i < w->mechanism->nv; i++) {
-    residual[i] += momentum[i] / w->metric[i];
+    out[i] = v[i] - out[i] / w->metric[i];
+  }
+  return out;
+}
+
+/* q' - N v, of positions. */
+static void position_rows(const baum_mechanism *m, const double *q, const double *v,
+                          const double *dq, double *out)
+{
+  baum_i_rate(m, q, v, out);
+  for (int i = 0; i < m->nq; i++) {
+    out[i] = dq[i] - out[i];
   }
 }
 
@@ -85,7 +96,6 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
     return status;
   }
   for (int i = 0; i < nv; i++) {
-    residual[i] = dy[i] - v[i];
     newton[i] = -w->force[i];
   }
   baum_i_mass_times(&w->structure, w->mass, dv, newton);
@@ -93,9 +103,10 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   constraint_rows(w, dae, dv, rows);
   hold_omitted(w, lambda, rows);
   if (dae->index == BAUM_RESIDUAL_GGL) {
-    add_correction(w, lambda + nc, residual);
+    v = correct_velocities(w, v, lambda + nc);
     memcpy(rows + nc, w->phi, (size_t)nc * sizeof *rows);
     hold_omitted(w, lambda + nc, rows + nc);
   }
+  position_rows(w->mechanism, y, v, dy, residual);
   return BAUM_OK;
 }

@@ -19,7 +19,7 @@
 
 #include "base/message.h"
 #include "linear/kkt.h"
-#include "mechanism/mechanism.h"
+#include "mechanism/manifold.h"
 
 /* Dependent rows: how many is found once, at the assembled start pose and its neighbours; which of them to leave out may
  * change on the way. */
@@ -90,6 +90,8 @@ struct baum_workspace {
   const double *row_gains; /* (nc) factors on the gains of rows, of the run; NULL: 1 */
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
+  double *work_q; /* (BAUM_I_MANIFOLD_WORK nq) where the mechanism is not flat */
+  double *rate_q; /* (mass_size) of baum_i_linearize_rate(), likewise */
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;
@@ -198,7 +200,7 @@ void baum_i_choose_metric(baum_workspace *workspace);
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
 /* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu) with
- * W chosen before, and dF/dy + c dF/dy' ---- */
+ * W chosen before, and dF/dy + c dF/dy' with displacements of velocity size in place of dq ---- */
 
 /* Length of y. */
 int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
@@ -227,6 +229,8 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
 baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
+baum_status baum_i_check_positions(const baum_workspace *w, const char *what,
+                                   const double *values); /* (nq) */
 baum_status baum_i_check_jacobian(const baum_workspace *w);
 
 /* Likewise where one of (nv) overflows in units of its scale, as baum_i_scaled_size() takes it. */
@@ -318,6 +322,8 @@ double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const
 
 /* Largest |x_i| / scale_i of a vector over v. */
 double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x);
+/* Likewise of positions (nq). */
+double baum_i_position_size(const baum_mechanism *mechanism, const double *q);
 
 /* Row of largest magnitude, or -1; largest may be NULL. */
 int baum_i_largest(const double *values, int count, double *largest);

@@ -472,10 +472,10 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
 static baum_status project(baum_workspace *w, double t, const double *q, const double *v,
                            double *copy)
 {
-  size_t nv = (size_t)w->mechanism->nv;
-  memcpy(copy, q, nv * sizeof *q);
-  memcpy(copy + nv, v, nv * sizeof *v);
-  return baum_i_project(w, t, copy, copy + nv);
+  size_t nq = (size_t)w->mechanism->nq;
+  memcpy(copy, q, nq * sizeof *q);
+  memcpy(copy + nq, v, (size_t)w->mechanism->nv * sizeof *v);
+  return baum_i_project(w, t, copy, copy + nq);
 }
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)
@@ -484,8 +484,9 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
   if (status != BAUM_OK) {
     return status;
   }
+  size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
-  double *copy = baum_i_alloc(2 * nv, sizeof *copy);
+  double *copy = baum_i_alloc(nq + nv, sizeof *copy);
   if (!copy) {
     return baum_i_fail_memory();
   }
@@ -494,18 +495,18 @@ baum_status baum_workspace_project(baum_workspace *workspace, double t, double *
     status = project(workspace, t, q, v, copy);
   }
   if (status == BAUM_OK) {
-    status = baum_i_check_velocities(workspace, "projected pose", copy);
+    status = baum_i_check_positions(workspace, "projected pose", copy);
   }
   if (status == BAUM_OK) {
-    status = baum_i_check_velocities(workspace, "projected velocity", copy + nv);
+    status = baum_i_check_velocities(workspace, "projected velocity", copy + nq);
   }
   if (status == BAUM_OK) {
-    status = baum_i_check_left_out(workspace, t, copy, copy + nv,
+    status = baum_i_check_left_out(workspace, t, copy, copy + nq,
                                    baum_i_scaled_size(workspace->mechanism, v));
   }
   if (status == BAUM_OK) {
-    memcpy(q, copy, nv * sizeof *q);
-    memcpy(v, copy + nv, nv * sizeof *v);
+    memcpy(q, copy, nq * sizeof *q);
+    memcpy(v, copy + nq, nv * sizeof *v);
   }
   baum_i_free(copy);
   return status;

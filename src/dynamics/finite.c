@@ -51,6 +51,18 @@ baum_status baum_i_check_velocities(const baum_workspace *w, const char *what, c
   return i < 0 ? BAUM_OK : fail_velocity(w, what, i, values[i]);
 }
 
+baum_status baum_i_check_positions(const baum_workspace *w, const char *what, const double *values)
+{
+  for (int k = 1; k <= w->mechanism->body_count; k++) {
+    const baum_i_body *body = w->mechanism->bodies[k];
+    int i = first_not_finite(values + body->q, body->nq);
+    if (i >= 0) {
+      return fail_velocity(w, what, body->v, values[body->q + i]);
+    }
+  }
+  return BAUM_OK;
+}
+
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values)
 {
   const baum_mechanism *m = w->mechanism;

@@ -245,7 +245,7 @@ baum_status baum_i_leave_out_immobile(baum_workspace *w, double t, const double 
 {
   baum_i_immobile_destroy(w->immobile);
   w->immobile = NULL;
-  if (w->choice != BAUM_I_KKT_AUTO) {
+  if (w->choice != BAUM_I_KKT_AUTO || !w->mechanism->flat) {
     return BAUM_OK;
   }
   baum_i_sentence kept;

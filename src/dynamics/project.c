@@ -48,15 +48,7 @@ static baum_status least_change(baum_workspace *w)
 /* Steps below it are rounding of the coordinates: far from the origin, or after many turns. */
 static double rounding_of(const baum_mechanism *m, const double *q)
 {
-  return 8.0 * DBL_EPSILON * baum_i_scaled_size(m, q);
-}
-
-static double apply(const baum_mechanism *m, const double *change, double *q)
-{
-  for (int i = 0; i < m->nv; i++) {
-    q[i] += change[i];
-  }
-  return baum_i_scaled_size(m, change);
+  return 8.0 * DBL_EPSILON * baum_i_position_size(m, q);
 }
 
 /* Change of the positions that takes -Phi away, to first order, into w->a. */
@@ -103,7 +95,7 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
 static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, bool *is)
 {
   const baum_mechanism *m = w->mechanism;
-  double most = NOISE * fmax(1.0, baum_i_scaled_size(m, q));
+  double most = NOISE * fmax(1.0, baum_i_position_size(m, q));
   baum_status status = baum_i_position_stage(w, t, q);
   *is = status == BAUM_OK;
   if (*is) {
@@ -126,7 +118,8 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
     if (status != BAUM_OK) {
       return status;
     }
-    size = apply(m, w->a, q);
+    baum_i_move(m, 1.0, w->a, q);
+    size = baum_i_scaled_size(m, w->a);
     if (size <= fmax(CONVERGED, rounding_of(m, q))) {
       return BAUM_OK;
     }
@@ -136,7 +129,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
     last = size;
   }
   bool stalled = false;
-  if (size <= STALLED * m->nc * fmax(1.0, baum_i_scaled_size(m, q))) {
+  if (size <= STALLED * m->nc * fmax(1.0, baum_i_position_size(m, q))) {
     baum_status status = is_at_rounding(w, t, q, &stalled);
     if (status != BAUM_OK || stalled) {
       return status;
@@ -152,8 +145,8 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
 {
   baum_status status = baum_i_change_of_velocities(w, t, q, v);
-  if (status == BAUM_OK) {
-    (void)apply(w->mechanism, w->a, v);
+  for (int i = 0; i < w->mechanism->nv && status == BAUM_OK; i++) {
+    v[i] += w->a[i];
   }
   return status;
 }
@@ -166,13 +159,14 @@ baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const
 
 static void keep_unprojected(const baum_workspace *workspace, const double *q, const double *v)
 {
-  size_t n = (size_t)workspace->mechanism->nv; /* nq = nv so far */
-  memcpy(workspace->unprojected, q, n * sizeof *q);
-  memcpy(workspace->unprojected + n, v, n * sizeof *v);
+  size_t nq = (size_t)workspace->mechanism->nq;
+  memcpy(workspace->unprojected, q, nq * sizeof *q);
+  memcpy(workspace->unprojected + nq, v, (size_t)workspace->mechanism->nv * sizeof *v);
 }
 
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v)
 {
+  baum_i_normalize(workspace->mechanism, q);
   if (workspace->unprojected) {
     keep_unprojected(workspace, q, v);
   }

@@ -43,8 +43,8 @@ typedef struct pose_rank {
 typedef struct search {
   baum_workspace *w;
   double *column_scale;       /* (nv) M^-1/2 */
-  double *start;              /* (nv) the pose to look at */
-  double *q;                  /* (nv) neighbour */
+  double *start;              /* (nq) the pose to look at */
+  double *q;                  /* (nq) neighbour */
   double *x;                  /* (nv) direction */
   unsigned char *independent; /* (nc) of the pose last looked at */
   pose_rank kept;
@@ -157,9 +157,8 @@ static baum_status find_direction(const search *s, double *size)
 static baum_status look_at_neighbour(search *s, double t, const double *q, double step)
 {
   baum_workspace *w = s->w;
-  for (int i = 0; i < w->mechanism->nv; i++) {
-    s->q[i] = q[i] + step * s->x[i];
-  }
+  memcpy(s->q, q, (size_t)w->mechanism->nq * sizeof *q);
+  baum_i_move(w->mechanism, step, s->x, s->q);
   baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL);
   pose_rank rank = {0, 0};
   if (status == BAUM_OK) {
@@ -205,7 +204,7 @@ static baum_status find(search *s, double t, const double *q)
   baum_i_redundancy *r = &s->w->redundancy;
   int nc = s->w->mechanism->nc;
   pose_rank rank = {0, 0};
-  memcpy(s->start, q, (size_t)s->w->mechanism->nv * sizeof *q);
+  memcpy(s->start, q, (size_t)s->w->mechanism->nq * sizeof *q);
   baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
   bool fits = status == BAUM_OK;
   if (status != BAUM_ERR_MEMORY) {
@@ -236,6 +235,7 @@ static baum_status find(search *s, double t, const double *q)
 
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q)
 {
+  size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
   size_t nc = (size_t)workspace->mechanism->nc;
   workspace->redundancy.count = 0;
@@ -243,15 +243,15 @@ baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const do
   if (nc == 0) {
     return BAUM_OK;
   }
-  double *memory = baum_i_alloc(4 * nv, sizeof *memory);
+  double *memory = baum_i_alloc(2 * nq + 2 * nv, sizeof *memory);
   unsigned char *independent = baum_i_alloc(nc, 1);
   baum_status status = BAUM_ERR_MEMORY;
   if (memory && independent) {
     search s = {.w = workspace,
                 .column_scale = memory,
-                .start = memory + nv,
-                .q = memory + 2 * nv,
-                .x = memory + 3 * nv,
+                .x = memory + nv,
+                .start = memory + 2 * nv,
+                .q = memory + 2 * nv + nq,
                 .independent = independent};
     status = find(&s, t, q);
   } else {

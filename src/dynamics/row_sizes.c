@@ -83,6 +83,15 @@ double baum_i_scaled_size(const baum_mechanism *mechanism, const double *x)
   return size;
 }
 
+double baum_i_position_size(const baum_mechanism *mechanism, const double *q)
+{
+  double size = 0.0;
+  for (int i = 0; i < mechanism->nq; i++) {
+    size = fmax(size, fabs(q[i]) / mechanism->position_scale[i]);
+  }
+  return size;
+}
+
 double baum_i_state_rate(const baum_mechanism *mechanism, const double *v, const double *a)
 {
   return fmax(baum_i_scaled_size(mechanism, v), sqrt(baum_i_scaled_size(mechanism, a)));

@@ -13,7 +13,7 @@ typedef struct array {
   int count;
 } array;
 
-enum { ARRAY_COUNT = 32 };
+enum { ARRAY_COUNT = 34 };
 
 static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
 {
@@ -37,6 +37,8 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->redundancy.mobility, m->nc},
     {&w->redundancy.work, 4 * m->nc},
     {&w->redundancy.system, 4 * (m->nv + m->nc)},
+    {&w->work_q, m->flat ? 0 : BAUM_I_MANIFOLD_WORK * m->nq},
+    {&w->rate_q, m->flat ? 0 : m->mass_size},
     {&w->mass_q, m->mass_size},
     {&w->body_force_q, m->mass_size},
     {&w->body_force_v, m->mass_size},

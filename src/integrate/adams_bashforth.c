@@ -2,7 +2,7 @@
 /* Explicit Adams methods of k steps, order k (F. Bashforth, J. C. Adams, 1883). v and a are
  * interpolated at the last k points of the grid and the polynomials are integrated:
  *
- *   q(t + theta h) = q + h sum_{j<k} w_j(theta) v(t - j h)        (nq)   N the identity
+ *   q(t + theta h) = q + h sum_{j<k} w_j(theta) (N v)(t - j h)    (nq)   then normalized
  *   v(t + theta h) = v + h sum_{j<k} w_j(theta) a(t - j h)        (nv)
  *   w_j(theta)     = integral of the j-th Lagrange polynomial over the nodes 0, -1, .. from 0 to theta
  *
@@ -26,11 +26,12 @@
 typedef struct adams_run {
   const baum_i_adams_table *table;
   void *starter; /* of the Runge-Kutta method */
+  int nq;
   int nv;
   int ahead;     /* slot of the present step's start; those before it, round the ring, are past */
   int past;      /* points known, at most steps - 1 */
   bool on_grid;  /* the last trial was a step of the grid */
-  double *slots; /* (steps x 2 nv) v and a of a point */
+  double *slots; /* (steps x (nq + nv)) N v and a of a point */
 } adams_run;
 
 const baum_formulation baum_i_adams_formulations[] = {
@@ -41,11 +42,11 @@ const baum_formulation baum_i_adams_formulations[] = {
 
 /* ---- the past ---- */
 
-/* v and a (2 nv) of the point j steps back. */
+/* N v and a of the point j steps back. */
 static double *slot(const adams_run *run, int j)
 {
   int steps = run->table->steps;
-  return run->slots + (size_t)((run->ahead - j + steps) % steps) * 2 * (size_t)run->nv;
+  return run->slots + (size_t)((run->ahead - j + steps) % steps) * (size_t)(run->nq + run->nv);
 }
 
 /* ---- one step ---- */
@@ -64,15 +65,15 @@ static void find_weights(const baum_i_adams_table *table, double theta, double *
   }
 }
 
-/* out += h sum_j weights_j of the slots' v, or of their a. */
-static void add_rates(const adams_run *run, const double *weights, double h, int offset,
+/* out (count) += h sum_j weights_j of the slots' numbers from `offset` on. */
+static void add_rates(const adams_run *run, const double *weights, double h, int offset, int count,
                       double *out)
 {
   const double *rates[BAUM_I_ADAMS_STEPS_MAX];
   for (int j = 0; j < run->table->steps; j++) {
     rates[j] = slot(run, j) + offset;
   }
-  for (int i = 0; i < run->nv; i++) {
+  for (int i = 0; i < count; i++) {
     double sum = 0.0;
     for (int j = 0; j < run->table->steps; j++) {
       sum += weights[j] * rates[j][i];
@@ -85,18 +86,18 @@ baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_
                               double h, const double *a)
 {
   adams_run *run = self;
-  size_t size = (size_t)run->nv * sizeof *a;
   run->on_grid = baum_i_problem_is_grid_step(problem, state->t, h);
-  memcpy(slot(run, 0), state->v, size);
-  memcpy(slot(run, 0) + run->nv, a, size);
+  baum_i_rate(problem->workspace->mechanism, state->q, state->v, slot(run, 0));
+  memcpy(slot(run, 0) + run->nq, a, (size_t)run->nv * sizeof *a);
   if (run->past < run->table->steps - 1) {
     return baum_rk4()->step(run->starter, problem, state, h, a);
   }
   double weights[BAUM_I_ADAMS_STEPS_MAX];
   double theta = run->on_grid ? 1.0 : h / (problem->direction * problem->step);
   find_weights(run->table, theta, weights);
-  add_rates(run, weights, h, 0, state->q);
-  add_rates(run, weights, h, run->nv, state->v);
+  add_rates(run, weights, h, 0, run->nq, state->q);
+  add_rates(run, weights, h, run->nq, run->nv, state->v);
+  baum_i_normalize(problem->workspace->mechanism, state->q);
   return BAUM_OK;
 }
 
@@ -138,10 +139,12 @@ baum_status baum_i_adams_create(const baum_i_adams_table *table, const baum_i_pr
     return baum_i_fail_memory();
   }
   run->table = table;
+  run->nq = problem->workspace->mechanism->nq;
   run->nv = problem->workspace->mechanism->nv;
   baum_status status = baum_rk4()->create(problem, start, &run->starter);
   if (status == BAUM_OK) {
-    run->slots = baum_i_alloc((size_t)table->steps * 2 * (size_t)run->nv, sizeof *run->slots);
+    run->slots =
+      baum_i_alloc((size_t)table->steps * (size_t)(run->nq + run->nv), sizeof *run->slots);
     status = run->slots ? BAUM_OK : baum_i_fail_memory();
   }
   if (status != BAUM_OK) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* One guarded step along the path q(t) of Phi(q, t) = 0, nc = nv independent rows, J square.
  *
- * Newton from a guess:       J dq = -Phi
+ * Newton from a guess:       J dq = -Phi,  q moved by dq
  * then                       J v = nu,  J a = gamma
  *
  * The pose found must lie on the branch on which the step began. Newton alone cannot tell: where two branches come
@@ -200,12 +200,10 @@ static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
       verdict->contraction = size / last;
     }
     if (!converges(k, size, last)) {
-      bool is_noise = worst <= NOISE * fmax(1.0, baum_i_scaled_size(m, pose->q));
+      bool is_noise = worst <= NOISE * fmax(1.0, baum_i_position_size(m, pose->q));
       return is_noise ? BAUM_OK : refuse(verdict, BAUM_I_REFUSAL_FAR);
     }
-    for (int i = 0; i < m->nv; i++) {
-      pose->q[i] += path->image[i];
-    }
+    baum_i_move(m, 1.0, path->image, pose->q);
     last = size;
   }
   return refuse(verdict, BAUM_I_REFUSAL_FAR);

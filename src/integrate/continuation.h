@@ -8,7 +8,7 @@
 /* A pose that fulfils the constraints, and what follows from it. */
 typedef struct baum_i_pose {
   double t;
-  double *q;    /* (nv) */
+  double *q;    /* (nq) */
   double *v;    /* (nv) J v = nu */
   double *a;    /* (nv) J a = gamma */
   double *turn; /* (nv) direction in which J has turned most since the pose before; 0 for none */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Explicit Euler, order 1 (L. Euler, 1768; with Baumgarte's gains: Flores et al. 2008, equations 12 to 19):
  *
- *   q(t + h) = q + h v        (nq)   N the identity, old velocities
+ *   q(t + h) = q moved by h v (nq)   old velocities
  *   v(t + h) = v + h a        (nv)
  *
  * A violation obeys z^2 + (2A - 2) z + (B - 2A + 1) (19), that is z = R(mu) with R(mu) = 1 + mu.
@@ -12,9 +12,9 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
                              double h, const double *a)
 {
   (void)self;
-  int nv = problem->workspace->mechanism->nv;
-  for (int i = 0; i < nv; i++) {
-    state->q[i] += h * state->v[i];
+  const baum_mechanism *m = problem->workspace->mechanism;
+  baum_i_move(m, h, state->v, state->q);
+  for (int i = 0; i < m->nv; i++) {
     state->v[i] += h * a[i];
   }
   return BAUM_OK;

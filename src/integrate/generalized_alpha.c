@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The generalized-alpha method (J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371-375) on the equations of index 3
- * (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202), order 2, N the identity:
+ * (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; where q is no vector O. Bruels, A. Cardona, M. Arnold,
+ * Mech. Mach. Theory 48 (2012) 121-137), order 2:
  *
  *   M v'_1 + J^T lambda_1 = g,  Phi(t_1, q_1) = 0                                 at t_1 = t + h
- *   q_1 = q + h v + h^2 ((1/2 - beta) a + beta a_1)                               (nq)
+ *   q_1 = q moved by x,  x = h v + h^2 ((1/2 - beta) a + beta a_1)                (nq), x (nv)
  *   v_1 = v + h ((1 - gamma) a + gamma a_1)                                       (nv)
  *   (1 - alpha_m) a_1 + alpha_m a = (1 - alpha_f) v'_1 + alpha_f v'               (nv)
  *
@@ -19,7 +20,8 @@
  * The first step after every beginning starts from the state projected onto the constraints: a violation would become
  * velocities of its size over h, which no equation takes back at once.
  *
- * Newton's method with the exact matrix, by dv = gamma / (beta h) dq and so on, in scaled multipliers: step_matrix.h.
+ * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled multipliers: step_matrix.h.
+ * (Where q is no vector it is exact but for terms of h times the angular velocity: x is added at q, not at q_1.)
  */
 #include "integrate/generalized_alpha.h"
 
@@ -68,6 +70,7 @@ typedef struct alpha_past {
 
 /* Memory of a run. */
 typedef struct alpha_run {
+  int nq;
   int nv;
   int nc;
   bool known;      /* `now` is that of the present state */
@@ -79,9 +82,10 @@ typedef struct alpha_run {
   int64_t iterations;
   baum_i_step_matrix *matrix;
   double *memory;   /* all below and above */
-  double *y;        /* (2 nv + nc) q, v, lambda */
-  double *dy;       /* (2 nv + nc) v, v', unused */
-  double *residual; /* (2 nv + nc) */
+  double *moved;    /* (nv) displacement from q of the state to that of y */
+  double *y;        /* (nq + nv + nc) q, v, lambda */
+  double *dy;       /* (nq + nv + nc) zeros, v', unused */
+  double *residual; /* (nq + nv + nc) */
   double *x;        /* (nv + nc) */
 } alpha_run;
 
@@ -101,11 +105,13 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   memcpy(run->now.lambda, w->lambda, (size_t)run->nc * sizeof *w->lambda);
   double shift = SHIFT * h;
   double *q = run->y;
-  double *v = run->y + nv;
+  double *v = run->y + run->nq;
   for (size_t i = 0; i < nv; i++) {
-    q[i] = state->q[i] + shift * (state->v[i] + 0.5 * shift * run->now.rate[i]);
+    run->moved[i] = state->v[i] + 0.5 * shift * run->now.rate[i];
     v[i] = state->v[i] + shift * run->now.rate[i];
   }
+  memcpy(q, state->q, (size_t)run->nq * sizeof *q);
+  baum_i_move(w->mechanism, shift, run->moved, q);
   status = baum_i_problem_acceleration(problem, state->t + shift, q, v);
   if (status != BAUM_OK) {
     return status;
@@ -145,40 +151,47 @@ static double present_a(const alpha_run *run, int i, double h)
   return same ? a : run->now.rate[i] + ratio * (a - run->now.rate[i]);
 }
 
-/* With v' and lambda as they are. */
-static void predict(alpha_run *run, const baum_i_state *state, double h)
+static void move_end(alpha_run *run, const baum_mechanism *m, const baum_i_state *state)
 {
-  int nv = run->nv;
-  for (int i = 0; i < nv; i++) {
+  memcpy(run->y, state->q, (size_t)run->nq * sizeof *run->y);
+  baum_i_move(m, 1.0, run->moved, run->y);
+}
+
+/* With v' and lambda as they are. */
+static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state *state, double h)
+{
+  double *v = run->y + run->nq;
+  for (int i = 0; i < run->nv; i++) {
     double rate = run->now.rate[i];
     double a = present_a(run, i, h);
     double a_next = next_a(rate, rate, a);
-    run->y[i] = state->q[i] + h * (state->v[i] + h * ((0.5 - BETA) * a + BETA * a_next));
-    run->y[nv + i] = state->v[i] + h * ((1.0 - GAMMA) * a + GAMMA * a_next);
-    run->dy[i] = run->y[nv + i];
-    run->dy[nv + i] = rate;
+    run->moved[i] = h * (state->v[i] + h * ((0.5 - BETA) * a + BETA * a_next));
+    v[i] = state->v[i] + h * ((1.0 - GAMMA) * a + GAMMA * a_next);
+    run->dy[run->nq + i] = rate;
   }
-  memcpy(run->y + 2 * (size_t)nv, run->now.lambda, (size_t)run->nc * sizeof *run->y);
+  move_end(run, m, state);
+  memcpy(v + run->nv, run->now.lambda, (size_t)run->nc * sizeof *run->y);
 }
 
 /* A change x of all unknowns. */
-static void apply(alpha_run *run, const baum_i_step_ratios *ratios)
+static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *state,
+                  const baum_i_step_ratios *ratios)
 {
-  int nv = run->nv;
-  for (int i = 0; i < nv; i++) {
-    run->y[i] += run->x[i];
-    run->y[nv + i] += ratios->by_v * run->x[i];
-    run->dy[i] = run->y[nv + i];
-    run->dy[nv + i] += ratios->by_a * run->x[i];
+  double *v = run->y + run->nq;
+  for (int i = 0; i < run->nv; i++) {
+    run->moved[i] += run->x[i];
+    v[i] += ratios->by_v * run->x[i];
+    run->dy[run->nq + i] += ratios->by_a * run->x[i];
   }
+  move_end(run, m, state);
   for (int i = 0; i < run->nc; i++) {
-    run->y[2 * nv + i] += run->x[nv + i] / ratios->scale;
+    v[run->nv + i] += run->x[run->nv + i] / ratios->scale;
   }
 }
 
 /* One iteration of Newton's; the size of its change of the positions. */
-static baum_status improve(alpha_run *run, const baum_i_problem *problem, double t,
-                           const baum_i_step_ratios *ratios, double *size)
+static baum_status improve(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
+                           double t, const baum_i_step_ratios *ratios, double *size)
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
@@ -186,7 +199,7 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, double
   if (status != BAUM_OK) {
     return status;
   }
-  const double *rest = run->residual + run->nv;
+  const double *rest = run->residual + run->nq;
   for (int i = 0; i < run->nv + run->nc; i++) {
     run->x[i] = -(i < run->nv ? ratios->scale : 1.0) * rest[i];
   }
@@ -197,7 +210,7 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, double
   }
   if (status == BAUM_OK) {
     baum_i_step_matrix_solve(run->matrix, run->x);
-    apply(run, ratios);
+    apply(run, w->mechanism, state, ratios);
     run->iterations++;
     *size = baum_i_scaled_size(w->mechanism, run->x);
   }
@@ -207,41 +220,43 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, double
 /* All unknowns up by some roundings; they are kept in `next`, which the end of the step fills. */
 static void nudge(alpha_run *run)
 {
-  size_t nv = (size_t)run->nv;
-  memcpy(run->next.a, run->y, nv * sizeof *run->y);
-  memcpy(run->next.rate, run->dy + nv, nv * sizeof *run->dy);
-  memcpy(run->next.lambda, run->y + 2 * nv, (size_t)run->nc * sizeof *run->y);
-  for (size_t i = 0; i < nv; i++) {
+  double *rate = run->dy + run->nq;
+  double *lambda = run->y + run->nq + run->nv;
+  memcpy(run->next.rate, rate, (size_t)run->nv * sizeof *rate);
+  memcpy(run->next.lambda, lambda, (size_t)run->nc * sizeof *lambda);
+  for (int i = 0; i < run->nq; i++) {
     run->y[i] *= 1.0 + NUDGE;
-    run->dy[nv + i] *= 1.0 + NUDGE;
+  }
+  for (int i = 0; i < run->nv; i++) {
+    rate[i] *= 1.0 + NUDGE;
   }
   for (int i = 0; i < run->nc; i++) {
-    run->y[2 * nv + (size_t)i] *= 1.0 + NUDGE;
+    lambda[i] *= 1.0 + NUDGE;
   }
 }
 
-static void take_back(alpha_run *run)
+static void take_back(alpha_run *run, const baum_mechanism *m, const baum_i_state *state)
 {
-  size_t nv = (size_t)run->nv;
-  memcpy(run->y, run->next.a, nv * sizeof *run->y);
-  memcpy(run->dy + nv, run->next.rate, nv * sizeof *run->dy);
-  memcpy(run->y + 2 * nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
+  move_end(run, m, state);
+  memcpy(run->dy + run->nq, run->next.rate, (size_t)run->nv * sizeof *run->dy);
+  memcpy(run->y + run->nq + run->nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
 }
 
 /* Size of the change of the positions that rounding asks for: what the equations change by when all unknowns do so in
  * their last digits, with signs of its own in each row, for rows are rounded each by itself. */
-static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
-                              const baum_i_step_ratios *ratios, double *noise)
+static baum_status find_noise(alpha_run *run, const baum_i_problem *problem,
+                              const baum_i_state *state, double t, const baum_i_step_ratios *ratios,
+                              double *noise)
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
-  const double *rest = run->residual + run->nv;
+  const double *rest = run->residual + run->nq;
   baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
   if (status == BAUM_OK) {
     nudge(run);
     status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
-    take_back(run);
+    take_back(run, w->mechanism, state);
   }
   if (status == BAUM_OK) {
     for (int i = 0; i < run->nv + run->nc; i++) {
@@ -264,7 +279,7 @@ static limits find_limits(const alpha_run *run, const baum_i_problem *problem,
 {
   const baum_mechanism *m = problem->workspace->mechanism;
   double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
-  double rounding = ROUNDINGS * fmax(1.0, baum_i_scaled_size(m, state->q));
+  double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
   return (limits){fmax(CONVERGED * BETA * h * h * acceleration, rounding), STALLED * rounding};
 }
 
@@ -295,14 +310,14 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     double before = size;
-    baum_status status = improve(run, problem, state->t + h, &ratios, &size);
+    baum_status status = improve(run, problem, state, state->t + h, &ratios, &size);
     if (status != BAUM_OK) {
       return status;
     }
     bool done = is_last(&last, size, before);
     if (!done && k > 1 && size > 0.5 * before && size <= LARGEST_NOISE) {
       double noise = 0.0;
-      status = find_noise(run, problem, state->t + h, &ratios, &noise);
+      status = find_noise(run, problem, state, state->t + h, &ratios, &noise);
       done = size <= NOISES * noise;
     }
     if (status != BAUM_OK || done) {
@@ -324,20 +339,21 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   int nv = run->nv;
   baum_status status = prepare(run, problem, state);
   if (status == BAUM_OK) {
-    predict(run, state, h);
+    predict(run, problem->workspace->mechanism, state, h);
     status = iterate(run, problem, state, h);
   }
   if (status != BAUM_OK) {
     return status;
   }
   run->trial = h;
+  const double *v = run->y + run->nq;
   for (int i = 0; i < nv; i++) {
-    run->next.rate[i] = run->dy[nv + i];
+    run->next.rate[i] = run->dy[run->nq + i];
     run->next.a[i] = next_a(run->next.rate[i], run->now.rate[i], present_a(run, i, h));
-    state->q[i] = run->y[i];
-    state->v[i] = run->y[nv + i];
   }
-  memcpy(run->next.lambda, run->y + 2 * (size_t)nv, (size_t)run->nc * sizeof *run->y);
+  memcpy(state->q, run->y, (size_t)run->nq * sizeof *v);
+  memcpy(state->v, v, (size_t)nv * sizeof *v);
+  memcpy(run->next.lambda, v + nv, (size_t)run->nc * sizeof *v);
   return BAUM_OK;
 }
 
@@ -392,7 +408,8 @@ static bool make_memory(alpha_run *run)
 {
   int nv = run->nv;
   int nc = run->nc;
-  size_t count = 11 * (size_t)nv + 6 * (size_t)nc;
+  int whole = run->nq + nv + nc;
+  size_t count = 3 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
   run->memory = baum_i_alloc(count, sizeof *run->memory);
   if (!run->memory) {
     return false;
@@ -404,9 +421,10 @@ static bool make_memory(alpha_run *run)
     pasts[k]->a = take(&next, nv);
     pasts[k]->lambda = take(&next, nc);
   }
-  run->y = take(&next, 2 * nv + nc);
-  run->dy = take(&next, 2 * nv + nc);
-  run->residual = take(&next, 2 * nv + nc);
+  run->moved = take(&next, nv);
+  run->y = take(&next, whole);
+  run->dy = take(&next, whole);
+  run->residual = take(&next, whole);
   run->x = take(&next, nv + nc);
   return true;
 }
@@ -419,6 +437,7 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
   if (!run) {
     return baum_i_fail_memory();
   }
+  run->nq = problem->workspace->mechanism->nq;
   run->nv = problem->workspace->mechanism->nv;
   run->nc = problem->workspace->mechanism->nc;
   baum_status status = make_memory(run) ? BAUM_OK : baum_i_fail_memory();

@@ -2,7 +2,8 @@
 /* What all integrators share: facts about one, the accelerations and tolerances it works with.
  * Names no integrator, so that a program links only those it calls.
  *
- * Tolerances of coordinate i with scale s_i (a length or an angle), rate w = 1/T and present size |v|:
+ * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate w = 1/T and present
+ * size |v|:
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
  * so that neither the number of turns of a crank nor the choice of units makes a difference.
@@ -148,13 +149,13 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
                                double *tolerance_v)
 {
   const baum_mechanism *mechanism = problem->workspace->mechanism;
-  double rate = problem->rate;
-  for (int i = 0; i < mechanism->nv; i++) {
-    rate = fmax(rate, fabs(v[i]) / mechanism->scale[i]);
+  double rate = fmax(problem->rate, baum_i_scaled_size(mechanism, v));
+  for (int i = 0; i < mechanism->nq; i++) {
+    double tolerance = problem->rtol * mechanism->position_scale[i];
+    tolerance_q[i] = problem->tolerance_q * (tolerance + problem->atol);
   }
   for (int i = 0; i < mechanism->nv; i++) {
     double tolerance = problem->rtol * mechanism->scale[i];
-    tolerance_q[i] = problem->tolerance_q * (tolerance + problem->atol);
     tolerance_v[i] = problem->tolerance_v * (tolerance * rate + problem->atol);
   }
 }

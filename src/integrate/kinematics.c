@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Kinematics: mechanisms without freedom, whose every coordinate follows from Phi(q, t) = 0. Continuation in time:
  *
- *   guess at t + h        q + h v + h^2 a / 2
+ *   guess at t + h        q moved by h v + h^2 a / 2
  *   then                  the pose there, its v and a (continuation.c)
- *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends
+ *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements from one of them
  *
  * The step follows what the last one has shown: the contraction of Newton's iteration grows with the error of the
  * guess, as h^3, the turning of J as h. Nothing is integrated and no error accumulates: a pose asked for is solved to
@@ -60,7 +60,7 @@ static void copy_pose(const baum_mechanism *m, const baum_i_pose *from, baum_i_p
 {
   size_t size = (size_t)m->nv * sizeof(double);
   to->t = from->t;
-  memcpy(to->q, from->q, size);
+  memcpy(to->q, from->q, (size_t)m->nq * sizeof(double));
   memcpy(to->v, from->v, size);
   memcpy(to->a, from->a, size);
   memcpy(to->turn, from->turn, size);
@@ -74,18 +74,23 @@ static void swap(baum_i_pose **a, baum_i_pose **b)
   *b = kept;
 }
 
-static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double t, double *q)
+/* work (nv). */
+static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double t, double *q,
+                        double *work)
 {
   double h = t - from->t;
   for (int i = 0; i < m->nv; i++) {
-    q[i] = from->q[i] + h * (from->v[i] + 0.5 * h * from->a[i]);
+    work[i] = from->v[i] + 0.5 * h * from->a[i];
   }
+  memcpy(q, from->q, (size_t)m->nq * sizeof *q);
+  baum_i_move(m, h, work, q);
 }
 
 /* Hermite's polynomial through both ends. */
 static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m, double t,
                               double *q)
 {
+  double *dx = run->path.image;
   const baum_i_pose *l = run->left;
   const baum_i_pose *r = run->right;
   double h = r->t - l->t;
@@ -96,10 +101,12 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
   double l2 = 0.5 * h * h * u * u * u * s * s;
   double r1 = -h * s * s * s * u * (1.0 + 3.0 * u);
   double r2 = 0.5 * h * h * s * s * s * u * u;
+  baum_i_difference(m, r->q, l->q, dx);
   for (int i = 0; i < m->nv; i++) {
-    q[i] = r->q[i] + l0 * (l->q[i] - r->q[i]) + l1 * l->v[i] + l2 * l->a[i] + r1 * r->v[i] +
-           r2 * r->a[i];
+    dx[i] = l0 * dx[i] + l1 * l->v[i] + l2 * l->a[i] + r1 * r->v[i] + r2 * r->a[i];
   }
+  memcpy(q, r->q, (size_t)m->nq * sizeof *q);
+  baum_i_move(m, 1.0, dx, q);
 }
 
 /* ---- steps ---- */
@@ -216,7 +223,7 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
     baum_i_verdict verdict;
     bool last = *h >= fabs(t_end - from->t);
     to->t = last ? t_end : from->t + problem->direction * *h;
-    extrapolate(m, from, to->t, to->q);
+    extrapolate(m, from, to->t, to->q, run->path.image);
     baum_status status = solve(run, from, to, &verdict);
     if (status != BAUM_OK) {
       return say_when(from, status);
@@ -404,15 +411,16 @@ static void destroy(void *self)
 static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
 {
   size_t nv = (size_t)m->nv;
-  size_t size = 4 * nv + (size_t)m->jacobian_size;
+  size_t size = (size_t)m->nq + 3 * nv + (size_t)m->jacobian_size;
   run->memory = baum_i_alloc(POSES * size, sizeof *run->memory);
   if (!run->memory) {
     return baum_i_fail_memory();
   }
   for (size_t k = 0; k < POSES; k++) {
     double *at = run->memory + k * size;
-    run->poses[k] = (baum_i_pose){
-      .q = at, .v = at + nv, .a = at + 2 * nv, .turn = at + 3 * nv, .jacobian = at + 4 * nv};
+    double *v = at + m->nq;
+    run->poses[k] =
+      (baum_i_pose){.q = at, .v = v, .a = v + nv, .turn = v + 2 * nv, .jacobian = v + 3 * nv};
   }
   run->left = &run->poses[0];
   run->right = &run->poses[1];

@@ -11,14 +11,13 @@ static const double SLOW = 0.1;
 static baum_status look_behind(const baum_i_problem *problem, const baum_i_state *state, double dt,
                                double *room)
 {
-  int nv = problem->workspace->mechanism->nv; /* nq = nv so far */
-  for (int i = 0; i < nv; i++) {
-    room[i] = state->q[i] + dt * state->v[i];
-    room[nv + i] = state->v[i];
-  }
-  baum_status status = baum_i_project(problem->workspace, state->t + dt, room, room + nv);
-  return status == BAUM_OK ? baum_i_problem_motion(problem, state->t + dt, room, room + nv)
-                           : status;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double *v = room + m->nq;
+  memcpy(room, state->q, (size_t)m->nq * sizeof *room);
+  memcpy(v, state->v, (size_t)m->nv * sizeof *v);
+  baum_i_move(m, dt, v, room);
+  baum_status status = baum_i_project(problem->workspace, state->t + dt, room, v);
+  return status == BAUM_OK ? baum_i_problem_motion(problem, state->t + dt, room, v) : status;
 }
 
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,

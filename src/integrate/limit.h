@@ -13,7 +13,7 @@
 /* Smallest pivot, of the usual one, below which the limit is closer: 0.0002 rad from the pose. */
 #define BAUM_I_PIVOT_IN_POSE 4e-8
 
-/* Into limit (nv); room (2 nv). Leaves other states in the workspace. false: there is none, for nothing moves to speak of
+/* Into limit (nv); room (nq + nv). Leaves other states in the workspace. false: there is none, for nothing moves to speak of
  * or an evaluation fails. */
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,
                                double *room, double *limit);

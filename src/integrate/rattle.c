@@ -4,16 +4,16 @@
  * constant M and forces g(t, q):
  *
  *   v'       = v + (h/2) M^-1 (g(t, q) - J(q)^T lambda)             (nv)
- *   q(t + h) = q + h v',                  Phi(q(t + h)) = 0         (nq)   gives lambda
+ *   q(t + h) = q moved by h v',           Phi(q(t + h)) = 0         (nq)   gives lambda
  *   v(t + h) = v' + (h/2) M^-1 (g - J^T mu)  at q(t + h),  J v = nu        gives mu
  *
  * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of width O(h^2).
  * With constraints and forces of time it is so in the phase space that has time and its momentum, too.
  *
  * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form M^-1 (g - J^T lambda),
- * so that q + h v + (h^2/2) a is where Newton's method begins, and its matrix J(q) M^-1 J(q)^T may be held: what it
- * gives are changes dq along M^-1 J(q)^T. The half velocity is v + (h/2) a + (sum of dq) / h, whose last part is small,
- * so that the rounding of q does not come into v divided by h.
+ * so that Newton's method begins with v' = v + (h/2) a, and its matrix J(q) M^-1 J(q)^T may be held: what it gives are
+ * changes dq along M^-1 J(q)^T, of v' by dq / h. The end is moved by h v' from q each time, so that the rounding of q does
+ * not come into v divided by h.
  */
 #include <float.h>
 #include <math.h>
@@ -37,9 +37,8 @@ typedef struct rattle_run {
   int nv;
   int64_t iterations;
   double *memory; /* all below */
-  double *q;      /* (nv) end of the step */
+  double *q;      /* (nq) end of the step */
   double *v;      /* (nv) half velocities */
-  double *change; /* (nv) sum of dq */
 } rattle_run;
 
 /* ---- positions ---- */
@@ -63,6 +62,13 @@ static baum_status fail(double t, double size)
                      t, size);
 }
 
+static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,
+                     double h)
+{
+  memcpy(run->q, state->q, (size_t)m->nq * sizeof *run->q);
+  baum_i_move(m, h, run->v, run->q);
+}
+
 static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum_i_state *state,
                                   double h)
 {
@@ -77,12 +83,12 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
     }
     run->iterations++;
     for (int i = 0; i < run->nv; i++) {
-      run->q[i] += w->a[i];
-      run->change[i] += w->a[i];
+      run->v[i] += w->a[i] / h;
     }
+    move_end(run, m, state, h);
     double before = size;
     size = baum_i_scaled_size(m, w->a);
-    if (is_last(size, before, ROUNDING * fmax(1.0, baum_i_scaled_size(m, run->q)))) {
+    if (is_last(size, before, ROUNDING * fmax(1.0, baum_i_position_size(m, run->q)))) {
       return BAUM_OK;
     }
     if (!(size < 2.0 * before)) {
@@ -102,22 +108,18 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   int nv = run->nv;
   for (int i = 0; i < nv; i++) {
     run->v[i] = state->v[i] + 0.5 * h * a[i];
-    run->q[i] = state->q[i] + h * run->v[i];
-    run->change[i] = 0.0;
   }
+  move_end(run, w->mechanism, state, h);
   baum_status status = w->mechanism->nc > 0 ? find_positions(run, w, state, h) : BAUM_OK;
   if (status != BAUM_OK) {
     return status;
-  }
-  for (int i = 0; i < nv; i++) {
-    run->v[i] += run->change[i] / h;
   }
   status = baum_i_hold_velocities(w, state->t + h, run->q, run->v, 2.0 / h);
   if (status != BAUM_OK) {
     return status;
   }
+  memcpy(state->q, run->q, (size_t)w->mechanism->nq * sizeof *run->q);
   for (int i = 0; i < nv; i++) {
-    state->q[i] = run->q[i];
     state->v[i] = run->v[i] + 0.5 * h * w->a[i];
   }
   return BAUM_OK;
@@ -180,16 +182,16 @@ static baum_status make_run(const baum_i_problem *problem, void **out)
   if (!run) {
     return baum_i_fail_memory();
   }
+  size_t nq = (size_t)problem->workspace->mechanism->nq;
   size_t nv = (size_t)problem->workspace->mechanism->nv;
   run->nv = (int)nv;
-  run->memory = baum_i_alloc(3 * nv, sizeof *run->memory);
+  run->memory = baum_i_alloc(nq + nv, sizeof *run->memory);
   if (!run->memory) {
     destroy(run);
     return baum_i_fail_memory();
   }
   run->q = run->memory;
-  run->v = run->q + nv;
-  run->change = run->v + nv;
+  run->v = run->q + nq;
   *out = run;
   return BAUM_OK;
 }

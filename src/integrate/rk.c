@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Explicit Runge-Kutta methods for q' = N v, v' = a(t, q, v) (C. Runge, 1895; W. Kutta, 1901; table: J. Butcher,
- * 1964). With y = (q, v), s stages, N the identity so far:
+ * 1964). With y = (q, v), s stages:
  *
- *   Y_i = (Q_i, V_i) = y + h sum_{j<i} a_ij K_j               (2 nv)  i = 1 .. s
- *   K_i = (V_i, A_i),  A_i = a(t + c_i h, Q_i, V_i)           (2 nv)  A_1 is given by the caller
- *   y(t + h) = y + h sum b_i K_i
+ *   Y_i = (Q_i, V_i) = y + h sum_{j<i} a_ij K_j                  (nq + nv)  i = 1 .. s
+ *   K_i = (N(Q_i) V_i, A_i),  A_i = a(t + c_i h, Q_i, V_i)       (nq + nv)  A_1 is given by the caller
+ *   y(t + h) = y + h sum b_i K_i,  its q normalized
  *
  * The state is written last, so that a failing stage leaves it as it was.
  */
@@ -28,20 +28,21 @@ double *baum_i_rk_rate(const baum_i_rk *rk, int stage)
   return rk->rates + (size_t)stage * (size_t)rk->size;
 }
 
-static void keep(const baum_i_rk *rk, int stage, const double *v, const double *a)
+/* K_stage at (q, v). */
+static void keep(const baum_i_rk *rk, const baum_mechanism *m, int stage, const double *q,
+                 const double *v, const double *a)
 {
-  size_t bytes = (size_t)rk->nv * sizeof *a;
   double *rate = baum_i_rk_rate(rk, stage);
-  memcpy(rate, v, bytes);
-  memcpy(rate + rk->nv, a, bytes);
+  baum_i_rate(m, q, v, rate);
+  memcpy(rate + rk->nq, a, (size_t)rk->nv * sizeof *a);
 }
 
 baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *problem, double t,
                                const double *y, int stage)
 {
-  baum_status status = baum_i_problem_motion(problem, t, y, y + rk->nv);
+  baum_status status = baum_i_problem_motion(problem, t, y, y + rk->nq);
   if (status == BAUM_OK) {
-    keep(rk, stage, y + rk->nv, problem->workspace->a);
+    keep(rk, problem->workspace->mechanism, stage, y, y + rk->nq, problem->workspace->a);
   }
   return status;
 }
@@ -68,15 +69,16 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
                            const double *a)
 {
   const baum_i_rk *rk = self;
-  size_t bytes = (size_t)rk->nv * sizeof *a;
-  memcpy(rk->start, state->q, bytes);
-  memcpy(rk->start + rk->nv, state->v, bytes);
-  keep(rk, 0, state->v, a);
+  const baum_mechanism *m = problem->workspace->mechanism;
+  memcpy(rk->start, state->q, (size_t)rk->nq * sizeof *a);
+  memcpy(rk->start + rk->nq, state->v, (size_t)rk->nv * sizeof *a);
+  keep(rk, m, 0, state->q, state->v, a);
   baum_status status = baum_i_rk_stages(rk, problem, state->t, h);
   if (status == BAUM_OK) {
     baum_i_rk_combine(rk, rk->table->stages, rk->table->b, h, rk->point);
-    memcpy(state->q, rk->point, bytes);
-    memcpy(state->v, rk->point + rk->nv, bytes);
+    baum_i_normalize(m, rk->point);
+    memcpy(state->q, rk->point, (size_t)rk->nq * sizeof *a);
+    memcpy(state->v, rk->point + rk->nq, (size_t)rk->nv * sizeof *a);
   }
   return status;
 }
@@ -86,10 +88,10 @@ baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
                            double **more)
 {
   const size_t lanes = BAUM_I_RK_LANES;
-  int nv = problem->workspace->mechanism->nv;
-  size_t size = (2 * (size_t)nv + lanes - 1) / lanes * lanes;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  size_t size = ((size_t)m->nq + (size_t)m->nv + lanes - 1) / lanes * lanes;
   size_t arrays = (size_t)rate_count + 2 + (size_t)more_count;
-  *rk = (baum_i_rk){.table = table, .nv = nv, .size = (int)size};
+  *rk = (baum_i_rk){.table = table, .nq = m->nq, .nv = m->nv, .size = (int)size};
   rk->kernel = BAUM_I_HOT_TABLE(baum_i_rk_kernel);
   rk->rates = baum_i_alloc(arrays * size, sizeof *rk->rates);
   if (!rk->rates) {

@@ -15,14 +15,15 @@ typedef struct baum_i_rk_table {
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size` entries: nv
+/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size` entries: nq
  * positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
   const baum_i_rk_kernel *kernel;
+  int nq;
   int nv;
   int size;
-  double *rates; /* (rate_count x size) K_i = (V_i, A_i) */
+  double *rates; /* (rate_count x size) K_i = (N V_i, A_i) */
   double *start; /* (size) (q, v) at the start of the step */
   double *point; /* (size) (Q_i, V_i) of the present stage */
 } baum_i_rk;

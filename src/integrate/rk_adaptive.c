@@ -116,9 +116,9 @@ static baum_status fail_short(const adaptive_run *run, const baum_i_problem *pro
 
 static void weigh(adaptive_run *run, const baum_i_problem *problem)
 {
-  int nv = run->rk.nv;
-  baum_i_problem_tolerances(problem, run->rk.start + nv, run->weights, run->weights + nv);
-  for (int i = 0; i < 2 * nv; i++) {
+  int nq = run->rk.nq;
+  baum_i_problem_tolerances(problem, run->rk.start + nq, run->weights, run->weights + nq);
+  for (int i = 0; i < nq + run->rk.nv; i++) {
     run->weights[i] = 1.0 / run->weights[i];
   }
 }
@@ -129,7 +129,7 @@ static baum_status check_tolerances(const adaptive_run *run, const baum_i_proble
   static const double ONE = 1.0;
   const baum_i_rk *rk = &run->rk;
   double squares = rk->kernel->square(rk->size, 1, &ONE, rk->start, run->weights);
-  if (!(DBL_EPSILON * sqrt(squares / (2.0 * rk->nv)) > 1.0)) {
+  if (!(DBL_EPSILON * sqrt(squares / (rk->nq + rk->nv)) > 1.0)) {
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_STEP,
@@ -148,7 +148,7 @@ static double square(const adaptive_run *run, const double *weights)
 static double estimate(const adaptive_run *run, double h)
 {
   const baum_i_rk_pair *pair = run->pair;
-  double count = 2.0 * run->rk.nv;
+  double count = run->rk.nq + run->rk.nv;
   double squares = square(run, pair->error);
   if (!pair->error3) {
     return fabs(h) * sqrt(squares / count);
@@ -164,8 +164,8 @@ static double first_step(const adaptive_run *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
   const baum_mechanism *m = problem->workspace->mechanism;
-  const double *a = baum_i_rk_rate(rk, 0) + rk->nv;
-  double rate = fmax(problem->rate, baum_i_state_rate(m, rk->start + rk->nv, a));
+  const double *a = baum_i_rk_rate(rk, 0) + rk->nq;
+  double rate = fmax(problem->rate, baum_i_state_rate(m, rk->start + rk->nq, a));
   double tolerance = problem->rtol * fmin(problem->tolerance_q, problem->tolerance_v);
   return pow(fmin(tolerance, 1.0), 1.0 / run->pair->error_order) / rate;
 }
@@ -174,13 +174,12 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
                                        const baum_i_state *state)
 {
   adaptive_run *run = self;
-  size_t bytes = (size_t)run->rk.nv * sizeof *state->q;
   run->unfinished = true;
   run->has_step = false;
   run->last.status = BAUM_OK;
   run->t = state->t;
-  memcpy(run->rk.start, state->q, bytes);
-  memcpy(run->rk.start + run->rk.nv, state->v, bytes);
+  memcpy(run->rk.start, state->q, (size_t)run->rk.nq * sizeof *state->q);
+  memcpy(run->rk.start + run->rk.nq, state->v, (size_t)run->rk.nv * sizeof *state->v);
   baum_status status = baum_i_rk_evaluate(&run->rk, problem, run->t, run->rk.start, 0);
   if (status != BAUM_OK) {
     remember(run, status);
@@ -232,16 +231,16 @@ static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
 static baum_status project_end(const adaptive_run *run, const baum_i_problem *problem,
                                double *moved)
 {
-  int nv = run->rk.nv;
+  int nq = run->rk.nq;
   double *before = run->dense; /* has none of this step yet */
   double squares = 0.0;
-  memcpy(before, run->end, (size_t)nv * sizeof *before);
-  baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nv);
-  for (int i = 0; i < nv; i++) {
+  memcpy(before, run->end, (size_t)nq * sizeof *before);
+  baum_status status = baum_i_project(problem->workspace, run->t_end, run->end, run->end + nq);
+  for (int i = 0; i < nq; i++) {
     double move = (run->end[i] - before[i]) * run->weights[i];
     squares += move * move;
   }
-  *moved = sqrt(squares / nv);
+  *moved = sqrt(squares / nq);
   return status;
 }
 
@@ -252,6 +251,7 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
   const baum_i_rk *rk = &run->rk;
   baum_status status = BAUM_OK;
   double moved = 0.0;
+  baum_i_normalize(problem->workspace->mechanism, run->end);
   if (problem->formulation == BAUM_FORMULATION_PROJECTION) {
     status = project_end(run, problem, &moved);
   }
@@ -293,7 +293,6 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
  * the next needs to get over it. */
 static void accept(adaptive_run *run, double error, double length, baum_i_state *state)
 {
-  size_t bytes = (size_t)run->rk.nv * sizeof *state->q;
   double wanted = run->control.step;
   baum_i_step_control_accept(&run->control, fabs(run->h), error);
   if (length < wanted) {
@@ -302,8 +301,8 @@ static void accept(adaptive_run *run, double error, double length, baum_i_state 
   run->has_step = true;
   run->has_dense = false;
   state->t = run->t_end;
-  memcpy(state->q, run->end, bytes);
-  memcpy(state->v, run->end + run->rk.nv, bytes);
+  memcpy(state->q, run->end, (size_t)run->rk.nq * sizeof *state->q);
+  memcpy(state->v, run->end + run->rk.nq, (size_t)run->rk.nv * sizeof *state->v);
 }
 
 /* From where the step begins by about this length. */
@@ -451,7 +450,6 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
                                            double *q, double *v)
 {
   adaptive_run *run = self;
-  int nv = run->rk.nv;
   if (!run->has_step || !((t - run->t) * (t - run->t_end) <= 0.0)) {
     return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
                        run->pair->name);
@@ -461,10 +459,13 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
     return status;
   }
   double x = (t - run->t) / run->h;
-  for (int i = 0; i < nv; i++) {
+  for (int i = 0; i < run->rk.nq; i++) {
     q[i] = value_at(run, x, i);
-    v[i] = value_at(run, x, nv + i);
   }
+  for (int i = 0; i < run->rk.nv; i++) {
+    v[i] = value_at(run, x, run->rk.nq + i);
+  }
+  baum_i_normalize(problem->workspace->mechanism, q);
   return BAUM_OK;
 }
 

@@ -34,7 +34,7 @@ static const double TINY = 1e-8;
 /* [1/s] at which the mechanism moves. */
 static double find_rate(const baum_i_rk *rk, const baum_i_problem *problem)
 {
-  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nv);
+  double rate = baum_i_scaled_size(problem->workspace->mechanism, rk->start + rk->nq);
   return fmax(rate, problem->rate);
 }
 
@@ -67,12 +67,15 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
-  const double *v = rk->start + rk->nv;
-  const double *a = baum_i_rk_rate(rk, 0) + rk->nv;
+  const double *v = rk->start + rk->nq;
+  const double *a = baum_i_rk_rate(rk, 0) + rk->nq;
+  double *mean = rk->point + rk->nq;
   double dt = problem->direction * FURTHER / find_rate(rk, problem);
   for (int i = 0; i < rk->nv; i++) {
-    rk->point[i] = rk->start[i] + dt * (v[i] + 0.5 * dt * a[i]);
+    mean[i] = v[i] + 0.5 * dt * a[i];
   }
+  memcpy(rk->point, rk->start, (size_t)rk->nq * sizeof *v);
+  baum_i_move(problem->workspace->mechanism, dt, mean, rk->point);
   if (baum_i_problem_motion(problem, t, rk->point, v) == BAUM_OK) {
     (void)see_pivot(crossing, problem);
   }
@@ -81,10 +84,10 @@ static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
 /* The first rate of a start in a pose. */
 static void take_limit(const baum_i_rk *rk, const baum_i_problem *problem, double t)
 {
-  const baum_i_state start = {.t = t, .q = rk->start, .v = rk->start + rk->nv};
+  const baum_i_state start = {.t = t, .q = rk->start, .v = rk->start + rk->nq};
   double *limit = baum_i_rk_rate(rk, 1);
   if (baum_i_limit_acceleration(problem, &start, rk->point, limit)) {
-    memcpy(baum_i_rk_rate(rk, 0) + rk->nv, limit, (size_t)rk->nv * sizeof *limit);
+    memcpy(baum_i_rk_rate(rk, 0) + rk->nq, limit, (size_t)rk->nv * sizeof *limit);
   }
 }
 
@@ -113,7 +116,7 @@ static double find_ahead(const baum_i_rk_crossing *crossing, const baum_i_rk *rk
   const double one = 1.0;
   double dt = problem->direction * LOOK / find_rate(rk, problem);
   baum_i_rk_combine(rk, 1, &one, dt, rk->point);
-  baum_status status = baum_i_problem_motion(problem, t + dt, rk->point, rk->point + rk->nv);
+  baum_status status = baum_i_problem_motion(problem, t + dt, rk->point, rk->point + rk->nq);
   double now = sqrt(crossing->pivot);
   double then = sqrt(baum_i_smallest_pivot(problem->workspace, NULL) / crossing->usual);
   return status == BAUM_OK && then < now ? fabs(dt) * now / (now - then) : (double)INFINITY;

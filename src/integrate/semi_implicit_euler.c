@@ -2,7 +2,7 @@
 /* Semi-implicit Euler, order 1, symplectic without constraints (R. de Vogelaere, 1956):
  *
  *   v(t + h) = v + h a        (nv)
- *   q(t + h) = q + h v(t + h) (nq)   N the identity, new velocities
+ *   q(t + h) = q moved by h v(t + h)   (nq)   new velocities
  *
  * A violation obeys z^2 + (B + 2A - 2) z + (1 - 2A), which is not the polynomial (19) of explicit Euler: its
  * dead-beat point is alpha = 1/(2h), beta = 1/h, and that of explicit Euler is unstable here.
@@ -13,11 +13,11 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
                              double h, const double *a)
 {
   (void)self;
-  int nv = problem->workspace->mechanism->nv;
-  for (int i = 0; i < nv; i++) {
+  const baum_mechanism *m = problem->workspace->mechanism;
+  for (int i = 0; i < m->nv; i++) {
     state->v[i] += h * a[i];
-    state->q[i] += h * state->v[i];
   }
+  baum_i_move(m, h, state->v, state->q);
   return BAUM_OK;
 }
 

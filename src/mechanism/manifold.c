@@ -49,11 +49,12 @@ static void shift_body(const baum_i_body *body, double h, const double *dq, cons
   body->manifold->normalize(body, out);
 }
 
-/* By a central difference, of which both errors are of that size: its step squared, and rounding over its step. */
+/* Steps of central differences, in relevant changes: errors are its square, and rounding over it. */
+static const double STEP = 1e-5;
+
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,
                          const double *dq, double *dx, double *work)
 {
-  static const double STEP = 1e-5;
   double size = 0.0;
   for (int i = 0; i < body->nq; i++) {
     size = fmax(size, fabs(dq[i]) / scale[i]);
@@ -64,6 +65,40 @@ static void tangent_body(const baum_i_body *body, const double *scale, const dou
   body->manifold->difference(body, work, work + body->nq, dx);
   for (int i = 0; i < body->nv; i++) {
     dx[i] = h > 0.0 ? dx[i] / (2.0 * h) : 0.0;
+  }
+}
+
+/* Rate where q is moved by h along column j; direction (nv) is set. */
+static void rate_beside(const baum_i_body *body, double h, int j, const double *q, const double *v,
+                        double *dq, double *direction, double *moved)
+{
+  for (int i = 0; i < body->nv; i++) {
+    direction[i] = i == j ? 1.0 : 0.0;
+  }
+  memcpy(moved, q, (size_t)body->nq * sizeof *q);
+  body->manifold->move(body, h, direction, moved);
+  body->manifold->rate(body, moved, v, dq);
+}
+
+static void linearize_body(const baum_mechanism *m, const baum_i_body *body, const double *q,
+                           const double *v, double *block, double *work)
+{
+  double *ahead = work;
+  double *behind = ahead + body->nq;
+  double *moved = behind + body->nq;
+  double *column = moved + 2 * (size_t)body->nq;
+  double *direction = column + body->nq;
+  for (int j = 0; j < body->nv; j++) {
+    double h = STEP * m->scale[body->v + j];
+    rate_beside(body, h, j, q, v, ahead, direction, moved);
+    rate_beside(body, -h, j, q, v, behind, direction, moved);
+    for (int i = 0; i < body->nq; i++) {
+      ahead[i] = (ahead[i] - behind[i]) / (2.0 * h);
+    }
+    tangent_body(body, m->position_scale + body->q, q, ahead, column, moved);
+    for (int i = 0; i < body->nv; i++) {
+      block[i * body->nv + j] = column[i];
+    }
   }
 }
 
@@ -133,6 +168,17 @@ void baum_i_tangent(const baum_mechanism *m, const double *q, const double *dq, 
                    work);
     } else {
       memcpy(dx + body->v, dq + body->q, (size_t)body->nv * sizeof *dx);
+    }
+  }
+}
+
+void baum_i_linearize_rate(const baum_mechanism *m, const double *q, const double *v,
+                           double *blocks, double *work)
+{
+  for (int k = 1; k <= m->body_count && !m->flat; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->manifold) {
+      linearize_body(m, body, q + body->q, v + body->v, blocks + body->mass, work);
     }
   }
 }

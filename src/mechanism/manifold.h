@@ -26,10 +26,18 @@ void baum_i_difference(const baum_mechanism *mechanism, const double *from, cons
 /* q becomes the nearest one on the manifold; nothing where the mechanism is flat. */
 void baum_i_normalize(const baum_mechanism *mechanism, double *q);
 
-/* The nearest velocities to rates: dx (nv) of dq (nq) = N(q) dx, with q on the manifold. work
- * (2 nq). Copies where the mechanism is flat. */
+/* Work of the next two, in units of nq >= nv. */
+enum { BAUM_I_MANIFOLD_WORK = 6 };
+
+/* N^+ dq (nv), the velocities nearest to rates dq (nq), with q on the manifold. Copies where the
+ * mechanism is flat. */
 void baum_i_tangent(const baum_mechanism *mechanism, const double *q, const double *dq, double *dx,
                     double *work);
+
+/* N^+ (N v)_q N, how rates at constant v change with a displacement of q: blocks nv x nv at the
+ * `mass` of bodies with a manifold. */
+void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
+                           double *blocks, double *work);
 
 /* As baum_i_move(), of the local columns of a span. */
 void baum_i_span_move(const baum_mechanism *mechanism, const baum_i_span *span, double h,

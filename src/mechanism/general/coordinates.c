@@ -59,6 +59,10 @@ static baum_status check(const baum_mechanism *mechanism, const void *given, con
   if (def->position_count != 0) {
     BAUM_I_TRY(baum_i_check_count(label, "position_count", def->position_count));
   }
+  if (baum_i_coordinates_positions(def) < def->size) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: position_count is %d, must be at least size (%d)",
+                       label, (int)def->position_count, (int)def->size);
+  }
   BAUM_I_TRY(check_arrays(def, label));
   BAUM_I_TRY(baum_i_check_given(label, "mass()", def->mass != NULL));
   BAUM_I_TRY(baum_i_check_given(label, "force()", def->force != NULL));
