@@ -90,8 +90,8 @@ struct baum_workspace {
   const double *row_gains; /* (nc) factors on the gains of rows, of the run; NULL: 1 */
   double *metric;          /* (nv) diagonal of W, once metric_ready */
 
-  double *work_q; /* (BAUM_I_MANIFOLD_WORK nq) where the mechanism is not flat */
-  double *rate_q; /* (mass_size) of baum_i_linearize_rate(), likewise */
+  double *work_q; /* (9 nq) for what has to do with rates of q */
+  double *rate_q; /* (mass_size) of baum_i_linearize_rate() */
   double *mass_q; /* (mass_size) blocks of second derivatives, see baum_i_body_blocks */
   double *body_force_q;
   double *body_force_v;

@@ -80,6 +80,38 @@ static void rate_beside(const baum_i_body *body, double h, int j, const double *
   body->manifold->rate(body, moved, v, dq);
 }
 
+/* The rate where the motion with a constant is after the time h. work (2 nq). */
+static void rate_later(const baum_i_body *body, double h, const double *q, const double *v,
+                       const double *a, double *dq, double *work)
+{
+  double *mean = work + body->nq;
+  for (int i = 0; i < body->nv; i++) {
+    mean[i] = v[i] + 0.5 * h * a[i];
+  }
+  memcpy(work, q, (size_t)body->nq * sizeof *q);
+  body->manifold->move(body, h, mean, work);
+  for (int i = 0; i < body->nv; i++) {
+    mean[i] = v[i] + h * a[i];
+  }
+  body->manifold->rate(body, work, mean, dq);
+}
+
+static void second_rate_body(const baum_mechanism *m, const baum_i_body *body, const double *q,
+                             const double *v, const double *a, double *ddq, double *work)
+{
+  double speed = 0.0;
+  for (int i = 0; i < body->nv; i++) {
+    double scale = m->scale[body->v + i];
+    speed = fmax(speed, fmax(fabs(v[i]) / scale, sqrt(fabs(a[i]) / scale)));
+  }
+  double h = speed > 0.0 ? STEP / speed : 1.0;
+  rate_later(body, -h, q, v, a, work, work + body->nq);
+  rate_later(body, h, q, v, a, ddq, work + body->nq);
+  for (int i = 0; i < body->nq; i++) {
+    ddq[i] = (ddq[i] - work[i]) / (2.0 * h);
+  }
+}
+
 static void linearize_body(const baum_mechanism *m, const baum_i_body *body, const double *q,
                            const double *v, double *block, double *work)
 {
@@ -154,22 +186,49 @@ void baum_i_normalize(const baum_mechanism *m, double *q)
   }
 }
 
-void baum_i_tangent(const baum_mechanism *m, const double *q, const double *dq, double *dx,
-                    double *work)
+const double *baum_i_rates(const baum_mechanism *m, const double *q, const double *v, double *room)
 {
   if (m->flat) {
-    memcpy(dx, dq, (size_t)m->nv * sizeof *dx);
-    return;
+    return v;
+  }
+  baum_i_rate(m, q, v, room);
+  return room;
+}
+
+const double *baum_i_second_rates(const baum_mechanism *m, const double *q, const double *v,
+                                  const double *a, double *room)
+{
+  if (m->flat) {
+    return a;
   }
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     if (body->manifold) {
-      tangent_body(body, m->position_scale + body->q, q + body->q, dq + body->q, dx + body->v,
-                   work);
+      second_rate_body(m, body, q + body->q, v + body->v, a + body->v, room + body->q,
+                       room + m->nq);
     } else {
-      memcpy(dx + body->v, dq + body->q, (size_t)body->nv * sizeof *dx);
+      memcpy(room + body->q, a + body->v, (size_t)body->nv * sizeof *a);
     }
   }
+  return room;
+}
+
+const double *baum_i_tangent(const baum_mechanism *m, const double *q, const double *dq,
+                             double *room)
+{
+  if (m->flat) {
+    return dq;
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    if (body->manifold) {
+      tangent_body(body, m->position_scale + body->q, q + body->q, dq + body->q, room + body->v,
+                   room + m->nq);
+    } else {
+      memcpy(room + body->v, dq + body->q, (size_t)body->nv * sizeof *dq);
+    }
+  }
+  return room;
 }
 
 void baum_i_linearize_rate(const baum_mechanism *m, const double *q, const double *v,

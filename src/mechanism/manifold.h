@@ -26,16 +26,24 @@ void baum_i_difference(const baum_mechanism *mechanism, const double *from, cons
 /* q becomes the nearest one on the manifold; nothing where the mechanism is flat. */
 void baum_i_normalize(const baum_mechanism *mechanism, double *q);
 
-/* Work of the next two, in units of nq >= nv. */
-enum { BAUM_I_MANIFOLD_WORK = 6 };
+/* The next three return what is asked for: in `room`, or the last vector given where the mechanism is
+ * flat. */
 
-/* N^+ dq (nv), the velocities nearest to rates dq (nq), with q on the manifold. Copies where the
- * mechanism is flat. */
-void baum_i_tangent(const baum_mechanism *mechanism, const double *q, const double *dq, double *dx,
-                    double *work);
+/* N(q) v (nq); room (nq). */
+const double *baum_i_rates(const baum_mechanism *mechanism, const double *q, const double *v,
+                           double *room);
+
+/* q'' = N(q) a + (N v)_q N v (nq); room (4 nq). */
+const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q, const double *v,
+                                  const double *a, double *room);
+
+/* N^+ dq (nv), the velocities nearest to rates dq (nq), with q on the manifold; room (3 nq), not
+ * dq. */
+const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q, const double *dq,
+                             double *room);
 
 /* N^+ (N v)_q N, how rates at constant v change with a displacement of q: blocks nv x nv at the
- * `mass` of bodies with a manifold. */
+ * `mass` of bodies with a manifold. work (6 nq). */
 void baum_i_linearize_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                            double *blocks, double *work);
 

@@ -127,6 +127,9 @@ static baum_status power_at(baum_i_account *account, const baum_i_state *at,
 /* Of degree 5 in q and of degree 3 in v, by values and rates at the ends; x of 0 to 1. */
 static void put_hermite(baum_i_account *account, const stretch *s, double x)
 {
+  const baum_mechanism *m = account->workspace->mechanism;
+  ptrdiff_t nq = m->nq;
+  double *room = account->workspace->work_q;
   const baum_i_state *from = &account->from;
   const baum_i_state *node = &account->node;
   double h = s->t - from->t;
@@ -139,9 +142,16 @@ static void put_hermite(baum_i_account *account, const stretch *s, double x)
   const double v1 = -h * x3 * y * (1.0 + 3.0 * y);
   const double a0 = 0.5 * h * h * y3 * x * x;
   const double a1 = 0.5 * h * h * x3 * y * y;
-  for (int i = 0; i < account->workspace->mechanism->nv; i++) {
-    node->q[i] = q0 * from->q[i] + q1 * s->q[i] + v0 * from->v[i] + v1 * s->v[i] +
-                 a0 * s->from_a[i] + a1 * s->to_a[i];
+  const double *from_rate = baum_i_rates(m, from->q, from->v, room);
+  const double *rate = baum_i_rates(m, s->q, s->v, room + nq);
+  const double *from_bend = baum_i_second_rates(m, from->q, from->v, s->from_a, room + 2 * nq);
+  const double *bend = baum_i_second_rates(m, s->q, s->v, s->to_a, room + 3 * nq);
+  for (int i = 0; i < m->nq; i++) {
+    node->q[i] = q0 * from->q[i] + q1 * s->q[i] + v0 * from_rate[i] + v1 * rate[i] +
+                 a0 * from_bend[i] + a1 * bend[i];
+  }
+  baum_i_normalize(m, node->q);
+  for (int i = 0; i < m->nv; i++) {
     node->v[i] = y * y * (1.0 + 2.0 * x) * from->v[i] + x * x * (1.0 + 2.0 * y) * s->v[i] +
                  h * x * y * (y * s->from_a[i] - x * s->to_a[i]);
   }
@@ -248,10 +258,11 @@ static bool moved_far(const baum_simulation *run, const baum_i_state *state)
   double tolerance = FAR * run->problem.rtol;
   const double *q = run->account->unprojected;
   const double *v = q + m->nq;
-  bool far = false;
+  double *moved = run->account->workspace->work_v;
+  baum_i_difference(m, q, state->q, moved);
+  bool far = baum_i_scaled_size(m, moved) > tolerance;
   for (int i = 0; i < m->nv; i++) {
-    far = far || fabs(state->q[i] - q[i]) > tolerance * m->scale[i] ||
-          fabs(state->v[i] - v[i]) > tolerance * m->scale[i] * run->problem.rate;
+    far = far || fabs(state->v[i] - v[i]) > tolerance * m->scale[i] * run->problem.rate;
   }
   return far;
 }

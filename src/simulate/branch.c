@@ -39,14 +39,21 @@ static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing
 
 /* ---- least pivot of the motion ---- */
 
+static void follow(const baum_simulation *run, const baum_i_knot *knots, int count, double t,
+                   baum_i_knot *out)
+{
+  baum_workspace *w = run->workspace;
+  out->t = t;
+  baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
+}
+
 /* Of the usual one, at t of the motion through knots. */
 static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
                        int *joint)
 {
   baum_i_crossings *p = run->crossings;
   *joint = -1;
-  baum_i_hermite(knots, count, p->nv, t, p->at.q, p->at.v);
-  p->at.t = t;
+  follow(run, knots, count, t, &p->at);
   if (baum_i_find_pivot(run->workspace, t, p->at.q, p->at.v) != BAUM_OK) {
     return run->workspace->point.retry ? (double)INFINITY : 0.0;
   }
@@ -108,12 +115,9 @@ static double violation_at(baum_simulation *run, const baum_i_knot *at)
 /* Largest difference of two positions, over the scales. */
 static double apart(const baum_simulation *run, const double *q, const double *p)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
-  double most = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    most = fmax(most, fabs(q[i] - p[i]) / m->scale[i]);
-  }
-  return most;
+  baum_workspace *w = run->workspace;
+  baum_i_difference(w->mechanism, p, q, w->work_v);
+  return baum_i_scaled_size(w->mechanism, w->work_v);
 }
 
 /* A state of the run is singular as far as its violation allows, or it is not. */
@@ -132,10 +136,9 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   for (int k = 0; k < p->recent_count; k++) {
     own = fmax(own, violation_at(run, &p->recent[k]));
   }
-  baum_i_hermite(p->recent, p->recent_count, p->nv, t, p->at.q, p->at.v);
-  baum_i_hermite(p->recent + 1, p->recent_count - 1, p->nv, t, p->other.q, p->other.v);
+  follow(run, p->recent, p->recent_count, t, &p->at);
+  follow(run, p->recent + 1, p->recent_count - 1, t, &p->other);
   double error = apart(run, p->at.q, p->other.q);
-  p->at.t = t;
   double violation = violation_at(run, &p->at);
   double noise = GAP + 10.0 * (own + error);
   return violation > noise || (pivot > noise && pivot > OPENED * violation);
@@ -154,7 +157,12 @@ bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 /* Largest difference of two velocities, over the scales. */
 static double difference(const baum_simulation *run, const double *v, const double *w)
 {
-  return apart(run, v, w);
+  const baum_mechanism *m = run->workspace->mechanism;
+  double most = 0.0;
+  for (int i = 0; i < m->nv; i++) {
+    most = fmax(most, fabs(v[i] - w[i]) / m->scale[i]);
+  }
+  return most;
 }
 
 static void find_jump(baum_simulation *run, double *jump, double *error)
@@ -168,8 +176,8 @@ static void find_jump(baum_simulation *run, double *jump, double *error)
   }
   *jump = *error = (double)NAN;
   for (int m = 2; m <= p->clear_count && size > 0.0; m++) {
-    baum_i_hermite(end - m + 1, m - 1, p->nv, behind->t, p->other.q, p->other.v);
-    baum_i_hermite(end - m, m, p->nv, behind->t, p->at.q, p->at.v);
+    follow(run, end - m + 1, m - 1, behind->t, &p->other);
+    follow(run, end - m, m, behind->t, &p->at);
     double e = difference(run, p->at.v, p->other.v) / size;
     if (!(e >= *error)) {
       *error = e;

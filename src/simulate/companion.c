@@ -174,10 +174,9 @@ static void compare(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
   const baum_mechanism *m = run->workspace->mechanism;
-  double error = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    error = fmax(error, fabs(state->q[i] - c->at.q[i]) / m->scale[i]);
-  }
+  double *apart = c->workspace->work_v;
+  baum_i_difference(m, c->at.q, state->q, apart);
+  double error = baum_i_scaled_size(m, apart);
   run->counters.error_estimate = fmax(run->counters.error_estimate, error);
   if (!(error > DOUBTFUL)) {
     c->apart = (double)NAN;

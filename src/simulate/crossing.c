@@ -27,31 +27,30 @@ static const double SPACING = 0.1;
 
 /* ---- memory ---- */
 
-static void place_knots(baum_i_knot *knots, int count, int nv, double **next)
+static void place_knots(const baum_mechanism *m, baum_i_knot *knots, int count, double **next)
 {
   for (int k = 0; k < count; k++) {
     knots[k].q = *next;
-    knots[k].v = *next + nv;
-    *next += 2 * (ptrdiff_t)nv;
+    knots[k].v = *next + m->nq;
+    *next += m->nq + m->nv;
   }
 }
 
 baum_status baum_i_crossings_create(baum_simulation *run)
 {
-  int nv = run->workspace->mechanism->nv; /* nq = nv so far */
-  size_t numbers = 2 * (size_t)nv * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 4);
+  const baum_mechanism *m = run->workspace->mechanism;
+  size_t numbers = (size_t)(m->nq + m->nv) * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 4);
   baum_i_crossings *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
   if (!p) {
     return baum_i_fail_memory();
   }
   double *next = (double *)(p + 1);
-  p->nv = nv;
-  place_knots(p->recent, BAUM_I_RECENT, nv, &next);
-  place_knots(p->clear, BAUM_I_HERMITE_MOST, nv, &next);
-  place_knots(&p->at, 1, nv, &next);
-  place_knots(&p->other, 1, nv, &next);
-  place_knots(&p->between, 1, nv, &next);
-  place_knots(&p->lowest, 1, nv, &next);
+  place_knots(m, p->recent, BAUM_I_RECENT, &next);
+  place_knots(m, p->clear, BAUM_I_HERMITE_MOST, &next);
+  place_knots(m, &p->at, 1, &next);
+  place_knots(m, &p->other, 1, &next);
+  place_knots(m, &p->between, 1, &next);
+  place_knots(m, &p->lowest, 1, &next);
   run->crossings = p;
   return BAUM_OK;
 }
@@ -73,12 +72,12 @@ void baum_i_crossings_forget(baum_i_crossings *p)
 
 /* ---- lists of knots ---- */
 
-static void copy_knot(const baum_i_knot *from, int nv, baum_i_knot *to)
+static void copy_knot(const baum_mechanism *m, const baum_i_knot *from, baum_i_knot *to)
 {
   to->t = from->t;
   to->pivot = from->pivot;
-  memcpy(to->q, from->q, (size_t)nv * sizeof *to->q);
-  memcpy(to->v, from->v, (size_t)nv * sizeof *to->v);
+  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
+  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
 }
 
 /* A place for a new last one; when the list is full, that of the first. */
@@ -101,7 +100,7 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
   bool close = n >= 2 && fabs(p->clear[n - 1].t - p->clear[n - 2].t) * rate < SPACING;
   baum_i_knot *place =
     close ? &p->clear[n - 1] : make_last(p->clear, BAUM_I_HERMITE_MOST, &p->clear_count);
-  copy_knot(state, p->nv, place);
+  copy_knot(run->workspace->mechanism, state, place);
 }
 
 /* ---- states ---- */
@@ -120,8 +119,9 @@ static void note(baum_simulation *run, const baum_i_state *state, double pivot, 
   baum_i_knot *last = make_last(p->recent, BAUM_I_RECENT, &p->recent_count);
   last->t = state->t;
   last->pivot = pivot / p->usual;
-  memcpy(last->q, state->q, (size_t)p->nv * sizeof *last->q);
-  memcpy(last->v, state->v, (size_t)p->nv * sizeof *last->v);
+  const baum_mechanism *m = run->workspace->mechanism;
+  memcpy(last->q, state->q, (size_t)m->nq * sizeof *last->q);
+  memcpy(last->v, state->v, (size_t)m->nv * sizeof *last->v);
   p->unseen = true;
   p->joint_noted = joint;
 }
@@ -166,7 +166,7 @@ static void see_turn(baum_simulation *run)
     return;
   }
   double change = 0.0;
-  for (int i = 0; i < p->nv; i++) {
+  for (int i = 0; i < m->nv; i++) {
     change = fmax(change, fabs(last->v[i] - last[-1].v[i]) / m->scale[i]);
   }
   double size = fmax(baum_i_scaled_size(m, last->v), baum_i_scaled_size(m, last[-1].v));
@@ -203,7 +203,7 @@ static bool is_lowest(baum_simulation *run, double t, const double *q, double pi
   }
   p->lowest.t = t;
   p->lowest.pivot = pivot;
-  memcpy(p->lowest.q, q, (size_t)p->nv * sizeof *q);
+  memcpy(p->lowest.q, q, (size_t)run->workspace->mechanism->nq * sizeof *q);
   p->present.joint = joint;
   return true;
 }
@@ -215,7 +215,8 @@ static void search(baum_simulation *run)
   double at = 0.0;
   int joint = -1;
   double pivot = baum_i_branch_least_pivot(run, p->recent, BAUM_I_RECENT, &at, &joint);
-  baum_i_hermite(p->recent, BAUM_I_RECENT, p->nv, at, p->at.q, p->at.v);
+  baum_i_hermite(run->workspace->mechanism, p->recent, BAUM_I_RECENT, at, p->at.q, p->at.v,
+                 run->workspace->work_q);
   if (is_lowest(run, at, p->at.q, pivot, joint)) {
     p->present.gap = baum_i_branch_has_gap(run, at, pivot);
   }

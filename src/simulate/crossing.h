@@ -20,7 +20,6 @@ typedef struct baum_i_crossing {
 } baum_i_crossing;
 
 struct baum_i_crossings {
-  int nv;
   double usual; /* largest pivot so far */
   int recent_count;
   baum_i_knot recent[BAUM_I_RECENT]; /* last states, the last one last */

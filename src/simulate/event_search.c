@@ -18,6 +18,7 @@
 
 #include "mechanism/definition.h"
 #include "simulate/events.h"
+#include "simulate/hermite.h"
 
 enum { QUARTERS = 4, MOST_TRIES = 300 };
 
@@ -47,18 +48,11 @@ static bool is_fixed(const baum_simulation *run)
 /* The cubic of the ends of a fixed step; exact as far as it begins like the motion. */
 static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_state *p = &run->state;
   const baum_i_state *n = &run->ahead;
-  double h = n->t - p->t;
-  double x = (t - p->t) / h;
-  for (int i = 0; i < m->nv; i++) {
-    double change = n->q[i] - p->q[i];
-    double bend = change - h * p->v[i];
-    double twist = h * (n->v[i] - p->v[i]) - 2.0 * bend;
-    out->q[i] = p->q[i] + x * (h * p->v[i] + x * (bend + (x - 1.0) * twist));
-    out->v[i] = p->v[i] + x * (2.0 * bend + (3.0 * x - 2.0) * twist) / h;
-  }
+  const baum_i_knot ends[2] = {{.t = p->t, .q = p->q, .v = p->v},
+                               {.t = n->t, .q = n->q, .v = n->v}};
+  baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
 /* Shorter than this share of a step the cubic is the motion to rounding, and methods that divide by the step are not

@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* With l_k the Lagrange polynomials of the times, l_k(t_i) = 1 for i = k and 0 else, and s_k = l_k'(t_k):
  *
- *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 v_k
+ *   p(t) = sum_k (1 - 2 s_k (t - t_k)) l_k(t)^2 q_k + (t - t_k) l_k(t)^2 q'_k,  q'_k = N(q_k) v_k
  *
- * (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The factors of q_k and v_k are the same for
+ * and v = N^+ p'. (J. Stoer, R. Bulirsch, Introduction to Numerical Analysis, section 2.1.5.) The factors are the same for
  * all coordinates. Those of the q_k have the sum 1, their rates the sum 0: q_k - q_0 stands for q_k, so that angles after
  * many turns lose nothing.
  */
 #include "simulate/hermite.h"
+
+#include <string.h>
 
 /* What belongs to a knot at a time. */
 typedef struct factors {
@@ -39,20 +41,28 @@ static factors find_factors(const baum_i_knot *knots, int count, int k, double t
                    square + x * square_rate};
 }
 
-void baum_i_hermite(const baum_i_knot *knots, int count, int n, double t, double *q, double *v)
+void baum_i_hermite(const baum_mechanism *m, const baum_i_knot *knots, int count, double t,
+                    double *q, double *v, double *work)
 {
-  for (int i = 0; i < n; i++) {
-    q[i] = v[i] = 0.0;
+  double *slope = m->flat ? v : work; /* q' */
+  double *room = work + m->nq;
+  for (int i = 0; i < m->nq; i++) {
+    q[i] = slope[i] = 0.0;
   }
   for (int k = 0; k < count; k++) {
     factors f = find_factors(knots, count, k, t);
-    for (int i = 0; i < n; i++) {
+    const double *rate = baum_i_rates(m, knots[k].q, knots[k].v, room);
+    for (int i = 0; i < m->nq; i++) {
       double from_first = knots[k].q[i] - knots[0].q[i];
-      q[i] += f.q * from_first + f.v * knots[k].v[i];
-      v[i] += f.q_rate * from_first + f.v_rate * knots[k].v[i];
+      q[i] += f.q * from_first + f.v * rate[i];
+      slope[i] += f.q_rate * from_first + f.v_rate * rate[i];
     }
   }
-  for (int i = 0; i < n; i++) {
+  for (int i = 0; i < m->nq; i++) {
     q[i] += knots[0].q[i];
+  }
+  if (!m->flat) {
+    baum_i_normalize(m, q);
+    memcpy(v, baum_i_tangent(m, q, slope, room), (size_t)m->nv * sizeof *v);
   }
 }

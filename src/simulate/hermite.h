@@ -3,18 +3,21 @@
 #ifndef BAUM_I_SIMULATE_HERMITE_H
 #define BAUM_I_SIMULATE_HERMITE_H
 
+#include "mechanism/manifold.h"
+
 enum { BAUM_I_HERMITE_MOST = 4 };
 
 /* q and v at a time of a motion. */
 typedef struct baum_i_knot {
   double t;     /* [s] */
   double pivot; /* [-] of the equations there, of the largest so far */
-  double *q;    /* (n) */
-  double *v;    /* (n) */
+  double *q;    /* (nq) */
+  double *v;    /* (nv) */
 } baum_i_knot;
 
-/* Value and rate at t of the polynomials of degree 2 count - 1 through `count` knots, from 1 to BAUM_I_HERMITE_MOST,
- * at times of their own; q and v are (n) and none of theirs. */
-void baum_i_hermite(const baum_i_knot *knots, int count, int n, double t, double *q, double *v);
+/* q and v at t of the polynomials of degree 2 count - 1 through positions and rates of `count` knots, from 1 to
+ * BAUM_I_HERMITE_MOST, at times of their own; q and v are none of theirs. work (4 nq). */
+void baum_i_hermite(const baum_mechanism *mechanism, const baum_i_knot *knots, int count, double t,
+                    double *q, double *v, double *work);
 
 #endif

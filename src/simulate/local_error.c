@@ -3,8 +3,9 @@
  * Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, III.1):
  *
  *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
- *   dq = q_1 - q_0 - h/2 (v_0 + v_1) - h^2/12 (a_0 - a_1) + h/2 dv
+ *   dq = q_1 - q_0 - h/2 (q'_0 + q'_1) - h^2/12 (q''_0 - q''_1) + h/2 N dv
  *
+ * with q' = v and q'' = a where q is a vector.
  * Both have errors of order h^6 and h^5 of their own: the estimate of a method of high order is far too large. */
 #include "simulate/local_error.h"
 
@@ -15,16 +16,37 @@ static const double SAME_STEP = 1e-6; /* share of a step by which equal ones may
 
 size_t baum_i_local_error_size(const baum_mechanism *m)
 {
-  return (size_t)m->nv * (2 + BAUM_I_ACCELERATIONS);
+  return (size_t)m->nq + (size_t)m->nv * (1 + BAUM_I_ACCELERATIONS);
 }
 
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers)
 {
   local->q = numbers;
-  local->v = local->q + m->nv;
+  local->v = local->q + m->nq;
   for (int k = 0; k < BAUM_I_ACCELERATIONS; k++) {
     local->a[k] = local->v + (k + 1) * (ptrdiff_t)m->nv;
   }
+}
+
+/* dq, as velocities, of dv. */
+static const double *find_position_error(const baum_i_local_error *e, const baum_simulation *run,
+                                         double h, const double *dv)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  const baum_i_state *now = &run->state;
+  ptrdiff_t nq = m->nq;
+  double *dq = run->workspace->work_q;
+  double *room = dq + nq;
+  const double *v0 = baum_i_rates(m, e->q, e->v, room);
+  const double *v1 = baum_i_rates(m, now->q, now->v, room + nq);
+  const double *v2 = baum_i_rates(m, now->q, dv, room + 2 * nq);
+  const double *a0 = baum_i_second_rates(m, e->q, e->v, e->a[0], room + 3 * nq);
+  const double *a1 = baum_i_second_rates(m, now->q, now->v, run->workspace->a, room + 4 * nq);
+  for (int i = 0; i < m->nq; i++) {
+    dq[i] =
+      now->q[i] - e->q[i] - 0.5 * h * (v0[i] + v1[i] - v2[i]) - h * h / 12.0 * (a0[i] - a1[i]);
+  }
+  return baum_i_tangent(m, now->q, dq, room);
 }
 
 /* Largest error of the step by h relative to the scales, that of velocities over a `period`. */
@@ -32,16 +54,18 @@ static double largest_error(const baum_i_local_error *e, const baum_simulation *
                             double period)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  const baum_i_state *now = &run->state;
+  const double *v = run->state.v;
   const double *a = run->workspace->a;
+  double *dv = run->workspace->work_v;
   double largest = 0.0;
   for (int i = 0; i < m->nv; i++) {
     double sum = 251.0 * a[i] + 646.0 * e->a[0][i] - 264.0 * e->a[1][i] + 106.0 * e->a[2][i] -
                  19.0 * e->a[3][i];
-    double dv = now->v[i] - e->v[i] - h / 720.0 * sum;
-    double dq = now->q[i] - e->q[i] - 0.5 * h * (e->v[i] + now->v[i] - dv) -
-                h * h / 12.0 * (e->a[0][i] - a[i]);
-    double error = (fabs(dq) + period * fabs(dv)) / m->scale[i];
+    dv[i] = v[i] - e->v[i] - h / 720.0 * sum;
+  }
+  const double *dq = find_position_error(e, run, h, dv);
+  for (int i = 0; i < m->nv; i++) {
+    double error = (fabs(dq[i]) + period * fabs(dv[i])) / m->scale[i];
     largest = error > largest ? error : largest;
   }
   return largest;
@@ -49,12 +73,13 @@ static double largest_error(const baum_i_local_error *e, const baum_simulation *
 
 static void remember(baum_i_local_error *e, const baum_simulation *run, double h)
 {
-  size_t bytes = (size_t)run->workspace->mechanism->nv * sizeof *e->q;
+  const baum_mechanism *m = run->workspace->mechanism;
+  size_t bytes = (size_t)m->nv * sizeof *e->v;
   double *oldest = e->a[BAUM_I_ACCELERATIONS - 1];
   memmove(e->a + 1, e->a, (BAUM_I_ACCELERATIONS - 1) * sizeof *e->a);
   e->a[0] = oldest;
   memcpy(e->a[0], run->workspace->a, bytes);
-  memcpy(e->q, run->state.q, bytes);
+  memcpy(e->q, run->state.q, (size_t)m->nq * sizeof *e->q);
   memcpy(e->v, run->state.v, bytes);
   e->t = run->state.t;
   e->h = h;

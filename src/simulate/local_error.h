@@ -8,7 +8,7 @@
 enum { BAUM_I_ACCELERATIONS = 4 };
 
 typedef struct baum_i_local_error {
-  double *q;                       /* (nv) where the last step began */
+  double *q;                       /* (nq) where the last step began */
   double *v;                       /* (nv) */
   double *a[BAUM_I_ACCELERATIONS]; /* (nv) where the last steps began, newest first */
   double t;                        /* [s] where the last step began */

@@ -11,18 +11,26 @@
 #include "simulate/events.h"
 #include "simulate/singular_step.h"
 
+static bool is_finite(const double *x, int count)
+{
+  for (int i = 0; i < count; i++) {
+    if (!isfinite(x[i])) {
+      return false;
+    }
+  }
+  return true;
+}
+
 static baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  for (int i = 0; i < m->nv; i++) {
-    if (!isfinite(state->q[i]) || !isfinite(state->v[i])) {
-      return baum_i_fail(BAUM_ERR_NOT_FINITE,
-                         "t = %.9g s: the step to %.9g s gives values that are not finite; the run "
-                         "blows up: take a smaller step, or gains that are stable",
-                         run->state.t, state->t);
-    }
+  if (is_finite(state->q, m->nq) && is_finite(state->v, m->nv)) {
+    return BAUM_OK;
   }
-  return BAUM_OK;
+  return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                     "t = %.9g s: the step to %.9g s gives values that are not finite; the run "
+                     "blows up: take a smaller step, or gains that are stable",
+                     run->state.t, state->t);
 }
 
 /* What a function of the user answers knows nothing of the run. */

@@ -82,7 +82,7 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
                       c->point[0], c->point[1]);
     return -1;
   }
-  return m->bodies[body]->nv;
+  return c->quantity == BAUM_BODY_POSE ? m->bodies[body]->nq : m->bodies[body]->nv;
 }
 
 /* Rows of the joint, or of all joints when none is given. */
@@ -240,7 +240,8 @@ static int put_body(const baum_workspace *w, const baum_i_state *state, const ba
   int index = baum_i_body_index(w->mechanism, c->body);
   const baum_i_body *body = w->mechanism->bodies[index];
   if (body->type->frame != BAUM_I_FRAME_BODY) {
-    return put(part_of(w, state, c->quantity, body), body->nv, out);
+    int width = c->quantity == BAUM_BODY_POSE ? body->nq : body->nv;
+    return put(part_of(w, state, c->quantity, body), width, out);
   }
   baum_i_marker marker = baum_i_marker_at(&w->point, index, c->point);
   if (c->quantity == BAUM_BODY_ACCELERATION) {

@@ -47,15 +47,20 @@ static bool evaluate(pilot *p)
   return isfinite(baum_i_state_rate(p->workspace->mechanism, y->v, p->workspace->a));
 }
 
+static void add(int count, int stage, double h, const double *rate, double *d, double *y)
+{
+  for (int i = 0; i < count; i++) {
+    d[i] = A[stage] * d[i] + h * rate[i];
+    y[i] += B[stage] * d[i];
+  }
+}
+
 static void advance(pilot *p, int stage, double t, double h)
 {
-  const double *a = p->workspace->a;
-  for (int i = 0; i < p->workspace->mechanism->nv; i++) {
-    p->d->q[i] = A[stage] * p->d->q[i] + h * p->y->v[i];
-    p->d->v[i] = A[stage] * p->d->v[i] + h * a[i];
-    p->y->q[i] += B[stage] * p->d->q[i];
-    p->y->v[i] += B[stage] * p->d->v[i];
-  }
+  const baum_mechanism *m = p->workspace->mechanism;
+  const double *rate = baum_i_rates(m, p->y->q, p->y->v, p->workspace->work_q);
+  add(m->nq, stage, h, rate, p->d->q, p->y->q);
+  add(m->nv, stage, h, p->workspace->a, p->d->v, p->y->v);
   p->y->t = stage + 1 < STAGES ? t + C[stage + 1] * h : t + h;
   p->ready = false;
 }

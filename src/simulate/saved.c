@@ -211,13 +211,14 @@ static void list_monitors(baum_simulation *run, baum_i_saved *list)
                         run->counters.warnings, BAUM_I_WARNINGS);
 }
 
-static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots, int count, int nv)
+static void list_knots(baum_i_saved *list, const char *name, baum_i_knot *knots, int count,
+                       const baum_mechanism *m)
 {
   for (int k = 0; k < count; k++) {
     baum_i_saved_add(list, name, &knots[k].t, sizeof knots[k].t);
     baum_i_saved_add(list, name, &knots[k].pivot, sizeof knots[k].pivot);
-    add_array(list, name, knots[k].q, nv);
-    add_array(list, name, knots[k].v, nv);
+    add_array(list, name, knots[k].q, m->nq);
+    add_array(list, name, knots[k].v, m->nv);
   }
 }
 
@@ -227,14 +228,14 @@ static void list_passages(baum_simulation *run, baum_i_saved *list)
   int joints = run->workspace->mechanism->joint_count;
   BAUM_I_SAVED_ADD(list, "usual pivot", p->usual);
   BAUM_I_SAVED_ADD_BOUNDED(list, "recent count", p->recent_count, 0, BAUM_I_RECENT);
-  list_knots(list, "recent states", p->recent, BAUM_I_RECENT, p->nv);
+  list_knots(list, "recent states", p->recent, BAUM_I_RECENT, run->workspace->mechanism);
   BAUM_I_SAVED_ADD_BOUNDED(list, "clear count", p->clear_count, 0, BAUM_I_HERMITE_MOST);
-  list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, p->nv);
+  list_knots(list, "clear states", p->clear, BAUM_I_HERMITE_MOST, run->workspace->mechanism);
   BAUM_I_SAVED_ADD_FLAG(list, "state not looked at", p->unseen);
   BAUM_I_SAVED_ADD_BOUNDED(list, "joint noted", p->joint_noted, -1, joints - 1);
   BAUM_I_SAVED_ADD_FLAG(list, "passage open", p->open);
   BAUM_I_SAVED_ADD(list, "passage from", p->present.from);
-  list_knots(list, "passage lowest", &p->lowest, 1, p->nv);
+  list_knots(list, "passage lowest", &p->lowest, 1, run->workspace->mechanism);
   BAUM_I_SAVED_ADD_FLAG(list, "passage gap", p->present.gap);
   BAUM_I_SAVED_ADD(list, "passage largest turn", p->present.largest_turn);
   BAUM_I_SAVED_ADD_BOUNDED(list, "passage joint", p->present.joint, -1, joints - 1);

@@ -23,7 +23,7 @@ static const double EXACT = 1e-9; /* of the scales */
 
 static bool is_angle(const baum_i_body *body, int coordinate)
 {
-  return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->q + 2;
+  return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->v + 2;
 }
 
 /* User coordinates have units of their own. */
@@ -53,7 +53,7 @@ static void name_worst_joint(baum_simulation *run, double t, const double *drawn
 }
 
 static baum_status fail_far(baum_simulation *run, const double *drawn, const baum_i_body *body,
-                            int coordinate, double limit)
+                            int coordinate, double moved, double limit)
 {
   double scale = run->workspace->mechanism->scale[coordinate];
   char label[BAUM_I_LABEL_SIZE];
@@ -62,24 +62,25 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
                      "drawing fits least in %s; draw the start pose closer",
-                     run->trial.t, baum_i_label(&body->element, "body", label),
-                     fabs(run->trial.q[coordinate] - drawn[coordinate]), unit_of(body, coordinate),
-                     limit * scale, unit_of(body, coordinate), joint);
+                     run->trial.t, baum_i_label(&body->element, "body", label), fabs(moved),
+                     unit_of(body, coordinate), limit * scale, unit_of(body, coordinate), joint);
 }
 
 /* Largest displacement of all into `largest`. */
 static baum_status check_displacement(baum_simulation *run, const double *drawn, double *largest)
 {
   const baum_mechanism *m = run->workspace->mechanism;
+  double *moved = run->workspace->work_v;
+  baum_i_difference(m, drawn, run->trial.q, moved);
   *largest = 0.0;
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
-    for (int i = body->q; i < body->q + body->nv; i++) {
-      double move = fabs(run->trial.q[i] - drawn[i]) / m->scale[i];
+    for (int i = body->v; i < body->v + body->nv; i++) {
+      double move = fabs(moved[i]) / m->scale[i];
       double limit = is_angle(body, i) ? LARGEST_TURN : LARGEST_MOVE;
       *largest = fmax(*largest, move);
       if (move > limit) {
-        return fail_far(run, drawn, body, i, limit);
+        return fail_far(run, drawn, body, i, moved[i], limit);
       }
     }
   }
@@ -218,6 +219,7 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   const baum_mechanism *m = run->workspace->mechanism;
   run->trial.t = t;
   memcpy(run->trial.q, q, (size_t)m->nq * sizeof *q);
+  baum_i_normalize(m, run->trial.q);
   for (int i = 0; i < m->nv; i++) {
     run->trial.v[i] = isnan(v[i]) ? 0.0 : v[i];
   }
@@ -227,7 +229,8 @@ baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, co
 {
   start_as_given(run, t, q, v);
   if (run->options.start == BAUM_START_ASSEMBLE) {
-    return start_assembled(run, q, v);
+    memcpy(run->spare.q, run->trial.q, (size_t)run->workspace->mechanism->nq * sizeof *q);
+    return start_assembled(run, run->spare.q, v);
   }
   run->workspace->point.t = t; /* for the message */
   baum_status status = baum_i_check_sizes(run->workspace, "velocity", run->trial.v);
@@ -276,6 +279,23 @@ static baum_status check_entry(const char *call, char name, int i, double value,
                      may_be_free ? ", or NaN for free" : "");
 }
 
+/* q near enough to the manifold to be meant to be on it. */
+static baum_status check_manifold(const baum_simulation *run, const char *call, const double *q)
+{
+  static const double NEAR = 1e-6;
+  const baum_mechanism *m = run->workspace->mechanism;
+  double *normal = run->spare.q;
+  memcpy(normal, q, (size_t)m->nq * sizeof *q);
+  baum_i_normalize(m, normal);
+  for (int i = 0; i < m->nq; i++) {
+    if (!(fabs(normal[i] - q[i]) <= NEAR * m->position_scale[i])) {
+      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %.9g, but %.9g when q is normalized",
+                         call, i, q[i], normal[i]);
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_state(const baum_simulation *run, double t, const double *q,
                                const double *v)
 {
@@ -287,11 +307,14 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   const baum_mechanism *m = run->workspace->mechanism;
   bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
   baum_status status = baum_i_check_finite(call, "t", "s", t);
-  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+  for (int i = 0; i < m->nq && status == BAUM_OK; i++) {
     status = check_entry(call, 'q', i, q[i], false);
-    if (status == BAUM_OK) {
-      status = check_entry(call, 'v', i, v[i], may_be_free);
-    }
+  }
+  if (status == BAUM_OK) {
+    status = check_manifold(run, call, q);
+  }
+  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+    status = check_entry(call, 'v', i, v[i], may_be_free);
   }
   return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
 }
