@@ -84,6 +84,7 @@ static baum_mechanism *pendulum(fault *user)
   rod.point_b[1] = 0.0;
   assert_int_equal(baum_mechanism_add_planar_distance(m, &rod, NULL), BAUM_OK);
   baum_user_force_def f = baum_user_force_def_default();
+  f.depends_on_velocity = false;
   f.name = "gust";
   f.bodies = &body;
   f.body_count = 1;

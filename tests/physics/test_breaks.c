@@ -77,6 +77,7 @@ static baum_mechanism *make(bool declared)
   pin.point[1] = 0.0;
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &pin, NULL), BAUM_OK);
   baum_user_force_def force = baum_user_force_def_default();
+  force.depends_on_velocity = false;
   force.bodies = &disc;
   force.body_count = 1;
   force.force = torque;

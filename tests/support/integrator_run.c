@@ -295,6 +295,7 @@ baum_mechanism *make_faulty_pendulum(force_fault *fault)
   baum_mechanism *mechanism = begin();
   baum_body_id id = add_pendulum(mechanism);
   baum_user_force_def def = baum_user_force_def_default();
+  def.depends_on_velocity = false;
   def.name = "faulty";
   def.bodies = &id;
   def.body_count = 1;
@@ -353,6 +354,7 @@ baum_mechanism *make_oscillator(void)
   check(baum_mechanism_set_characteristic_length(mechanism, 1.0));
   baum_body_id id = add_particle(mechanism, 1.0, 0.0, 0.0, 0.0);
   baum_user_force_def def = baum_user_force_def_default();
+  def.depends_on_velocity = false;
   def.bodies = &id;
   def.body_count = 1;
   def.force = pull;

@@ -134,6 +134,7 @@ static scene make_scene(faults *f)
   assert_int_equal(baum_mechanism_add_planar_translational(s.mechanism, &guide, &s.guide), BAUM_OK);
   add_drivers(&s, f);
   baum_user_force_def force = baum_user_force_def_default();
+  force.depends_on_velocity = false;
   force.bodies = &s.rod;
   force.body_count = 1;
   force.force = no_force;
