@@ -38,7 +38,8 @@ static const double COARSE = 1e-3;
 /* Of rk8; at growth up to 1e3 its own error stays within that of a right result. */
 static const double TOLERANCE = 1e-5;
 static const double TOLERANCE_OF_CHECK = 1e-8;
-static const double TIGHTER = 0.03;
+static const double TIGHTER = 0.1;
+static const double TIGHTER_OF_CHECK = 0.03;
 static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
 /* Evaluations of the companion per one of the run: an unasked check may not slow a run down by much. Some are free,
  * since short runs with long steps take few themselves. */
@@ -107,8 +108,9 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
   c->problem.distrusts_projection = true;
   if (run->options.error_check && !has_fixed_step(run)) {
     c->method = run->integrator;
-    c->problem.rtol = fmax(TIGHTER * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
-    c->problem.atol = TIGHTER * run->problem.atol;
+    c->problem.rtol =
+      fmax(TIGHTER_OF_CHECK * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
+    c->problem.atol = TIGHTER_OF_CHECK * run->problem.atol;
     return;
   }
   double tolerance = has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
