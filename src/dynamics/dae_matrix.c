@@ -298,6 +298,11 @@ void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix)
   }
 }
 
+int baum_i_residual_matrix_size(const baum_i_residual_matrix *matrix)
+{
+  return matrix->size;
+}
+
 int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix)
 {
   return matrix->columns[matrix->size];

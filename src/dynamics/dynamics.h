@@ -214,6 +214,7 @@ typedef struct baum_i_residual_matrix baum_i_residual_matrix;
 baum_status baum_i_residual_matrix_create(const baum_workspace *workspace, baum_residual index,
                                           baum_i_residual_matrix **out);
 void baum_i_residual_matrix_destroy(baum_i_residual_matrix *matrix);
+int baum_i_residual_matrix_size(const baum_i_residual_matrix *matrix);
 int baum_i_residual_matrix_nonzeros(const baum_i_residual_matrix *matrix);
 const int32_t *baum_i_residual_matrix_columns(const baum_i_residual_matrix *matrix); /* (n + 1) */
 const int32_t *baum_i_residual_matrix_rows(const baum_i_residual_matrix *matrix);

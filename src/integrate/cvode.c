@@ -3,7 +3,7 @@
  * multistep methods of variable order and step for
  *
  *   y = (q, v)                                       (nq + nv)
- *   y' = (N v, a(t, q, v))                           a from (5) or (7), N the identity so far
+ *   y' = (N v, a(t, q, v))                           a from (5) or (7)
  *
  * Adams-Moulton, orders 1 to 12, with fixed-point iteration, or where there are gains with Newton's
  * iteration on their part of the Jacobian (cvode_embedded.c); BDF, orders 1 to 5, with Newton's
@@ -46,6 +46,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector rate, void *user)
   const baum_workspace *workspace = problem->workspace;
   const double *q = N_VGetArrayPointer(y);
   const double *v = q + workspace->mechanism->nq;
+  run->sundials.present = q;
   baum_status status = baum_i_problem_motion(problem, run->sundials.origin + tau, q, v);
   if (status == BAUM_OK) {
     baum_i_sundials_pack_rate(workspace, q, N_VGetArrayPointer(rate));
@@ -80,7 +81,7 @@ static int build(sunrealtype tau, N_Vector y, N_Vector rate, SUNMatrix matrix,
  * estimated error of q loses what points away from them, since the projection takes that off the
  * true error too:
  *
- *   e_q - P e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
+ *   e_q - N P N^+ e_q,     P = M^-1 J^T (J M^-1 J^T)^-1 J at the projected q.
  *
  * That of v stays as it is. Its part across the constraints is not only what the projection takes
  * off: J e_v = -(J v)_q e_q is left by the error along them, and with P e_v taken away too errors
@@ -124,9 +125,10 @@ static int project(sunrealtype tau, N_Vector y, N_Vector correction, sunrealtype
   baum_status status = baum_i_project(w, run->sundials.origin + tau, projected, projected + nq);
   subtract(nq + nv, state, projected);
   if (status == BAUM_OK && error) {
+    double *e = N_VGetArrayPointer(error);
     double *normal = N_VGetArrayPointer(run->work);
-    status = baum_i_normal_part(w, N_VGetArrayPointer(error), normal);
-    subtract(status == BAUM_OK ? nv : 0, normal, N_VGetArrayPointer(error));
+    status = baum_i_normal_part(w, baum_i_tangent(w->mechanism, state, e, w->work_q), normal);
+    subtract(status == BAUM_OK ? nq : 0, baum_i_rates(w->mechanism, state, normal, w->work_q), e);
   }
   return answer_projection(&run->sundials, status);
 }

@@ -18,6 +18,8 @@
  *
  *   dv = r_v - Q ((s J r_v + gamma beta_i^2 J r_q) / (1 + s))
  *
+ * Where q is no vector r_q in these stands for N^+ r_q, and dq = r_q + gamma N dv.
+ *
  * Backward in time alpha and gamma change their signs together. Forces are part of the rest: stiff
  * ones remain what BDF is for.
  */
@@ -54,19 +56,17 @@ static double weigh(const baum_i_problem *problem, double gamma, double factor, 
   return (s * r_v + stiffness * r_q) / (1.0 + s);
 }
 
-static baum_status solve_alike(const baum_i_problem *problem, double gamma, const double *r,
-                               double *work, double *normal)
+static baum_status solve_alike(const baum_i_problem *problem, double gamma, const double *r_q,
+                               const double *r_v, double *work, double *normal)
 {
-  const baum_mechanism *mechanism = problem->workspace->mechanism;
-  const double *r_v = r + mechanism->nq;
-  for (int i = 0; i < mechanism->nv; i++) {
-    work[i] = weigh(problem, gamma, 1.0, r_v[i], r[i]);
+  for (int i = 0; i < problem->workspace->mechanism->nv; i++) {
+    work[i] = weigh(problem, gamma, 1.0, r_v[i], r_q[i]);
   }
   return baum_i_normal_part(problem->workspace, work, normal);
 }
 
-static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, const double *r,
-                                 double *normal)
+static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, const double *r_q,
+                                 const double *r_v, double *normal)
 {
   baum_workspace *w = problem->workspace;
   int nc = w->mechanism->nc;
@@ -74,8 +74,8 @@ static baum_status solve_by_rows(const baum_i_problem *problem, double gamma, co
   double *rows_q = rows_v + nc;
   BAUM_I_TRY(baum_i_need_jacobian(w));
   memset(rows_v, 0, 2 * (size_t)nc * sizeof *rows_v);
-  baum_i_jacobian_times(&w->structure, w->jacobian, r + w->mechanism->nq, rows_v);
-  baum_i_jacobian_times(&w->structure, w->jacobian, r, rows_q);
+  baum_i_jacobian_times(&w->structure, w->jacobian, r_v, rows_v);
+  baum_i_jacobian_times(&w->structure, w->jacobian, r_q, rows_q);
   for (int i = 0; i < nc; i++) {
     rows_v[i] = weigh(problem, gamma, w->row_gains[i], rows_v[i], rows_q[i]);
   }
@@ -89,18 +89,25 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)tolerance;
   baum_i_cvode_embedded *embedded = solver->content;
   const baum_i_problem *problem = embedded->sundials->problem;
-  int nq = problem->workspace->mechanism->nq;
-  int nv = problem->workspace->mechanism->nv;
+  baum_workspace *w = problem->workspace;
+  const baum_mechanism *m = w->mechanism;
+  const double *q = embedded->sundials->present;
   const double *r = N_VGetArrayPointer(b);
+  const double *r_q = baum_i_tangent(m, q, r, w->work_q);
+  const double *r_v = r + m->nq;
   double *d = N_VGetArrayPointer(x);
+  double *d_v = d + m->nq;
   double *normal = N_VGetArrayPointer(embedded->normal);
   double gamma = 0.0;
   (void)CVodeGetCurrentGamma(embedded->sundials->memory, &gamma);
-  baum_status status = problem->workspace->row_gains ? solve_by_rows(problem, gamma, r, normal)
-                                                     : solve_alike(problem, gamma, r, d, normal);
-  for (int i = 0; i < nv && status == BAUM_OK; i++) {
-    d[nq + i] = r[nq + i] - normal[i];
-    d[i] = r[i] + gamma * d[nq + i];
+  baum_status status = w->row_gains ? solve_by_rows(problem, gamma, r_q, r_v, normal)
+                                    : solve_alike(problem, gamma, r_q, r_v, d, normal);
+  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+    d_v[i] = r_v[i] - normal[i];
+  }
+  const double *rate = baum_i_rates(m, q, d_v, w->work_q);
+  for (int i = 0; i < m->nq && status == BAUM_OK; i++) {
+    d[i] = r[i] + gamma * rate[i];
   }
   return answer(embedded->sundials, status);
 }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Newton's iteration of CVODE BDF asks for the solution d = (dq, dv) of
  *
- *   (I - gamma df/dy) d = r,     f = (v, a(t, q, v)), a from (5) or (7).
+ *   (I - gamma df/dy) d = r,     f = (N v, a(t, q, v)), a from (5) or (7).
  *
  * a is given implicitly, with the multipliers, by the residual of index 1 (dae_matrix.c)
  *
- *   F = (q' - v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
+ *   F = (q' - N v,  M v' + J^T lambda - g,  J v' - gamma + 2 alpha Phi' + beta^2 Phi)
  *
  * whose last two parts vanish for v' = a(t, q, v). Differentiated along that, with da = (da/dq) dq
  * + (da/dv) dv,
@@ -18,7 +18,8 @@
  *
  * With the right side c (r_q, M r_v, J r_v) this says dq - gamma dv = r_q and dv - gamma da = r_v,
  * which is what is wanted; dlambda is not. The matrix has the derivatives of all forces and rows,
- * and is as sparse as the mechanism.
+ * and is as sparse as the mechanism. (Where q is no vector dq stands for a displacement of velocity
+ * size, and r_q for N^+ r_q; the rest of r_q, off the manifold, is that of dq.)
  */
 #include "integrate/integrator.h"
 
@@ -48,6 +49,7 @@ baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, cons
   baum_i_problem_gains(problem, &dae.alpha, &dae.beta);
   BAUM_I_TRY(baum_i_problem_acceleration(problem, t, y, y + m->nq));
   newton->c = 1.0 / gamma;
+  newton->klu.sundials->present = newton->y;
   baum_i_sundials_pack(m, y, y + m->nq, newton->y);
   memcpy(newton->y + m->nq + m->nv, w->lambda, (size_t)m->nc * sizeof *y);
   baum_i_sundials_pack_rate(w, y, newton->dy);
@@ -72,16 +74,17 @@ static void make_right_side(const baum_i_cvode_newton *newton, const double *r, 
 {
   const baum_workspace *w = workspace_of(newton);
   const baum_mechanism *m = w->mechanism;
-  double *forces = right + m->nq;
+  double *forces = right + m->nv;
   double *rows = forces + m->nv;
-  memcpy(right, r, (size_t)m->nq * sizeof *r);
+  const baum_i_sundials *sundials = newton->klu.sundials;
+  memcpy(right, baum_i_sundials_split(sundials, sundials->present, r), (size_t)m->nv * sizeof *r);
   memset(forces, 0, (size_t)(m->nv + m->nc) * sizeof *r);
   baum_i_mass_times(&w->structure, newton->mass, r + m->nq, forces);
   baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nq, rows);
   for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
     rows[i] = w->redundancy.omitted[i] ? 0.0 : rows[i];
   }
-  for (int i = 0; i < m->nq + m->nv + m->nc; i++) {
+  for (int i = 0; i < 2 * m->nv + m->nc; i++) {
     right[i] *= newton->c;
   }
 }
@@ -109,8 +112,10 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   const baum_mechanism *m = workspace_of(newton)->mechanism;
   make_right_side(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(klu->right));
   int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
-  memcpy(N_VGetArrayPointer(x), N_VGetArrayPointer(klu->solution),
-         (size_t)(m->nq + m->nv) * sizeof(double));
+  const double *solution = N_VGetArrayPointer(klu->solution);
+  double *d = N_VGetArrayPointer(x);
+  baum_i_sundials_join(klu->sundials, klu->sundials->present, solution, 1.0, d);
+  memcpy(d + m->nq, solution + m->nv, (size_t)m->nv * sizeof *d);
   solve_immobile(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
   return failed;
 }

@@ -60,6 +60,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector dy, N_Vector residual,
 {
   ida_run *run = user;
   double t = run->sundials.origin + tau;
+  run->sundials.present = N_VGetArrayPointer(y);
   baum_status status =
     baum_i_residual(run->sundials.problem->workspace, &run->dae, t, N_VGetArrayPointer(y),
                     N_VGetArrayPointer(dy), N_VGetArrayPointer(residual));
@@ -118,7 +119,7 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   (void)IDAGetCurrentCj(run->sundials.memory, &c);
   double ratio = c / run->linearized;
   baum_i_ida_newton_scale_right(&run->newton, ratio, b);
-  int failed = baum_i_sundials_klu_solve(&run->klu, x, b);
+  int failed = baum_i_sundials_klu_solve_positions(&run->klu, run->linearized, x, b);
   baum_i_ida_newton_scale_solution(&run->newton, ratio, x);
   return failed;
 }

@@ -116,6 +116,14 @@ static void weigh_multipliers(baum_i_ida_newton *newton, double *weights)
   }
 }
 
+/* Of the displacement j, as the weights of positions have it. */
+static double position_tolerance(const baum_i_ida_newton *newton, int j)
+{
+  const baum_i_problem *problem = newton->sundials->problem;
+  double scale = workspace_of(newton)->mechanism->scale[j];
+  return problem->tolerance_q * (problem->rtol * scale + problem->atol);
+}
+
 void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multipliers,
                                   double *weights)
 {
@@ -128,10 +136,11 @@ void baum_i_ida_newton_begin_step(baum_i_ida_newton *newton, const double *multi
   newton->energy = largest_of(newton, multipliers);
   newton->action = ggl ? largest_of(newton, multipliers + w->mechanism->nc) : 0.0;
   for (int j = 0; j < nv; j++) {
-    newton->momentum_q = fmax(newton->momentum_q, inertia[j] / weights[j]);
+    double tolerance = position_tolerance(newton, j);
+    newton->momentum_q = fmax(newton->momentum_q, inertia[j] * tolerance);
     newton->momentum_v = fmax(newton->momentum_v, inertia[j] / weights[nq + j]);
     double metric = ggl ? w->metric[j] * w->mechanism->scale[j] : 0.0;
-    newton->action_q = fmax(newton->action_q, metric / weights[j]);
+    newton->action_q = fmax(newton->action_q, metric * tolerance);
   }
   weigh_multipliers(newton, weights + nq + nv);
 }
@@ -148,10 +157,14 @@ static double size_of_motion(const baum_i_ida_newton *newton, double c, const do
   int nv = workspace_of(newton)->mechanism->nv;
   double least = is_index3(newton) ? INDEX3_VELOCITY_TOLERANCE * c : 0.0;
   double sum = 0.0;
-  for (int i = 0; i < nv; i++) {
+  for (int i = 0; i < nq; i++) {
     double position = d[i] * weights[i];
-    double velocity = d[nq + i] / fmax(1.0 / weights[nq + i], least / weights[i]);
-    sum += position * position + velocity * velocity;
+    sum += position * position;
+  }
+  for (int i = 0; i < nv; i++) {
+    double tolerance = fmax(1.0 / weights[nq + i], least * position_tolerance(newton, i));
+    double velocity = d[nq + i] / tolerance;
+    sum += velocity * velocity;
   }
   return sqrt(sum / (nq + nv));
 }

@@ -172,13 +172,50 @@ void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, do
 {
   memcpy(q, y, (size_t)mechanism->nq * sizeof *y);
   memcpy(v, y + mechanism->nq, (size_t)mechanism->nv * sizeof *y);
+  baum_i_normalize(mechanism, q);
 }
 
-/* N is the identity so far. */
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy)
 {
   const baum_mechanism *mechanism = workspace->mechanism;
-  baum_i_sundials_pack(mechanism, y + mechanism->nq, workspace->a, dy);
+  baum_i_rate(mechanism, y, y + mechanism->nq, dy);
+  memcpy(dy + mechanism->nq, workspace->a, (size_t)mechanism->nv * sizeof *dy);
+}
+
+/* ---- displacements ---- */
+
+/* Of workspace->work_q: that of baum_i_tangent() comes first. */
+static double *normal_of(const baum_i_sundials *sundials)
+{
+  const baum_workspace *w = sundials->problem->workspace;
+  return w->work_q + 3 * (ptrdiff_t)w->mechanism->nq;
+}
+
+const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,
+                                    const double *dq)
+{
+  const baum_workspace *w = sundials->problem->workspace;
+  const baum_mechanism *m = w->mechanism;
+  const double *dx = baum_i_tangent(m, q, dq, w->work_q);
+  if (!m->flat) {
+    double *normal = normal_of(sundials);
+    baum_i_rate(m, q, dx, normal);
+    for (int i = 0; i < m->nq; i++) {
+      normal[i] = dq[i] - normal[i];
+    }
+  }
+  return dx;
+}
+
+void baum_i_sundials_join(const baum_i_sundials *sundials, const double *q, const double *dx,
+                          double factor, double *dq)
+{
+  const baum_mechanism *m = sundials->problem->workspace->mechanism;
+  const double *normal = normal_of(sundials);
+  baum_i_rate(m, q, dx, dq);
+  for (int i = 0; i < m->nq && !m->flat; i++) {
+    dq[i] += factor * normal[i];
+  }
 }
 
 int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run)

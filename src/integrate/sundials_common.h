@@ -27,6 +27,7 @@ typedef struct baum_i_sundials {
   void *memory;                              /* of CVODE or IDA */
   N_Vector y;                                /* end of the last step */
   N_Vector inside;                           /* interpolated */
+  const double *present;                     /* q of the last evaluation */
   const baum_i_problem *problem;             /* of the call under way */
   bool unfinished;        /* since begin: a start or step that failed needs a restart */
   bool stops;             /* a stop time is set */
@@ -67,6 +68,16 @@ void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, do
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
 /* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
+/* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q near
+ * the manifold: dq = N dx + n, with n = 0 where q is a vector. */
+
+/* dx, until workspace->work_q is used again, which also holds n for the next call. */
+const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,
+                                    const double *dq);
+/* dq = N dx + factor n. */
+void baum_i_sundials_join(const baum_i_sundials *sundials, const double *q, const double *dx,
+                          double factor, double *dq);
+
 int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run);
 
 #endif

@@ -8,6 +8,7 @@
 
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 #include <sunlinsol/sunlinsol_klu.h>
 #include <sunmatrix/sunmatrix_sparse.h>
@@ -47,10 +48,9 @@ static baum_status make_solver(baum_i_sundials_klu *klu, int n)
 baum_status baum_i_sundials_klu_open(baum_i_sundials_klu *klu, baum_i_sundials *sundials,
                                      baum_residual index)
 {
-  const baum_workspace *workspace = sundials->problem->workspace;
-  int n = baum_i_residual_size(workspace->mechanism, index);
   klu->sundials = sundials;
-  BAUM_I_TRY(baum_i_residual_matrix_create(workspace, index, &klu->form));
+  BAUM_I_TRY(baum_i_residual_matrix_create(sundials->problem->workspace, index, &klu->form));
+  int n = baum_i_residual_matrix_size(klu->form);
   BAUM_I_TRY(make_arrays(klu, n));
   return make_solver(klu, n);
 }
@@ -171,6 +171,25 @@ int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
   }
   failed = choose_pivots(klu);
   return failed != 0 ? failed : SUNLinSolSolve_KLU(klu->solver, klu->matrix, x, b, 0.0);
+}
+
+int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b)
+{
+  const baum_mechanism *m = klu->sundials->problem->workspace->mechanism;
+  const double *q = klu->sundials->present;
+  if (m->flat) {
+    return baum_i_sundials_klu_solve(klu, x, b);
+  }
+  double *right = N_VGetArrayPointer(klu->right);
+  const double *solution = N_VGetArrayPointer(klu->solution);
+  size_t rest = (size_t)(N_VGetLength(b) - m->nq) * sizeof *right;
+  memcpy(right, baum_i_sundials_split(klu->sundials, q, N_VGetArrayPointer(b)),
+         (size_t)m->nv * sizeof *right);
+  memcpy(right + m->nv, N_VGetArrayPointer(b) + m->nq, rest);
+  int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
+  baum_i_sundials_join(klu->sundials, q, solution, 1.0 / c, N_VGetArrayPointer(x));
+  memcpy(N_VGetArrayPointer(x) + m->nq, solution + m->nv, rest);
+  return failed;
 }
 
 /* ---- the front ---- */

@@ -17,7 +17,7 @@
 typedef struct baum_i_sundials_klu {
   baum_i_sundials *sundials;
   baum_i_residual_matrix *form; /* where the numbers come from */
-  SUNMatrix matrix;             /* (n x n) as the form has it */
+  SUNMatrix matrix;             /* (n x n) as the form has it, for displacements of velocity size */
   SUNLinearSolver solver;
   double *numbers;   /* behind all below */
   double *defect;    /* (n) b - A x */
@@ -42,6 +42,8 @@ baum_status baum_i_sundials_klu_fill(baum_i_sundials_klu *klu, const baum_dae *d
  * */
 int baum_i_sundials_klu_factor(baum_i_sundials_klu *klu);
 int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b);
+/* Likewise with dq in x and q' - N v in b, for the c of the matrix. */
+int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b);
 
 /* A linear solver of SUNDIALS that calls these with `content`; free it with SUNLinSolFree(). NULL:
  * no memory. */

@@ -105,11 +105,13 @@ static void assert_power(int count, int power, double from, double t)
     q[k] = from + power_at(TIMES[k], power, &v[k]);
     knots[k] = (baum_i_knot){.t = TIMES[k], .q = &q[k], .v = &v[k]};
   }
+  static const baum_mechanism line = {.nq = 1, .nv = 1, .flat = true};
+  double work[4];
   double got[2] = {0.0, -1.0};
   double rate[2] = {0.0, -1.0};
   double want_rate;
   double want = from + power_at(t, power, &want_rate);
-  baum_i_hermite(knots, count, 1, t, got, rate);
+  baum_i_hermite(&line, knots, count, t, got, rate, work);
   /* Rounding of q by 1e-16 `from` times the factors, whose sizes at 10.4 s have the sums 340 and 12500. */
   ASSERT_NEAR(got[0], want, 0.0, 1e-13 + 3.4e-14 * from);
   ASSERT_NEAR(rate[0], want_rate, 0.0, 1e-12 + 1.25e-12 * from);
