@@ -10,6 +10,7 @@
 
 #include "assert_near.h"
 #include "base/least.h"
+#include "mechanism/model.h"
 #include "simulate/hermite.h"
 
 /* ---- least values ---- */
