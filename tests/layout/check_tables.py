@@ -3,7 +3,7 @@
 
 usage: check_tables.py [--write] PROJECT FORMULATIONS BENCH_FORMULATIONS
 
-Compares README.md (examples/formulations) and docs/theory/formulations.md (tests/bench/bench_formulations), but for
+Compares docs/measured.md (examples/formulations) and docs/theory/formulations.md (tests/bench/bench_formulations), but for
 times: counts within 5 %, other numbers within a factor of 3, because the last digits of a processor decide about single
 steps; rounding (below 1e-12) is only rounding. --write puts what is printed into the documents, times left as they are.
 """
@@ -14,7 +14,7 @@ import sys
 
 COUNT, FACTOR, ROUNDING = 0.05, 3.0, 1e-12
 NUMBER = re.compile(r"(?<![\w.-])\d+(?:\.\d+)?(?:e[-+]?\d+)?(?![\w.])")
-WALL = 3  # column of README.md
+WALL = 3  # column of docs/measured.md
 PROBLEMS = {"pendulum A01, 10 s": "pendulum, 10 s", "free slider-crank, 0.2 s: 5 turns": "free slider-crank, 0.2 s",
             "Grashof four-bar, 5 s": "four-bar, 5 s", "Andrews' mechanism, 7 bodies, 0.03 s": "Andrews, 0.03 s"}
 FORMS = "ida/index3", "ida/index2", "ida/ggl", "ida/baumgarte"
@@ -29,7 +29,7 @@ def with_short_exponents(text):
 
 
 def formulations(program, present):
-    """The rows of README.md, with the times that stand there."""
+    """The rows of docs/measured.md, with the times that stand there."""
     printed = run(program)
     first = next(k for k, line in enumerate(printed) if line.startswith("integrator "))
     rows = printed[first + 1:printed.index("", first)]
@@ -80,7 +80,7 @@ def tables(project, formulations_program, bench_program):
                 for problem in PROBLEMS.values()]
 
     theory = project + "/docs/theory/formulations.md"
-    return [(project + "/README.md", "integrator           formulation", 1, lambda old: formulations(formulations_program, old)),
+    return [(project + "/docs/measured.md", "integrator           formulation", 1, lambda old: formulations(formulations_program, old)),
             (theory, "| | rtol | INDEX3 | INDEX2 | GGL | BAUMGARTE |", 2, costs),
             (theory, "| | INDEX3 | INDEX2 | GGL | BAUMGARTE |", 2, kept),
             (theory, "| | generalized-alpha | rk4, projection |", 2, rivals)]
