@@ -168,7 +168,7 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
   qr_backend *qr = self;
   baum_i_scale_weigh(qr->pattern.structure, values, scale, weight_root, qr->scale);
   baum_i_pattern_fill(&qr->pattern, values, qr->scale, qr->matrix);
-  qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->matrix, dependent);
+  qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->matrix, dependent, NULL);
   qr->rcond = qr->rank == qr->pattern.n ? estimate_rcond(qr) : 0.0;
   return BAUM_OK;
 }

@@ -103,8 +103,7 @@ static baum_status factor_rows(const scaled_rows *rows, double tolerance, int *r
                                          rows->velocity};
   baum_i_sparse_qr *qr = NULL;
   BAUM_I_TRY(baum_i_sparse_qr_create(&columns, NULL, &qr));
-  *rank = baum_i_sparse_qr_factor(qr, rows->value, tolerance);
-  baum_i_sparse_qr_mark(qr, found);
+  *rank = baum_i_sparse_qr_factor(qr, rows->value, tolerance, found);
   baum_i_sparse_qr_destroy(qr);
   return BAUM_OK;
 }

@@ -7,8 +7,8 @@
  *   parent(k) = min { j > k : R_kj may be non-zero }
  *
  * makes a tree; R_kj may be non-zero where k is on the path up from the first column of a row of A
- * to another column j of that row (Liu 1986). A chain of columns, each with the pattern of its
- * parent and itself, is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
+ * to another column j of that row (Liu 1986). A chain of columns and parents whose rows of R have
+ * nearly the same pattern is eliminated in one dense matrix, a front (Duff & Reid 1983; Davis 2006,
  * 2011). A front assembles the rows of A that begin with one of its columns, the pivots, and the
  * rows that fronts below it in the tree hand on, ordered by the column with which they begin:
  *
@@ -41,8 +41,12 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/pair.h"
 
 enum { NONE = -1 };
+
+/* How much wider than the pattern of a row of R its front may be: by a share of it, and columns. */
+enum { SLACK_SHARE = 4, SLACK = 4 };
 
 typedef struct front {
   int32_t parent; /* fronts, rows of A: index or NONE */
@@ -57,7 +61,7 @@ typedef struct front {
   int32_t *done;  /* (columns) reflections after this column, which is rows of R and r */
   int32_t *row;   /* (rows) of A whose place in Q^T x each takes */
   double *tau;    /* (columns) of its reflection */
-  double *value;  /* (rows x columns) by columns */
+  double *value;  /* (rows x columns) by rows */
 } front;
 
 struct baum_i_sparse_qr {
@@ -82,16 +86,13 @@ struct baum_i_sparse_qr {
 /* What only creation needs. */
 typedef struct plan {
   const baum_i_sparse_columns *pattern;
-  int32_t *memory;   /* of the five below, (n) each */
+  int32_t *memory;   /* of the six below, (n) each */
   int32_t *parent;   /* of a column, or NONE */
   int32_t *mark;     /* of a search */
   int32_t *count;    /* size of the pattern of a row of R */
   int32_t *below;    /* the column below in the same front, or NONE */
   int32_t *front_of; /* each column */
-  int32_t **list;    /* (n) where to list the pattern of a row of R, or NULL */
-  size_t columns;    /* of all fronts */
-  size_t rows;
-  size_t values;
+  int32_t *listed;   /* columns of each front so far */
 } plan;
 
 static void fill(int32_t *x, int32_t count, int32_t value)
@@ -146,14 +147,18 @@ static void find_parents(const baum_i_sparse_qr *qr, plan *p)
   }
 }
 
-/* Column k is in the pattern of row i of R. */
-static void add_to_pattern(plan *p, int32_t i, int32_t k)
+/* Column k is in the pattern of row i of R, and of its front, if there are fronts already. */
+static void add_to_pattern(const baum_i_sparse_qr *qr, plan *p, int32_t i, int32_t k)
 {
   p->mark[i] = k;
-  if (p->list[i]) {
-    p->list[i][p->count[i]] = k;
-  }
   p->count[i]++;
+  if (qr->indices) {
+    int32_t *place = qr->fronts[p->front_of[i]].place;
+    int32_t *listed = &p->listed[p->front_of[i]];
+    if (*listed == 0 || place[*listed - 1] != k) {
+      place[(*listed)++] = k;
+    }
+  }
 }
 
 static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
@@ -162,23 +167,28 @@ static void find_patterns(const baum_i_sparse_qr *qr, plan *p)
   fill(p->count, qr->n, 0);
   for (int32_t k = 0; k < qr->n; k++) {
     int32_t j = qr->order[k];
-    add_to_pattern(p, k, k);
+    add_to_pattern(qr, p, k, k);
     for (int32_t e = p->pattern->start[j]; e < p->pattern->start[j + 1]; e++) {
       int32_t i = first_of_row(qr, p->pattern->row[e]);
       for (; p->mark[i] != k; i = p->parent[i]) {
-        add_to_pattern(p, i, k);
+        add_to_pattern(qr, p, i, k);
       }
     }
   }
 }
 
-/* The top column of a front has no column above with the same pattern but for itself. */
+/* Chain columns to their parents as long as the front is little wider than each pattern. */
 static void find_fronts(baum_i_sparse_qr *qr, plan *p)
 {
+  int32_t *length = p->mark;    /* of the chain up to a column */
+  int32_t *least = p->front_of; /* of the patterns in it */
   fill(p->below, qr->n, NONE);
   for (int32_t k = 0; k < qr->n; k++) {
+    int32_t below = p->below[k];
     int32_t up = p->parent[k];
-    if (up != NONE && p->count[k] == p->count[up] + 1) {
+    length[k] = below == NONE ? 1 : length[below] + 1;
+    least[k] = below == NONE || p->count[k] < least[below] ? p->count[k] : least[below];
+    if (up != NONE && length[k] + p->count[up] <= least[k] + least[k] / SLACK_SHARE + SLACK) {
       p->below[up] = k;
     }
   }
@@ -199,8 +209,7 @@ static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
   }
   for (int32_t k = qr->n - 1; k >= 0; k--) {
     front *f = &qr->fronts[p->front_of[k]];
-    f->pivots++;
-    f->columns = p->count[k]; /* at last of the lowest, which has most */
+    f->columns += f->pivots++ == 0 ? p->count[k] : 1; /* the top column comes first */
     int32_t up = p->parent[k] == NONE ? NONE : p->front_of[p->parent[k]];
     if (up != NONE && up != p->front_of[k]) {
       f->parent = up;
@@ -218,28 +227,26 @@ static void link_fronts(baum_i_sparse_qr *qr, const plan *p)
   }
 }
 
-static void measure_fronts(baum_i_sparse_qr *qr, plan *p)
+static bool make_room(baum_i_sparse_qr *qr)
 {
-  for (int32_t i = 0; i < qr->front_count; i++) {
-    const front *f = &qr->fronts[i];
+  size_t indices = 0;
+  size_t numbers = 0;
+  for (front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
     int32_t left = f->columns - f->pivots;
     if (f->parent != NONE) {
       qr->fronts[f->parent].rows += f->rows < left ? f->rows : left;
     }
-    p->columns += (size_t)f->columns;
-    p->rows += (size_t)f->rows;
-    p->values += (size_t)f->rows * (size_t)f->columns;
+    indices += 3 * (size_t)f->columns + (size_t)f->rows;
+    numbers += (size_t)f->columns * (1 + (size_t)f->rows);
   }
-}
-
-static bool make_room(baum_i_sparse_qr *qr, const plan *p)
-{
-  qr->indices = baum_i_alloc(3 * p->columns + p->rows, sizeof *qr->indices);
-  qr->numbers = baum_i_alloc(p->columns + p->values, sizeof *qr->numbers);
+  qr->indices = baum_i_alloc(indices, sizeof *qr->indices);
+  qr->numbers = baum_i_alloc(numbers, sizeof *qr->numbers);
+  if (!qr->indices || !qr->numbers) {
+    return false;
+  }
   int32_t *index = qr->indices;
   double *number = qr->numbers;
-  for (int32_t i = 0; i < qr->front_count && index && number; i++) {
-    front *f = &qr->fronts[i];
+  for (front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
     f->place = index;
     f->end = f->place + f->columns;
     f->done = f->end + f->columns;
@@ -249,7 +256,7 @@ static bool make_room(baum_i_sparse_qr *qr, const plan *p)
     f->value = f->tau + f->columns;
     number = f->value + (size_t)f->rows * (size_t)f->columns;
   }
-  return index && number;
+  return true;
 }
 
 /* Parts of baum_i_sparse_qr_create(), false: out of memory. */
@@ -282,10 +289,8 @@ static bool copy_pattern(baum_i_sparse_qr *qr, const baum_i_sparse_columns *patt
 static bool make_plan(const baum_i_sparse_qr *qr, const baum_i_sparse_columns *pattern, plan *p)
 {
   size_t n = (size_t)qr->n;
-  *p = (plan){.pattern = pattern,
-              .memory = baum_i_alloc(5 * n, sizeof *p->memory),
-              .list = baum_i_alloc(n, sizeof(int32_t *))};
-  if (!p->memory || !p->list) {
+  *p = (plan){.pattern = pattern, .memory = baum_i_alloc(6 * n, sizeof *p->memory)};
+  if (!p->memory) {
     return false;
   }
   p->parent = p->memory;
@@ -293,6 +298,7 @@ static bool make_plan(const baum_i_sparse_qr *qr, const baum_i_sparse_columns *p
   p->count = p->mark + n;
   p->below = p->count + n;
   p->front_of = p->below + n;
+  p->listed = p->front_of + n;
   return true;
 }
 
@@ -306,12 +312,8 @@ static bool lay_out(baum_i_sparse_qr *qr, plan *p)
     return false;
   }
   link_fronts(qr, p);
-  measure_fronts(qr, p);
-  if (!make_room(qr, p)) {
+  if (!make_room(qr)) {
     return false;
-  }
-  for (int32_t k = 0; k < qr->n; k++) {
-    p->list[k] = p->below[k] == NONE ? qr->fronts[p->front_of[k]].place : NULL;
   }
   find_patterns(qr, p);
   return true;
@@ -338,7 +340,6 @@ baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const 
   bool done =
     qr && copy_pattern(qr, pattern, order) && make_plan(qr, pattern, &p) && lay_out(qr, &p);
   baum_i_free(p.memory);
-  baum_i_free(p.list);
   if (!done) {
     baum_i_sparse_qr_destroy(qr);
     qr = NULL;
@@ -349,9 +350,9 @@ baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const 
 
 /* ---- factorization ---- */
 
-static double *column_of(const front *f, int32_t j)
+static double *row_of(const front *f, int32_t i)
 {
-  return f->value + (ptrdiff_t)j * f->rows;
+  return f->value + (ptrdiff_t)i * f->columns;
 }
 
 /* Does a reflection, and so a row of R or r, belong to column j? It is the last so far. */
@@ -365,8 +366,8 @@ static const front *front_at(const baum_i_sparse_qr *qr, int32_t index)
   return index == NONE ? NULL : &qr->fronts[index];
 }
 
-/* end becomes where rows begin that begin with each column. */
-static void count_rows(const baum_i_sparse_qr *qr, const front *f)
+/* end becomes where rows begin that begin with each column. Returns how many there are. */
+static int32_t count_rows(const baum_i_sparse_qr *qr, const front *f)
 {
   fill(f->end, f->columns, 0);
   for (int32_t i = f->first_row; i != NONE; i = qr->next_row[i]) {
@@ -383,6 +384,7 @@ static void count_rows(const baum_i_sparse_qr *qr, const front *f)
     f->end[j] = begin;
     begin += count;
   }
+  return begin;
 }
 
 /* Row i of A; end grows to what it is to be. */
@@ -391,7 +393,7 @@ static void load_row(const baum_i_sparse_qr *qr, const double *values, int32_t i
   int32_t row = f->end[qr->position[first_of_row(qr, i)]]++;
   f->row[row] = i;
   for (int32_t e = qr->row_start[i]; e < qr->row_start[i + 1]; e++) {
-    column_of(f, qr->position[qr->place[e]])[row] = values[qr->source[e]];
+    row_of(f, row)[qr->position[qr->place[e]]] = values[qr->source[e]];
   }
 }
 
@@ -406,18 +408,18 @@ static void load_child(const baum_i_sparse_qr *qr, const front *c, const front *
     int32_t row = f->end[qr->position[c->place[j]]]++;
     f->row[row] = c->row[from];
     for (int32_t k = j; k < c->columns; k++) {
-      column_of(f, qr->position[c->place[k]])[row] = column_of(c, k)[from];
+      row_of(f, row)[qr->position[c->place[k]]] = row_of(c, from)[k];
     }
   }
 }
 
 static void assemble(const baum_i_sparse_qr *qr, const double *values, const front *f)
 {
-  memset(f->value, 0, (size_t)f->rows * (size_t)f->columns * sizeof *f->value);
   for (int32_t j = 0; j < f->columns; j++) {
     qr->position[f->place[j]] = j;
   }
-  count_rows(qr, f);
+  size_t rows = (size_t)count_rows(qr, f);
+  memset(f->value, 0, rows * (size_t)f->columns * sizeof *f->value);
   for (int32_t i = f->first_row; i != NONE; i = qr->next_row[i]) {
     load_row(qr, values, i, f);
   }
@@ -426,80 +428,88 @@ static void assemble(const baum_i_sparse_qr *qr, const double *values, const fro
   }
 }
 
-static double sum_of_squares(const double *x, int32_t count)
+static double sum_of_squares(const front *f, int32_t j, int32_t first)
 {
   double sum = 0.0;
-  for (int32_t i = 0; i < count; i++) {
-    sum += x[i] * x[i];
+  for (int32_t i = first; i < f->end[j]; i++) {
+    sum += row_of(f, i)[j] * row_of(f, i)[j];
   }
   return sum;
 }
 
-/* x (count) of some length becomes -+length, v_1, v_2, ... of a reflection with v_0 = 1. */
-static double make_reflection(double *x, int32_t count, double length)
+/* Column j, of some length from row `first` on, becomes -+length, v_1, v_2, ... with v_0 = 1. */
+static double make_reflection(const front *f, int32_t j, int32_t first, double length)
 {
-  double first = x[0];
-  x[0] = first > 0.0 ? -length : length;
-  for (int32_t i = 1; i < count; i++) {
-    x[i] /= first - x[0];
+  double *x = &row_of(f, first)[j];
+  double before = *x;
+  *x = before > 0.0 ? -length : length;
+  for (int32_t i = first + 1; i < f->end[j]; i++) {
+    row_of(f, i)[j] /= before - *x;
   }
-  return (x[0] - first) / x[0];
+  return (*x - before) / *x;
 }
 
-static void reflect(const double *v, double tau, int32_t count, double *x)
+/* row += factor other, from column j on */
+static void add_row(double factor, const double *restrict other, int32_t j, int32_t columns,
+                    double *restrict row)
 {
-  double sum = x[0];
-  for (int32_t i = 1; i < count; i++) {
-    sum += v[i] * x[i];
+  int32_t k = j;
+  for (; k + 1 < columns; k += 2) {
+    baum_i_store(row + k, baum_i_load(row + k) + factor * baum_i_load(other + k));
   }
-  sum *= tau;
-  x[0] -= sum;
-  for (int32_t i = 1; i < count; i++) {
-    x[i] -= sum * v[i];
+  if (k < columns) {
+    row[k] += factor * other[k];
   }
 }
 
-/* Returns how many pivots are independent. */
-static int32_t reduce(const front *f, double tolerance)
+/* Apply the reflection of column j to the columns behind; sum (columns) is scratch. */
+static void reflect(const front *f, int32_t j, int32_t first, double *sum)
+{
+  double *top = row_of(f, first);
+  memcpy(sum, top, (size_t)f->columns * sizeof *sum);
+  for (int32_t i = first + 1; i < f->end[j]; i++) {
+    add_row(row_of(f, i)[j], row_of(f, i), j + 1, f->columns, sum);
+  }
+  add_row(-f->tau[j], sum, j + 1, f->columns, top);
+  for (int32_t i = first + 1; i < f->end[j]; i++) {
+    add_row(-f->tau[j] * row_of(f, i)[j], sum, j + 1, f->columns, row_of(f, i));
+  }
+}
+
+static void reduce(const front *f, double tolerance, double *sum)
 {
   int32_t done = 0;
   for (int32_t j = 0; j < f->columns; j++) {
-    double *x = column_of(f, j) + done;
-    int32_t count = f->end[j] - done;
-    double below = count > 1 ? sum_of_squares(x + 1, count - 1) : 0.0;
-    double length = count > 0 ? sqrt(x[0] * x[0] + below) : 0.0;
+    double first = done < f->end[j] ? row_of(f, done)[j] : 0.0;
+    double below = sum_of_squares(f, j, done + 1);
+    double length = sqrt(first * first + below);
     if (length > (j < f->pivots ? tolerance : 0.0)) {
-      f->tau[j] = below > 0.0 ? make_reflection(x, count, length) : 0.0;
-      for (int32_t k = j + 1; k < f->columns && f->tau[j] != 0.0; k++) {
-        reflect(x, f->tau[j], count, column_of(f, k) + done);
+      f->tau[j] = below > 0.0 ? make_reflection(f, j, done, length) : 0.0;
+      if (below > 0.0) {
+        reflect(f, j, done, sum);
       }
       done++;
     }
     f->done[j] = done;
   }
-  return f->done[f->pivots - 1];
 }
 
-int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance)
+int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
+                                unsigned char *independent)
 {
   int32_t rank = 0;
-  for (int32_t f = 0; f < qr->front_count; f++) {
-    assemble(qr, values, &qr->fronts[f]);
-    rank += reduce(&qr->fronts[f], tolerance);
+  for (const front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
+    assemble(qr, values, f);
+    reduce(f, tolerance, qr->work);
+    rank += f->done[f->pivots - 1];
+    for (int32_t j = 0; j < f->pivots && independent; j++) {
+      independent[qr->order[f->place[j]]] = is_reduced(f, j);
+    }
   }
   return rank;
 }
 
 /* ---- use ---- */
-
-void baum_i_sparse_qr_mark(const baum_i_sparse_qr *qr, unsigned char *independent)
-{
-  for (const front *f = qr->fronts; f < qr->fronts + qr->front_count; f++) {
-    for (int32_t j = 0; j < f->pivots; j++) {
-      independent[qr->order[f->place[j]]] = is_reduced(f, j);
-    }
-  }
-}
 
 /* The reflection of column j, if there is one. */
 static void reflect_by(const front *f, int32_t j, double *x)
@@ -507,16 +517,15 @@ static void reflect_by(const front *f, int32_t j, double *x)
   if (!is_reduced(f, j)) {
     return;
   }
-  const double *v = column_of(f, j);
   int32_t first = f->done[j] - 1;
   double sum = x[f->row[first]];
   for (int32_t i = first + 1; i < f->end[j]; i++) {
-    sum += v[i] * x[f->row[i]];
+    sum += row_of(f, i)[j] * x[f->row[i]];
   }
   sum *= f->tau[j];
   x[f->row[first]] -= sum;
   for (int32_t i = first + 1; i < f->end[j]; i++) {
-    x[f->row[i]] -= sum * v[i];
+    x[f->row[i]] -= sum * row_of(f, i)[j];
   }
 }
 
@@ -549,12 +558,12 @@ static void solve_triangle(const baum_i_sparse_qr *qr, const double *y, double *
       double *unknown = &x[f->place[j]];
       *unknown = 0.0;
       if (is_reduced(f, j)) {
-        int32_t row = f->done[j] - 1;
-        double sum = y[f->row[row]];
+        const double *row = row_of(f, f->done[j] - 1);
+        double sum = y[f->row[f->done[j] - 1]];
         for (int32_t k = j + 1; k < f->columns; k++) {
-          sum -= column_of(f, k)[row] * x[f->place[k]];
+          sum -= row[k] * x[f->place[k]];
         }
-        *unknown = sum / column_of(f, j)[row];
+        *unknown = sum / row[j];
       }
     }
   }

@@ -24,12 +24,11 @@ baum_status baum_i_sparse_qr_create(const baum_i_sparse_columns *pattern, const 
 void baum_i_sparse_qr_destroy(baum_i_sparse_qr *qr); /* NULL is fine */
 
 /* Factor finite values, listed as the rows of the pattern, and return the rank. A column is
- * dependent when what the independent ones before it leave of it is at most `tolerance` long.
- * Allocates nothing, nor do the functions below. */
-int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance);
-
-/* independent (columns) receives 1 or 0. */
-void baum_i_sparse_qr_mark(const baum_i_sparse_qr *qr, unsigned char *independent);
+ * dependent when what the independent ones before it leave of it is at most `tolerance` long;
+ * independent (columns), which may be NULL, receives 1 or 0. Allocates nothing, nor do the two
+ * functions below. */
+int32_t baum_i_sparse_qr_factor(baum_i_sparse_qr *qr, const double *values, double tolerance,
+                                unsigned char *independent);
 
 /* x, with room for the larger of rows and columns: the right side b, then an x that minimizes
  * |A x - b| and is zero where columns are dependent. */
