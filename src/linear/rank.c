@@ -7,33 +7,27 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "linear/kkt.h"
-#include "linear/peel.h"
 #include "linear/sparse_qr.h"
 
-/* J, scaled by columns, and those of its rows that are left to be looked at, as columns. */
-typedef struct scaled_rows {
-  const baum_i_kkt_structure *structure;
-  const double *jacobian;
-  const double *column_scale;
-  int32_t *place; /* (nc) among those left, or -1 */
-  int32_t left;
-  int32_t *start; /* (left + 1) of the entries of each */
-  int32_t *velocity;
-  double *value;
-} scaled_rows;
+/* J^T in compressed columns. */
+typedef struct transposed {
+  int32_t *start;    /* (nc + 1) */
+  int32_t *velocity; /* (start[nc]) */
+  int32_t *order;    /* (nc) of preference */
+  double *value;     /* (start[nc]) */
+} transposed;
 
-static bool entries_are_finite(const scaled_rows *rows)
+static void count_entries(const baum_i_kkt_structure *structure, int32_t *start)
 {
-  for (int b = 0; b < rows->structure->row_block_count; b++) {
-    const baum_i_row_block *block = &rows->structure->row_blocks[b];
-    const double *value = rows->jacobian + block->value;
-    for (int k = 0; k < block->rows * block->cols; k++) {
-      if (!isfinite(value[k] * rows->column_scale[block->col[k % block->cols]])) {
-        return false;
-      }
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    for (int i = 0; i < block->rows; i++) {
+      start[block->row + i + 1] = block->cols;
     }
   }
-  return true;
+  for (int i = 0; i < structure->nc; i++) {
+    start[i + 1] += start[i];
+  }
 }
 
 /* To unit length; by the largest number first, so that squares neither overflow nor vanish. */
@@ -53,97 +47,51 @@ static void make_unit(double *x, int count)
   }
 }
 
-/* Marked ones first. */
-static void order_rows(const scaled_rows *rows, const unsigned char *marked)
+/* False: a number is not finite. */
+static bool list_entries(const baum_i_kkt_structure *structure, const double *jacobian,
+                         const double *column_scale, const transposed *columns)
 {
-  int32_t next = 0;
-  for (int pass = 0; pass < 2; pass++) {
-    for (int i = 0; i < rows->structure->nc; i++) {
-      if (rows->place[i] >= 0 && (marked[i] == 0) == (pass == 1)) {
-        rows->place[i] = next++;
-      }
-    }
-  }
-}
-
-static void count_entries(const scaled_rows *rows)
-{
-  for (int b = 0; b < rows->structure->row_block_count; b++) {
-    const baum_i_row_block *block = &rows->structure->row_blocks[b];
-    for (int i = 0; i < block->rows && rows->place[block->row + i] >= 0; i++) {
-      rows->start[rows->place[block->row + i] + 1] = block->cols;
-    }
-  }
-  for (int32_t j = 0; j < rows->left; j++) {
-    rows->start[j + 1] += rows->start[j];
-  }
-}
-
-static void list_entries(const scaled_rows *rows)
-{
-  for (int b = 0; b < rows->structure->row_block_count; b++) {
-    const baum_i_row_block *block = &rows->structure->row_blocks[b];
-    const double *value = rows->jacobian + block->value;
-    for (int i = 0; i < block->rows && rows->place[block->row + i] >= 0; i++) {
-      int32_t first = rows->start[rows->place[block->row + i]];
+  for (int b = 0; b < structure->row_block_count; b++) {
+    const baum_i_row_block *block = &structure->row_blocks[b];
+    const double *number = jacobian + block->value;
+    for (int i = 0; i < block->rows; i++) {
+      int32_t *velocity = columns->velocity + columns->start[block->row + i];
+      double *value = columns->value + columns->start[block->row + i];
       for (int k = 0; k < block->cols; k++) {
-        rows->velocity[first + k] = block->col[k];
-        rows->value[first + k] = *value++ * rows->column_scale[block->col[k]];
+        velocity[k] = block->col[k];
+        value[k] = *number++ * column_scale[block->col[k]];
+        if (!isfinite(value[k])) {
+          return false;
+        }
       }
-      make_unit(rows->value + first, block->cols);
+      make_unit(value, block->cols);
+    }
+  }
+  return true;
+}
+
+/* Marked ones first. */
+static void order_rows(int nc, const unsigned char *marked, int32_t *order)
+{
+  for (int pass = 0; pass < 2; pass++) {
+    for (int32_t i = 0; i < nc; i++) {
+      if ((marked[i] == 0) == (pass == 1)) {
+        *order++ = i;
+      }
     }
   }
 }
 
-/* found (left) receives 1 for independent ones. */
-static baum_status factor_rows(const scaled_rows *rows, double tolerance, int *rank,
-                               unsigned char *found)
+static baum_status find_rank(const baum_i_kkt_structure *structure, const transposed *columns,
+                             double tolerance, int *rank, unsigned char *independent)
 {
-  const baum_i_sparse_columns columns = {rows->structure->nv, rows->left, rows->start,
-                                         rows->velocity};
+  const baum_i_sparse_columns pattern = {structure->nv, structure->nc, columns->start,
+                                         columns->velocity};
   baum_i_sparse_qr *qr = NULL;
-  BAUM_I_TRY(baum_i_sparse_qr_create(&columns, NULL, &qr));
-  *rank = baum_i_sparse_qr_factor(qr, rows->value, tolerance, found);
+  order_rows(structure->nc, independent, columns->order);
+  BAUM_I_TRY(baum_i_sparse_qr_create(&pattern, columns->order, &qr));
+  *rank = baum_i_sparse_qr_factor(qr, columns->value, tolerance, independent);
   baum_i_sparse_qr_destroy(qr);
-  return BAUM_OK;
-}
-
-static baum_status rank_by_qr(scaled_rows *rows, double tolerance, int *rank, unsigned char *found)
-{
-  baum_status status = BAUM_ERR_MEMORY;
-  rows->start = baum_i_alloc((size_t)rows->left + 1, sizeof *rows->start);
-  if (rows->start) {
-    count_entries(rows);
-    size_t entries = (size_t)rows->start[rows->left];
-    rows->velocity = baum_i_alloc(entries, sizeof *rows->velocity);
-    rows->value = baum_i_alloc(entries, sizeof *rows->value);
-  }
-  if (rows->velocity && rows->value) {
-    list_entries(rows);
-    status = factor_rows(rows, tolerance, rank, found);
-  }
-  baum_i_free(rows->start);
-  baum_i_free(rows->velocity);
-  baum_i_free(rows->value);
-  return status;
-}
-
-/* found (nc) is scratch. */
-static baum_status find_rank(scaled_rows *rows, double tolerance, unsigned char *found, int *rank,
-                             unsigned char *independent)
-{
-  int nc = rows->structure->nc;
-  int rank_left = 0;
-  BAUM_I_TRY(
-    baum_i_peel(rows->structure, rows->jacobian, rows->column_scale, rows->place, &rows->left));
-  if (rows->left > 0) {
-    order_rows(rows, independent);
-    BAUM_I_TRY(rank_by_qr(rows, tolerance, &rank_left, found));
-  }
-  *rank = nc - rows->left + rank_left;
-  for (int i = 0; i < nc; i++) {
-    independent[i] = rows->place[i] < 0 ? 1 : found[rows->place[i]];
-  }
   return BAUM_OK;
 }
 
@@ -152,20 +100,23 @@ baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const do
                                  unsigned char *independent)
 {
   size_t nc = (size_t)structure->nc;
-  scaled_rows rows = {.structure = structure, .jacobian = jacobian, .column_scale = column_scale};
-  if (structure->nv == 0 || nc == 0) {
-    *rank = 0;
-    memset(independent, 0, nc);
-    return BAUM_OK;
+  transposed columns = {.start = baum_i_alloc(nc + 1, sizeof *columns.start),
+                        .order = baum_i_alloc(nc, sizeof *columns.order)};
+  baum_status status = BAUM_ERR_MEMORY;
+  if (columns.start && columns.order) {
+    count_entries(structure, columns.start);
+    size_t entries = (size_t)columns.start[nc];
+    columns.velocity = baum_i_alloc(entries, sizeof *columns.velocity);
+    columns.value = baum_i_alloc(entries, sizeof *columns.value);
   }
-  if (!entries_are_finite(&rows)) {
-    return BAUM_ERR_NOT_FINITE;
+  if (columns.velocity && columns.value) {
+    status = list_entries(structure, jacobian, column_scale, &columns)
+               ? find_rank(structure, &columns, tolerance, rank, independent)
+               : BAUM_ERR_NOT_FINITE;
   }
-  rows.place = baum_i_alloc(nc, sizeof *rows.place);
-  unsigned char *found = baum_i_alloc(nc, 1);
-  baum_status status =
-    rows.place && found ? find_rank(&rows, tolerance, found, rank, independent) : BAUM_ERR_MEMORY;
-  baum_i_free(rows.place);
-  baum_i_free(found);
+  baum_i_free(columns.start);
+  baum_i_free(columns.order);
+  baum_i_free(columns.velocity);
+  baum_i_free(columns.value);
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
 }
