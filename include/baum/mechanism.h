@@ -574,20 +574,19 @@ typedef struct baum_report {
   int32_t velocities; /**< [-] nv. */
   int32_t rows;       /**< [-] nc. */
   int32_t
-    degrees_of_freedom;    /**< [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
-  int32_t redundant_rows;  /**< [-] left out of every solution. */
-  int32_t constant_rows;   /**< [-] without time derivatives, for they are not of time. */
-  int32_t islands;         /**< [-] of bodies that joints hold together, ground left out. */
-  int32_t immobile_bodies; /**< [-] that cannot move. */
-  int32_t left_out_bodies; /**< [-] of these, left out of runs while they rest. */
-  bool constant_mass;      /**< Masses are constant: inverted once. */
-  bool constant_force;     /**< So are all forces. */
-  bool blocks;             /**< Solved by blocks (BAUM_SOLVER_BLOCK); else by KLU. */
-  int32_t nodes;           /**< [-] pairs of rows; 0 for KLU. */
-  int32_t couplings;       /**< [-] of nodes when these are eliminated; 0 for KLU. */
-  int32_t fill;            /**< [-] couplings that no body makes, but elimination; 0 for KLU. */
-  int32_t most_couplings;  /**< [-] of one node; 0 for KLU. */
-  int32_t most_joints;     /**< [-] of one body that is not left out. */
+    degrees_of_freedom;   /**< [-] nv - rank of J; -1: not known, see baum_mechanism_mobility(). */
+  int32_t redundant_rows; /**< [-] left out of every solution. */
+  int32_t constant_rows;  /**< [-] without time derivatives, for they are not of time. */
+  int32_t islands;        /**< [-] of bodies that joints hold together, fixed ones left out. */
+  int32_t fixed_bodies;   /**< [-] welded to ground: solved for where multipliers are wanted. */
+  bool constant_mass;     /**< Masses are constant: inverted once. */
+  bool constant_force;    /**< So are all forces. */
+  bool blocks;            /**< Solved by blocks (BAUM_SOLVER_BLOCK); else by KLU. */
+  int32_t nodes;          /**< [-] pairs of rows; 0 for KLU. */
+  int32_t couplings;      /**< [-] of nodes when these are eliminated; 0 for KLU. */
+  int32_t fill;           /**< [-] couplings that no body makes, but elimination; 0 for KLU. */
+  int32_t most_couplings; /**< [-] of one node; 0 for KLU. */
+  int32_t most_joints;    /**< [-] of one body that is not fixed. */
   baum_body_id most_joined; /**< That body; none when there are no joints. */
   char text[2048];          /**< The same in lines, by name, with the reasons. */
 } baum_report;

@@ -119,7 +119,8 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 typedef enum baum_start {
   BAUM_START_ASSEMBLE = 0, /**< Assemble; refuse moves above a quarter of the scale, or 1 rad. */
   BAUM_START_EXACT = 1,    /**< Refuse a pose or velocities that do not fulfil the constraints. */
-  BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero. */
+  BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero; but bodies that
+                                welds hold to ground are where the welds have them. */
 } baum_start;
 
 /** Which solver of the equations (7) is used. baum_simulation_explain() tells which it is, and why.

@@ -85,17 +85,17 @@ static baum_status accelerate(baum_workspace *w, double t, const double *q, cons
   return solve(w);
 }
 
-baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,
-                                double alpha, double beta)
+/* By a path, or where that is NULL or hands over by the solver of the whole system. */
+static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
+                                 const double *q, const double *v, double alpha, double beta)
 {
-  if (w->path) {
+  if (path) {
     const baum_i_right_side right = {.bending = 1.0,
                                      .damping = 2.0 * alpha,
                                      .stiffness = beta * beta,
                                      .force = true,
                                      .row_gains = w->row_gains};
-    baum_status status = baum_i_block_path_solve(w, t, q, v, &right);
-    w->solved_by = w->path;
+    baum_status status = baum_i_block_path_solve(w, path, t, q, v, &right);
     if (status != BAUM_ERR_SINGULAR) {
       w->evaluations += status == BAUM_OK ? 1 : 0;
       return status;
@@ -107,16 +107,41 @@ baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, co
   return accelerate(w, t, q, v, alpha, beta);
 }
 
+baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,
+                                double alpha, double beta)
+{
+  return accelerate_by(w, w->path, t, q, v, alpha, beta);
+}
+
+baum_status baum_i_motion(baum_workspace *w, double t, const double *q, const double *v,
+                          double alpha, double beta)
+{
+  BAUM_I_TRY(accelerate_by(w, w->motion, t, q, v, alpha, beta));
+  if (!w->solved_by) {
+    baum_i_rest_fixed_bodies(w->mechanism, w->a);
+  }
+  return BAUM_OK;
+}
+
+/* Without blocks a solution costs little more than its factors. */
+baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
+{
+  if (!w->motion) {
+    return baum_i_motion(w, t, q, v, 0.0, 0.0);
+  }
+  BAUM_I_TRY(baum_i_block_path_factor(w, w->motion, t, q));
+  w->solved_by = NULL;
+  return baum_i_blocks_tell(w) ? BAUM_OK : baum_i_motion(w, t, q, v, 0.0, 0.0);
+}
+
 baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const double *q,
                                          const double *v)
 {
-  baum_status status = baum_i_acceleration(w, t, q, v, 0.0, 0.0);
-  if (status == BAUM_OK) {
-    status = baum_i_need_jacobian(w);
+  BAUM_I_TRY(baum_i_acceleration(w, t, q, v, 0.0, 0.0));
+  BAUM_I_TRY(baum_i_need_jacobian(w));
+  if (w->redundancy.count == 0) {
+    return BAUM_OK;
   }
-  if (status == BAUM_OK && w->redundancy.count > 0) {
-    status = baum_i_evaluate_mass(w);
-    status = status == BAUM_OK ? baum_i_make_multipliers_least(w) : status;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_evaluate_mass(w));
+  return baum_i_make_multipliers_least(w);
 }

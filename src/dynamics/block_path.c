@@ -29,16 +29,20 @@ static bool is_diagonal(const baum_i_body *body)
   return body->type->frame == BAUM_I_FRAME_BODY || body->type->frame == BAUM_I_FRAME_PARTICLE;
 }
 
-/* What the solver asks about bodies and joints. */
+/* What the solver asks about bodies, joints and rows. */
 typedef struct traits {
   baum_i_block_pin *pins;
   unsigned char *diagonal;
+  unsigned char *fixed;
+  unsigned char *omitted;
 } traits;
 
-static void find_traits(const baum_mechanism *m, traits *out)
+static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
 {
+  const baum_mechanism *m = w->mechanism;
   for (int i = 0; i < m->body_count; i++) {
     out->diagonal[i] = is_diagonal(m->bodies[i + 1]) ? 1 : 0;
+    out->fixed[i] = for_motion && m->bodies[i + 1]->fixed ? 1 : 0;
   }
   for (int i = 0; i < m->joint_count; i++) {
     const baum_i_joint *joint = m->joints[i];
@@ -46,24 +50,29 @@ static void find_traits(const baum_mechanism *m, traits *out)
       out->pins[i] = (baum_i_block_pin){
         .is_pin = true, .body_a = joint->span.bodies[0] - 1, .body_b = joint->span.bodies[1] - 1};
     }
+    for (int k = joint->row; k < joint->row + joint->rows; k++) {
+      bool redundant = w->redundancy.count > 0 && w->redundancy.omitted[k];
+      out->omitted[k] = redundant || (for_motion && joint->fixed) ? 1 : 0;
+    }
   }
 }
 
-static baum_status make_block(const baum_workspace *w, const baum_i_left_out *left_out,
+static baum_status make_block(const baum_workspace *w, bool for_motion,
                               baum_i_block_verdict *verdict, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
   traits t = {.pins = baum_i_alloc((size_t)m->joint_count, sizeof *t.pins),
-              .diagonal = baum_i_alloc((size_t)m->body_count, 1)};
+              .diagonal = baum_i_alloc((size_t)m->body_count, 1),
+              .fixed = baum_i_alloc((size_t)m->body_count, 1),
+              .omitted = baum_i_alloc((size_t)m->nc, 1)};
   baum_status status = BAUM_ERR_MEMORY;
-  if (t.pins && t.diagonal) {
-    find_traits(m, &t);
-    const unsigned char *redundant = w->redundancy.count > 0 ? w->redundancy.omitted : NULL;
+  if (t.pins && t.diagonal && t.fixed && t.omitted) {
+    find_traits(w, for_motion, &t);
     const baum_i_block_layout layout = {.structure = &w->structure,
                                         .pins = t.pins,
                                         .diagonal = t.diagonal,
-                                        .omitted = left_out ? left_out->omitted : redundant,
-                                        .still = left_out ? left_out->still : NULL};
+                                        .omitted = t.omitted,
+                                        .fixed = t.fixed};
     int hub = -1;
     status = baum_i_block_create(&layout, &hub, &path->block);
     verdict->blocks = hub < 0 ? BAUM_I_BLOCKS_FILLED : BAUM_I_BLOCKS_CROWDED;
@@ -71,6 +80,8 @@ static baum_status make_block(const baum_workspace *w, const baum_i_left_out *le
   }
   baum_i_free(t.pins);
   baum_i_free(t.diagonal);
+  baum_i_free(t.fixed);
+  baum_i_free(t.omitted);
   return status;
 }
 
@@ -118,15 +129,16 @@ static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_
   return BAUM_OK;
 }
 
-static baum_status arrange_joints(const baum_workspace *w, const baum_i_left_out *left_out,
-                                  baum_i_block_path *path)
+static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum_i_block_path *path)
 {
-  size_t joints = (size_t)w->mechanism->joint_count;
-  unsigned char *is_done =
-    left_out ? baum_i_copy(left_out->joints, joints, 1) : baum_i_alloc(joints, 1);
+  const baum_mechanism *m = w->mechanism;
+  unsigned char *is_done = baum_i_alloc((size_t)m->joint_count, 1);
   baum_status status = is_done ? place_points(w, path, is_done) : BAUM_ERR_MEMORY;
+  for (int k = 0; k < m->joint_count && status == BAUM_OK; k++) {
+    is_done[k] |= for_motion && m->joints[k]->fixed ? 1 : 0;
+  }
   if (status == BAUM_OK) {
-    status = make_groups(w->mechanism, is_done, path);
+    status = make_groups(m, is_done, path);
   }
   baum_i_free(is_done);
   return status;
@@ -221,12 +233,12 @@ static bool is_uneven(const baum_i_block_path *path)
          turns.most > UNEVEN * turns.least;
 }
 
-static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
-                        baum_i_block_verdict *verdict, baum_i_block_path *path)
+static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
+                        baum_i_block_path *path)
 {
-  baum_status status = make_block(w, left_out, verdict, path);
+  baum_status status = make_block(w, for_motion, verdict, path);
   if (status == BAUM_OK) {
-    status = arrange_joints(w, left_out, path);
+    status = arrange_joints(w, for_motion, path);
   }
   if (status == BAUM_OK) {
     status = prepare_masses(w, verdict, path);
@@ -239,7 +251,7 @@ static baum_status fill(baum_workspace *w, const baum_i_left_out *left_out,
   return status;
 }
 
-baum_status baum_i_block_path_create(baum_workspace *w, const baum_i_left_out *left_out,
+baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out)
 {
   *out = NULL;
@@ -250,8 +262,8 @@ baum_status baum_i_block_path_create(baum_workspace *w, const baum_i_left_out *l
   path->kernel = BAUM_I_HOT_TABLE(baum_i_block_kernel);
   path->sides_kernel = BAUM_I_HOT_TABLE(baum_i_block_sides_kernel);
   path->pins_kernel = BAUM_I_HOT_TABLE(baum_i_pins_kernel);
-  path->still_count = left_out ? left_out->count : 0;
-  baum_status status = fill(w, left_out, verdict, path);
+  path->fixed_count = for_motion ? w->mechanism->fixed_count : 0;
+  baum_status status = fill(w, for_motion, verdict, path);
   if (status != BAUM_OK) {
     baum_i_block_path_destroy(path);
     if (status == BAUM_ERR_MEMORY) {
@@ -277,12 +289,35 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
   baum_i_free(path);
 }
 
+baum_status baum_i_paths_create(baum_workspace *w, baum_i_block_verdict *verdict, baum_i_paths *out)
+{
+  *out = (baum_i_paths){0};
+  baum_status status = baum_i_block_path_create(w, false, verdict, &out->all);
+  out->motion = out->all;
+  if (status == BAUM_OK && w->mechanism->fixed_count > 0) {
+    baum_i_block_verdict of_motion;
+    status = baum_i_block_path_create(w, true, &of_motion, &out->motion);
+  }
+  if (status != BAUM_OK) {
+    baum_i_block_path_destroy(out->all);
+    *out = (baum_i_paths){0};
+  }
+  return status;
+}
+
+void baum_i_paths_destroy(const baum_i_paths *paths)
+{
+  baum_i_block_path_destroy(paths->all);
+  if (paths->motion != paths->all) {
+    baum_i_block_path_destroy(paths->motion);
+  }
+}
+
 /* ---- solve ---- */
 
 /* Without bending gamma is zero, not what it was, for that may be infinite. */
-static baum_status evaluate_joints(baum_workspace *w, bool bending)
+static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *path, bool bending)
 {
-  const baum_i_block_path *path = w->path;
   const baum_i_rows rows = {
     .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = bending ? w->gamma : NULL};
   if (!bending) {
@@ -295,9 +330,8 @@ static baum_status evaluate_joints(baum_workspace *w, bool bending)
   return status;
 }
 
-static baum_status evaluate_forces(baum_workspace *w, bool wanted)
+static baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path, bool wanted)
 {
-  const baum_i_block_path *path = w->path;
   baum_i_block_use_force(path->block, wanted);
   if (path->force_is_constant || !wanted) {
     return BAUM_OK;
@@ -310,13 +344,13 @@ static baum_status evaluate_forces(baum_workspace *w, bool wanted)
   return status;
 }
 
-static baum_status evaluate_masses(baum_workspace *w)
+static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *path)
 {
-  if (w->path->mass_is_constant) {
+  if (path->mass_is_constant) {
     return BAUM_OK;
   }
   baum_status status = baum_i_evaluate_mass(w);
-  if (status == BAUM_OK && !baum_i_block_factor_dense(w->path->block, w->mass)) {
+  if (status == BAUM_OK && !baum_i_block_factor_dense(path->block, w->mass)) {
     return BAUM_ERR_SINGULAR;
   }
   return status;
@@ -338,8 +372,8 @@ static void set_dropped_rates(baum_workspace *w, const double *v)
   }
 }
 
-static void add_row_gain(const baum_workspace *w, const baum_i_right_side *right, int node,
-                         int slot, int row)
+static void add_row_gain(const baum_workspace *w, baum_i_block *block,
+                         const baum_i_right_side *right, int node, int slot, int row)
 {
   if (row < 0) {
     return;
@@ -347,30 +381,29 @@ static void add_row_gain(const baum_workspace *w, const baum_i_right_side *right
   double f = right->row_gains[row];
   double more =
     (f - 1.0) * right->damping * w->phi_rate[row] + (f * f - 1.0) * right->stiffness * w->phi[row];
-  baum_i_block *block = w->path->block;
   block->right[2 * (size_t)node + (size_t)slot] -= more;
   block->nodes[node].lambda[slot] += more; /* J a0 - r */
 }
 
 /* Nodes have been set with the same gains for all. */
-static void add_row_gains(const baum_workspace *w, const baum_i_right_side *right)
+static void add_row_gains(const baum_workspace *w, baum_i_block *block,
+                          const baum_i_right_side *right)
 {
-  const baum_i_block *block = w->path->block;
   for (int i = 0; i < block->pin_count; i++) {
     const baum_i_pin_node *pin = &block->pins[i];
-    add_row_gain(w, right, pin->node, 0, pin->row);
-    add_row_gain(w, right, pin->node, 1, pin->row + 1);
+    add_row_gain(w, block, right, pin->node, 0, pin->row);
+    add_row_gain(w, block, right, pin->node, 1, pin->row + 1);
   }
   for (int i = 0; i < block->full_count; i++) {
     const baum_i_full_node *full = &block->fulls[i];
-    add_row_gain(w, right, full->node, 0, full->row[0]);
-    add_row_gain(w, right, full->node, 1, full->row[1]);
+    add_row_gain(w, block, right, full->node, 0, full->row[0]);
+    add_row_gain(w, block, right, full->node, 1, full->row[1]);
   }
 }
 
-static void set_nodes(baum_workspace *w, const double *v, const baum_i_right_side *right)
+static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const double *v,
+                      const baum_i_right_side *right)
 {
-  const baum_i_block_path *path = w->path;
   const baum_i_pins pins = {.points = path->points,
                             .frames = w->point.frames,
                             .bending = right->bending,
@@ -423,9 +456,8 @@ static bool has_cancelled(const baum_i_block *block)
   return before > CANCELLED * after;
 }
 
-static baum_i_pivots factor(baum_workspace *w)
+static baum_i_pivots factor(baum_workspace *w, baum_i_block_path *path)
 {
-  baum_i_block_path *path = w->path;
   path->kernel->couple(path->block);
   path->factorizations++;
   w->eliminated_by = path;
@@ -433,12 +465,11 @@ static baum_i_pivots factor(baum_workspace *w)
 }
 
 /* last: nobody corrects the result, so that its residual is looked at. */
-static baum_status solve(baum_workspace *w, bool last)
+static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 {
-  baum_i_block_path *path = w->path;
   const baum_i_block_kernel *kernel = path->kernel;
   baum_i_block *block = path->block;
-  baum_i_pivots pivots = factor(w);
+  baum_i_pivots pivots = factor(w, path);
   if (pivots == BAUM_I_PIVOTS_BAD) {
     return BAUM_ERR_SINGULAR;
   }
@@ -461,53 +492,41 @@ static void clear_omitted(baum_workspace *w)
 }
 
 /* All that the block wants to know of a state. */
-static baum_status set(baum_workspace *w, double t, const double *q, const double *v,
-                       const baum_i_right_side *right)
+static baum_status set(baum_workspace *w, const baum_i_block_path *path, double t, const double *q,
+                       const double *v, const baum_i_right_side *right)
 {
   baum_i_point_set(&w->point, t, q, v);
   w->eliminated_by = NULL;
   w->jacobian_ready = false; /* half of it is overwritten where a function fails */
-  baum_status status = evaluate_joints(w, right->bending != 0.0);
-  if (status == BAUM_OK) {
-    status = evaluate_masses(w);
-  }
-  if (status == BAUM_OK) {
-    status = evaluate_forces(w, right->force);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  w->jacobian_ready = w->path->block->pin_count == 0;
-  set_nodes(w, v, right);
+  BAUM_I_TRY(evaluate_joints(w, path, right->bending != 0.0));
+  BAUM_I_TRY(evaluate_masses(w, path));
+  BAUM_I_TRY(evaluate_forces(w, path, right->force));
+  w->jacobian_ready = path->block->pin_count == 0 && path->fixed_count == 0;
+  set_nodes(w, path, v, right);
   if (right->row_gains) {
-    add_row_gains(w, right);
+    add_row_gains(w, path->block, right);
   }
   return BAUM_OK;
 }
 
-baum_status baum_i_block_path_factor(baum_workspace *w, double t, const double *q)
+baum_status baum_i_block_path_factor(baum_workspace *w, baum_i_block_path *path, double t,
+                                     const double *q)
 {
   const baum_i_right_side nothing = {0};
-  baum_status status = set(w, t, q, NULL, &nothing);
-  if (status == BAUM_OK) {
-    (void)factor(w);
-  }
-  return status;
+  BAUM_I_TRY(set(w, path, t, q, NULL, &nothing));
+  (void)factor(w, path);
+  return BAUM_OK;
 }
 
-baum_status baum_i_block_path_solve(baum_workspace *w, double t, const double *q, const double *v,
+baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, double t,
+                                    const double *q, const double *v,
                                     const baum_i_right_side *right)
 {
-  baum_status status = set(w, t, q, v, right);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  w->solved_by = path;
+  BAUM_I_TRY(set(w, path, t, q, v, right));
   /* Positions are projected by several solutions, velocities by one. */
-  status = solve(w, v && !right->force);
-  if (status == BAUM_OK) {
-    bool finite = w->path->kernel->read_motion(w->path->block, w->a);
-    clear_omitted(w);
-    status = finite ? BAUM_OK : BAUM_ERR_SINGULAR;
-  }
-  return status;
+  BAUM_I_TRY(solve(w, path, v && !right->force));
+  bool finite = path->kernel->read_motion(path->block, w->a);
+  clear_omitted(w);
+  return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
 }

@@ -26,25 +26,28 @@ struct baum_i_block_path {
   bool mass_is_constant;
   bool always_check; /* many nodes: the residual is looked at whatever the pivots are */
   bool uneven;       /* so are masses: it is looked at where a is small against a0 */
-  int still_count;   /* bodies that are left out */
+  int fixed_count;   /* fixed bodies that are not solved for */
   int64_t factorizations;
   int64_t refinements;
 };
 
-/* What a path may leave out: bodies that stay at rest, and what holds them. */
-typedef struct baum_i_left_out {
-  int count;
-  unsigned char *still;   /* (body_count) from the first body: a = 0 */
-  unsigned char *joints;  /* (joint_count) whose rows are not looked at */
-  unsigned char *omitted; /* (nc) their rows, and the redundant ones */
-} baum_i_left_out;
-
-/* For the redundant rows as they are known now; left_out may be NULL: nothing. BAUM_OK also where
- * blocks do not suit, as *verdict tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
+/* For the redundant rows as they are known now; for_motion: fixed bodies and rows between these are not solved for.
+ * BAUM_OK also where blocks do not suit, as *verdict tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
  * BAUM_ERR_NOT_FINITE. */
-baum_status baum_i_block_path_create(baum_workspace *workspace, const baum_i_left_out *left_out,
+baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
+
+/* The paths of a workspace: for all and for its motion, which is the same where no body is fixed. Likewise; *verdict is of
+ * that for all. */
+typedef struct baum_i_paths {
+  baum_i_block_path *all;
+  baum_i_block_path *motion;
+} baum_i_paths;
+
+baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict *verdict,
+                                baum_i_paths *out);
+void baum_i_paths_destroy(const baum_i_paths *paths);
 
 /* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or nothing. */
 typedef struct baum_i_right_side {
@@ -57,10 +60,12 @@ typedef struct baum_i_right_side {
 
 /* a, lambda, Phi, Phi' and gamma of the workspace; J only for joints that are not pins. v may be NULL
  * where the right side needs none. BAUM_ERR_SINGULAR: handed over. */
-baum_status baum_i_block_path_solve(baum_workspace *workspace, double t, const double *q,
-                                    const double *v, const baum_i_right_side *right);
+baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
+                                    const double *q, const double *v,
+                                    const baum_i_right_side *right);
 
 /* Pivots alone, also where they are bad. */
-baum_status baum_i_block_path_factor(baum_workspace *workspace, double t, const double *q);
+baum_status baum_i_block_path_factor(baum_workspace *workspace, baum_i_block_path *path, double t,
+                                     const double *q);
 
 #endif

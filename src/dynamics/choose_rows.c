@@ -10,7 +10,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 
 /* Distances of rows from those before, of their length, that are tried: with the first at which there are as many as the rank
  * they are well apart, and better than those kept if these are not so far apart by FACTOR. */
@@ -59,10 +59,10 @@ static baum_status find_independent(const baum_workspace *w, double distance, lo
 {
   int rank = 0;
   invert(w->redundancy.omitted, w->mechanism->nc, at->independent);
-  baum_status status = baum_i_jacobian_rank(&w->structure, w->jacobian, at->column_scale, distance,
-                                            &rank, at->independent);
+  baum_status status =
+    baum_i_find_independent_rows(w, at->column_scale, distance, &rank, at->independent);
   *found = status == BAUM_OK && rank == w->redundancy.rank;
-  return status == BAUM_ERR_NOT_FINITE ? baum_i_fail_not_finite(w) : status;
+  return status;
 }
 
 /* Those that are kept now, unless others are better. */
@@ -105,6 +105,7 @@ static void find_apart_by_lengths(baum_workspace *w, double t, const double *q, 
   *found = false;
   if (baum_i_position_stage(w, t, q) == BAUM_OK) {
     memcpy(at->column_scale, m->scale, (size_t)m->nv * sizeof *m->scale);
+    baum_i_rest_fixed_bodies(m, at->column_scale);
     (void)find_independent(w, LEAST, at, found);
   }
 }
@@ -128,37 +129,6 @@ bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q)
 
 /* ---- left out ---- */
 
-/* What hangs on the choice of rows. */
-typedef struct paths {
-  baum_i_block_path *whole;
-  baum_i_block_path *motion;
-} paths;
-
-static void destroy(const paths *p)
-{
-  baum_i_block_path_destroy(p->whole);
-  baum_i_block_path_destroy(p->motion);
-}
-
-/* For the rows of the workspace, where there were such before. */
-static baum_status make_paths(baum_workspace *w, paths *out)
-{
-  baum_i_block_verdict verdict;
-  *out = (paths){0};
-  baum_status status = w->path ? baum_i_block_path_create(w, NULL, &verdict, &out->whole) : BAUM_OK;
-  if (status == BAUM_OK && w->immobile) {
-    status = baum_i_immobile_make_path(w, &out->motion);
-  }
-  bool is_missing = (w->path && !out->whole) || (w->immobile && !out->motion);
-  if (status == BAUM_OK && is_missing) {
-    status = baum_i_fail(BAUM_ERR_UNSUPPORTED, "other rows cannot be solved for by blocks");
-  }
-  if (status != BAUM_OK) {
-    destroy(out);
-  }
-  return status;
-}
-
 static void go_on_counting(const baum_i_block_path *before, baum_i_block_path *path)
 {
   if (before) {
@@ -167,21 +137,28 @@ static void go_on_counting(const baum_i_block_path *before, baum_i_block_path *p
   }
 }
 
-static void take_paths(baum_workspace *w, const paths *made)
+/* For the rows of the workspace, where there were such before. */
+static baum_status replace_paths(baum_workspace *w)
 {
-  paths before = {.whole = w->path, .motion = w->immobile ? w->immobile->path : NULL};
-  go_on_counting(before.whole, made->whole);
-  go_on_counting(before.motion, made->motion);
-  w->path = made->whole;
-  if (w->immobile) {
-    w->immobile->path = made->motion;
+  baum_i_block_verdict verdict;
+  baum_i_paths made = {0};
+  const baum_i_paths before = {w->path, w->motion};
+  BAUM_I_TRY(w->motion ? baum_i_paths_create(w, &verdict, &made) : BAUM_OK);
+  if ((w->path && !made.all) || (w->motion && !made.motion)) {
+    baum_i_paths_destroy(&made);
+    return baum_i_fail(BAUM_ERR_UNSUPPORTED, "other rows cannot be solved for by blocks");
   }
+  go_on_counting(before.all, made.all);
+  go_on_counting(before.motion, made.motion);
+  w->path = made.all;
+  w->motion = made.motion;
   w->solved_by = NULL;
   w->eliminated_by = NULL;
   w->mass_ready = false;
   w->jacobian_ready = false;
   baum_i_workspace_forget(w);
-  destroy(&before);
+  baum_i_paths_destroy(&before);
+  return BAUM_OK;
 }
 
 baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted)
@@ -194,12 +171,9 @@ baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omi
   if (!before) {
     return baum_i_fail_memory();
   }
-  paths made;
   memcpy(workspace->redundancy.omitted, omitted, nc);
-  baum_status status = make_paths(workspace, &made);
-  if (status == BAUM_OK) {
-    take_paths(workspace, &made);
-  } else {
+  baum_status status = replace_paths(workspace);
+  if (status != BAUM_OK) {
     memcpy(workspace->redundancy.omitted, before, nc);
   }
   baum_i_free(before);

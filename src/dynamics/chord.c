@@ -17,7 +17,6 @@
 
 #include "base/message.h"
 #include "dynamics/block_path.h"
-#include "dynamics/immobile.h"
 
 static baum_i_kkt_values values_of(const baum_workspace *w)
 {
@@ -48,15 +47,14 @@ static baum_status factor_whole(baum_workspace *w, double t, const double *q)
 baum_status baum_i_chord_begin(baum_workspace *w, double t, const double *q, baum_i_chord *out)
 {
   static const baum_i_right_side right = {.stiffness = 1.0};
-  baum_i_block_path *whole = baum_i_enter_motion(w);
-  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
-  out->path = w->path;
+  baum_status status =
+    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
+  out->path = w->motion;
   w->evaluations++;
   if (status == BAUM_ERR_SINGULAR) {
     out->path = NULL;
     status = factor_whole(w, t, q);
   }
-  baum_i_leave_motion(w, whole);
   return status;
 }
 
@@ -71,7 +69,9 @@ static baum_status change_by_blocks(baum_workspace *w, const baum_i_block_path *
 static baum_status change_by_whole(baum_workspace *w)
 {
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  return translate(w, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda));
+  BAUM_I_TRY(translate(w, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda)));
+  baum_i_rest_fixed_bodies(w->mechanism, w->a);
+  return BAUM_OK;
 }
 
 baum_status baum_i_chord_change(baum_workspace *w, const baum_i_chord *chord, double t,
@@ -109,12 +109,12 @@ baum_status baum_i_hold_velocities(baum_workspace *w, double t, const double *q,
                                    double rate)
 {
   const baum_i_right_side right = {.damping = rate, .force = true};
-  baum_i_block_path *whole = baum_i_enter_motion(w);
-  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, v, &right) : BAUM_ERR_SINGULAR;
+  baum_status status =
+    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, v, &right) : BAUM_ERR_SINGULAR;
   w->evaluations++;
   if (status == BAUM_ERR_SINGULAR) {
     status = hold_by_whole(w, t, q, v, rate);
+    baum_i_rest_fixed_bodies(w->mechanism, w->a);
   }
-  baum_i_leave_motion(w, whole);
   return status;
 }

@@ -39,7 +39,6 @@ typedef struct baum_i_redundancy {
 } baum_i_redundancy;
 
 typedef struct baum_i_block_path baum_i_block_path;
-typedef struct baum_i_immobile baum_i_immobile;
 
 /* Whether accelerations go by blocks, or why not. */
 typedef enum baum_i_blocks {
@@ -63,9 +62,9 @@ struct baum_workspace {
   baum_i_kkt *kkt;
   baum_i_kkt_choice choice;
   baum_i_block_path *path;          /* NULL: every solution is kkt's */
+  baum_i_block_path *motion;        /* for all but fixed bodies; the same where there are none */
   baum_i_block_verdict verdict;     /* of baum_i_use_blocks() */
   bool blocks_only;                 /* nothing is handed over */
-  baum_i_immobile *immobile;        /* NULL: nothing is left out of baum_i_motion() */
   baum_i_block_path *solved_by;     /* of the last solution; NULL: kkt */
   baum_i_block_path *eliminated_by; /* whose pivots are of now, whoever has solved; NULL: none */
   baum_i_redundancy redundancy;
@@ -151,6 +150,8 @@ baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const dou
                                   const double *v);
 /* M at the present point, but once only when it is constant. */
 baum_status baum_i_evaluate_mass(baum_workspace *workspace);
+/* Rows between fixed bodies, which a motion does not evaluate, as they are where these are in place. */
+void baum_i_clear_fixed_rows(baum_workspace *workspace);
 /* Phi and Phi' only: cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
@@ -159,8 +160,8 @@ baum_status baum_i_violation(baum_workspace *workspace, double t, const double *
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* Likewise a alone: what cannot move may be left out, and lambda, J and the rows of that are then not
- * there. */
+/* Likewise a alone, 0 of fixed bodies, which are where baum_i_place_fixed_bodies() has them: lambda, J and rows of
+ * these may not be there. */
 baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
                           double alpha, double beta);
 /* Blocks of J at the point of the last evaluation, where that did without. */
@@ -179,7 +180,9 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
  * distance. Its size depends on mechanism and solver: it is to be compared with itself. *joint,
  * unless NULL: the one that has it, -1: none. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
-/* Of a state that needs no solution: a, lambda and what was evaluated are not to be read. Blocks stay with blocks, so that
+/* Whether that is told by the blocks that have been eliminated last. */
+bool baum_i_blocks_tell(const baum_workspace *workspace);
+/* acceleration.c: of a state that needs no solution. a, lambda and what was evaluated are not to be read. Blocks stay with blocks, so that
  * pivots go on without a jump where others solve. Statuses of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
@@ -245,7 +248,7 @@ baum_status baum_i_fail_not_finite(const baum_workspace *w);
 /* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
  * M. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
 baum_status baum_i_project(baum_workspace *workspace, double t, double *q, double *v);
-/* v alone; of bodies that cannot move too. */
+/* v alone, of fixed bodies too. */
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
@@ -272,6 +275,12 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
 
 /* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
 baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
+
+/* The rank of J and one largest set of independent rows (nc), those that are marked first; J of the workspace, scaled by
+ * columns (0 for fixed bodies). The rows of the welds that fix bodies are in it. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
+baum_status baum_i_find_independent_rows(const baum_workspace *workspace,
+                                         const double *column_scale, double tolerance, int *rank,
+                                         unsigned char *independent);
 
 /* choose_rows.c: of the rows of its rank those that are well apart in this pose, if there are such; before paths are made. */
 baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
@@ -314,7 +323,7 @@ void baum_i_row_displacements(const baum_workspace *workspace, double *size);
 /* (nc) diagonal of J M^-1 J^T with the diagonal of M: rows in their own units; 0 for empty rows. */
 void baum_i_row_mobilities(const baum_workspace *workspace, double *mobility);
 
-/* (nv) diagonal of M^-1/2, of coordinates without mass their scale. */
+/* (nv) diagonal of M^-1/2, of coordinates without mass their scale, of fixed bodies 0. */
 void baum_i_column_scales(const baum_workspace *workspace, double *scale);
 
 /* Fastest angular rate of a state [1/s]: the largest of |v_i| / scale_i and sqrt(|a_i| /

@@ -11,7 +11,6 @@
 #include <math.h>
 
 #include "dynamics/block_path.h"
-#include "dynamics/immobile.h"
 
 /* A light rotation lets the diagonal of S alone come and go with the direction of the arm. */
 static double pivot_of_pin(const baum_i_block *block, int k)
@@ -60,7 +59,7 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
 
 /* Blocks that have handed over are asked all the same, but where masses are so uneven that small pivots are the rule, only
  * as long as rounding leaves something of them. */
-static bool blocks_tell(const baum_workspace *w, double *pivot, int *row)
+static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;
   if (!w->eliminated_by) {
@@ -70,12 +69,19 @@ static bool blocks_tell(const baum_workspace *w, double *pivot, int *row)
   return w->solved_by || !w->eliminated_by->uneven || *pivot > NOISE;
 }
 
+bool baum_i_blocks_tell(const baum_workspace *w)
+{
+  int row = -1;
+  double pivot = 1.0;
+  return find_pivot_of_blocks(w, &pivot, &row);
+}
+
 /* With other solvers the largest multiplier is all there is to name a joint by. */
 double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
 {
   int row = -1;
   double pivot = 1.0;
-  if (w->mechanism->nc > 0 && !blocks_tell(w, &pivot, &row)) {
+  if (w->mechanism->nc > 0 && !find_pivot_of_blocks(w, &pivot, &row)) {
     pivot = baum_i_kkt_rcond(w->kkt);
     row = joint ? baum_i_largest(w->lambda, w->mechanism->nc, NULL) : -1;
   }
@@ -83,20 +89,4 @@ double baum_i_smallest_pivot(const baum_workspace *w, int *joint)
     *joint = row < 0 ? -1 : baum_i_row_joint(w->mechanism, row);
   }
   return pivot;
-}
-
-/* Without blocks a solution costs little more than its factors. */
-baum_status baum_i_find_pivot(baum_workspace *w, double t, const double *q, const double *v)
-{
-  if (!baum_i_motion_path(w)) {
-    return baum_i_motion(w, t, q, v, 0.0, 0.0);
-  }
-  baum_i_block_path *whole = baum_i_enter_motion(w);
-  baum_status status = baum_i_block_path_factor(w, t, q);
-  baum_i_leave_motion(w, whole);
-  int row = -1;
-  double pivot = 1.0;
-  w->solved_by = NULL;
-  return status == BAUM_OK && !blocks_tell(w, &pivot, &row) ? baum_i_motion(w, t, q, v, 0.0, 0.0)
-                                                            : status;
 }

@@ -13,7 +13,7 @@
 #include <string.h>
 
 #include "base/message.h"
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 
 enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
@@ -42,6 +42,7 @@ static baum_status least_change(baum_workspace *w)
   if (status == BAUM_ERR_NOT_FINITE) {
     return baum_i_fail_not_finite(w);
   }
+  baum_i_rest_fixed_bodies(w->mechanism, w->a);
   return status;
 }
 
@@ -55,8 +56,8 @@ static double rounding_of(const baum_mechanism *m, const double *q)
 static baum_status change_of_positions(baum_workspace *w, double t, const double *q)
 {
   static const baum_i_right_side right = {.stiffness = 1.0};
-  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
-  w->solved_by = w->path;
+  baum_status status =
+    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }
@@ -74,8 +75,8 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
                                         const double *v)
 {
   static const baum_i_right_side right = {.damping = 1.0};
-  baum_status status = w->path ? baum_i_block_path_solve(w, t, q, v, &right) : BAUM_ERR_SINGULAR;
-  w->solved_by = w->path;
+  baum_status status =
+    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, v, &right) : BAUM_ERR_SINGULAR;
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }
@@ -144,6 +145,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
 
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
 {
+  baum_i_rest_fixed_bodies(w->mechanism, v);
   baum_status status = baum_i_change_of_velocities(w, t, q, v);
   for (int i = 0; i < w->mechanism->nv && status == BAUM_OK; i++) {
     v[i] += w->a[i];
@@ -173,13 +175,9 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
   if (workspace->mechanism->nc == 0) {
     return BAUM_OK;
   }
-  baum_i_block_path *whole = baum_i_enter_motion(workspace);
-  baum_status status = project_positions(workspace, t, q);
-  if (status == BAUM_OK) {
-    status = project_velocities(workspace, t, q, v);
-  }
-  baum_i_leave_motion(workspace, whole);
-  return status;
+  baum_i_place_fixed_bodies(workspace->mechanism, q);
+  BAUM_I_TRY(project_positions(workspace, t, q));
+  return project_velocities(workspace, t, q, v);
 }
 
 /* ---- rows that are left out ---- */

@@ -50,13 +50,20 @@ typedef struct search {
   pose_rank kept;
 } search;
 
-/* The rows that are independent so far are kept. */
-static baum_status rank_to(const search *s, double tolerance, int *rank)
+baum_status baum_i_find_independent_rows(const baum_workspace *w, const double *column_scale,
+                                         double tolerance, int *rank, unsigned char *independent)
 {
-  baum_status status = baum_i_jacobian_rank(&s->w->structure, s->w->jacobian, s->column_scale,
-                                            tolerance, rank, s->independent);
+  const baum_mechanism *m = w->mechanism;
+  baum_status status =
+    baum_i_jacobian_rank(&w->structure, w->jacobian, column_scale, tolerance, rank, independent);
   if (status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail_not_finite(s->w);
+    return baum_i_fail_not_finite(w);
+  }
+  *rank += m->fixed_nv;
+  for (int k = 0; k < m->joint_count && m->fixed_count > 0; k++) {
+    if (m->joints[k]->fixes) {
+      memset(independent + m->joints[k]->row, 1, (size_t)m->joints[k]->rows);
+    }
   }
   return status;
 }
@@ -74,7 +81,8 @@ static baum_status rank_at(const search *s, double t, const double *q, pose_rank
   const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
   rank->all = 0;
   for (int k = 0; k < 3 && status == BAUM_OK && rank->all < nc; k++) {
-    status = rank_to(s, tolerances[k], &rank->all);
+    status = baum_i_find_independent_rows(s->w, s->column_scale, tolerances[k], &rank->all,
+                                          s->independent);
     rank->clear = tolerances[k] >= CLEAR ? rank->all : rank->clear;
   }
   return status;

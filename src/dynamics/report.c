@@ -4,8 +4,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "base/text.h"
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 #include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
@@ -43,22 +44,21 @@ static void report_sizes(const baum_workspace *w, bool assembled, baum_report *r
 
 /* ---- islands ---- */
 
-static void report_islands(const baum_i_islands *islands, baum_report *report)
+static baum_status report_islands(const baum_mechanism *m, baum_report *report)
 {
-  const baum_i_island *largest = NULL;
-  for (int k = 0; k < islands->count; k++) {
-    const baum_i_island *island = &islands->island[k];
-    largest = !largest || island->bodies > largest->bodies ? island : largest;
+  int count;
+  baum_i_island largest;
+  BAUM_I_TRY(baum_i_count_islands(m, &count, &largest));
+  report->islands = count;
+  report->fixed_bodies = m->fixed_count;
+  say(report, "islands       %d", count);
+  if (count > 0) {
+    say(report, "%s of %d bod%s, %d joint%s, %d row%s", count > 1 ? ", the largest" : ",",
+        largest.bodies, largest.bodies == 1 ? "y" : "ies", largest.joints, plural(largest.joints),
+        largest.rows, plural(largest.rows));
   }
-  report->islands = islands->count;
-  report->immobile_bodies = islands->immobile_count;
-  say(report, "islands       %d", islands->count);
-  if (largest) {
-    say(report, "%s of %d bod%s, %d joint%s, %d row%s", islands->count > 1 ? ", the largest" : ",",
-        largest->bodies, largest->bodies == 1 ? "y" : "ies", largest->joints,
-        plural(largest->joints), largest->rows, plural(largest->rows));
-  }
-  say(report, islands->count > 1 ? "; they do not couple\n" : "\n");
+  say(report, count > 1 ? "; they do not couple\n" : "\n");
+  return BAUM_OK;
 }
 
 /* ---- the solver ---- */
@@ -74,19 +74,17 @@ static void count_joints(const baum_mechanism *m, int *joints)
   }
 }
 
-/* Of the bodies that are not left out. */
+/* Of the bodies that are not fixed. */
 static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
 {
   const baum_mechanism *m = w->mechanism;
-  const baum_i_block_path *path = baum_i_motion_path(w);
   int *joints = baum_i_alloc((size_t)m->body_count + 1, sizeof *joints);
   if (!joints) {
     return baum_i_fail_memory();
   }
   count_joints(m, joints);
   for (int i = 1; i <= m->body_count; i++) {
-    bool takes_part = !path || !path->block->still[i - 1];
-    if (takes_part && joints[i] > report->most_joints) {
+    if (!m->bodies[i]->fixed && joints[i] > report->most_joints) {
       report->most_joints = joints[i];
       report->most_joined = (baum_body_id){i, m->tag};
     }
@@ -108,7 +106,6 @@ static void report_block(const baum_i_block_path *path, baum_report *report)
 {
   const baum_i_block *block = path->block;
   report->blocks = true;
-  report->left_out_bodies = path->still_count;
   report->nodes = block->node_count;
   report->couplings = block->off_count;
   report->fill = block->zero_count;
@@ -122,7 +119,7 @@ static void report_block(const baum_i_block_path *path, baum_report *report)
 
 static baum_status report_solver(const baum_workspace *w, baum_report *report)
 {
-  const baum_i_block_path *path = baum_i_motion_path(w);
+  const baum_i_block_path *path = w->motion;
   char text[BAUM_I_SOLVER_TEXT_SIZE];
   baum_i_solver_text(w, text);
   say(report, "solver        %s\n", text);
@@ -179,9 +176,9 @@ static void report_spared(const baum_mechanism *m, baum_report *report)
     spare(report, &count, "%d redundant row%s", report->redundant_rows,
           plural(report->redundant_rows));
   }
-  if (report->immobile_bodies > 0) {
-    spare(report, &count, "%d bod%s that cannot move, %d of them left out", report->immobile_bodies,
-          report->immobile_bodies == 1 ? "y" : "ies", report->left_out_bodies);
+  if (report->fixed_bodies > 0) {
+    spare(report, &count, "%d fixed bod%s", report->fixed_bodies,
+          report->fixed_bodies == 1 ? "y" : "ies");
   }
   if (count == 0) {
     say(report, "spared        nothing");
@@ -202,26 +199,13 @@ static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
 static baum_status look(baum_workspace *w, double *q, void *whole)
 {
   baum_report *report = whole;
-  double *v = q + w->mechanism->nq;
   bool assembled = false;
-  baum_i_islands islands = {0};
-  baum_status status = find_pose(w, q, &assembled);
-  if (status == BAUM_OK && assembled) {
-    status = baum_i_leave_out_immobile(w, 0.0, q, v);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_find_islands(w, &islands);
-  }
-  if (status == BAUM_OK) {
-    report_sizes(w, assembled, report);
-    report_islands(&islands, report);
-    status = report_solver(w, report);
-  }
-  if (status == BAUM_OK) {
-    report_spared(w->mechanism, report);
-  }
-  baum_i_islands_clear(&islands);
-  return status;
+  BAUM_I_TRY(find_pose(w, q, &assembled));
+  report_sizes(w, assembled, report);
+  BAUM_I_TRY(report_islands(w->mechanism, report));
+  BAUM_I_TRY(report_solver(w, report));
+  report_spared(w->mechanism, report);
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,

@@ -55,6 +55,7 @@ void baum_i_column_scales(const baum_workspace *workspace, double *scale)
       scale[block->first + i] = mass > 0.0 ? 1.0 / sqrt(mass) : length;
     }
   }
+  baum_i_rest_fixed_bodies(workspace->mechanism, scale);
 }
 
 int baum_i_largest(const double *values, int count, double *largest)

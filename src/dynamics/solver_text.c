@@ -2,7 +2,7 @@
 /* How accelerations are solved for, in words. */
 #include <stdio.h>
 
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 
 static int count_joints(const baum_mechanism *m, int body)
 {
@@ -20,14 +20,14 @@ static void blocks_text(const baum_workspace *w, const baum_i_block_path *path, 
                         size_t size)
 {
   const baum_i_block *block = path->block;
-  char left_out[64] = "";
-  if (path->still_count > 0) {
-    (void)snprintf(left_out, sizeof left_out, "; %d %s at rest left out", path->still_count,
-                   path->still_count == 1 ? "body" : "bodies");
+  char fixed[64] = "";
+  if (path->fixed_count > 0) {
+    (void)snprintf(fixed, sizeof fixed, "; %d fixed %s left out", path->fixed_count,
+                   path->fixed_count == 1 ? "body" : "bodies");
   }
   (void)snprintf(text, size, "blocks, %d %s, %d %s%s%s", block->node_count,
                  block->node_count == 1 ? "node" : "nodes", block->off_count,
-                 block->off_count == 1 ? "coupling" : "couplings", left_out,
+                 block->off_count == 1 ? "coupling" : "couplings", fixed,
                  w->blocks_only ? "; and nothing else" : "; klu and qr where pivots are bad");
 }
 
@@ -62,7 +62,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
 
 void baum_i_solver_text(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_SIZE])
 {
-  const baum_i_block_path *path = baum_i_motion_path(w);
+  const baum_i_block_path *path = w->motion;
   if (path) {
     blocks_text(w, path, text, BAUM_I_SOLVER_TEXT_SIZE);
     return;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The stages of an evaluation: what depends on (t, q), then what depends on v as well. */
+#include <string.h>
+
 #include "dynamics/dynamics.h"
 
 baum_status baum_i_evaluate_mass(baum_workspace *w)
@@ -67,4 +69,15 @@ baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, 
     status = baum_i_evaluate_mass(w);
   }
   return status == BAUM_OK ? baum_i_mechanism_force(&w->point, w->force) : status;
+}
+
+void baum_i_clear_fixed_rows(baum_workspace *w)
+{
+  for (int k = 0; k < w->mechanism->joint_count; k++) {
+    const baum_i_joint *joint = w->mechanism->joints[k];
+    if (joint->fixed) {
+      memset(w->phi + joint->row, 0, (size_t)joint->rows * sizeof *w->phi);
+      memset(w->phi_rate + joint->row, 0, (size_t)joint->rows * sizeof *w->phi_rate);
+    }
+  }
 }

@@ -5,7 +5,7 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 
 /* One array of the workspace; the list below is the one place that knows them. */
 typedef struct array {
@@ -154,15 +154,19 @@ static baum_status refuse(const baum_workspace *w)
 
 baum_status baum_i_use_blocks(baum_workspace *w)
 {
-  baum_i_block_path_destroy(w->path);
+  baum_i_paths made = {w->path, w->motion};
+  baum_i_paths_destroy(&made);
   w->path = NULL;
+  w->motion = NULL;
   w->verdict = (baum_i_block_verdict){.blocks = BAUM_I_BLOCKS_UNWANTED};
   if (w->choice != BAUM_I_KKT_AUTO) {
     return BAUM_OK;
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = baum_i_block_path_create(w, NULL, &w->verdict, &w->path);
+  baum_status status = baum_i_paths_create(w, &w->verdict, &made);
+  w->path = made.all;
+  w->motion = made.motion;
   if (status == BAUM_ERR_MEMORY) {
     return status;
   }
@@ -188,7 +192,7 @@ baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status)
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 {
   baum_i_kkt_counters sum = baum_i_kkt_get_counters(w->kkt);
-  const baum_i_block_path *paths[2] = {w->path, w->immobile ? w->immobile->path : NULL};
+  const baum_i_block_path *paths[2] = {w->path, w->motion == w->path ? NULL : w->motion};
   for (int k = 0; k < 2; k++) {
     sum.factorizations += paths[k] ? paths[k]->factorizations : 0;
     sum.refinements += paths[k] ? paths[k]->refinements : 0;
@@ -224,8 +228,7 @@ void baum_workspace_destroy(baum_workspace *workspace)
     baum_i_free(*list[i].place);
   }
   baum_i_point_release(&workspace->point);
-  baum_i_block_path_destroy(workspace->path);
-  baum_i_immobile_destroy(workspace->immobile);
+  baum_i_paths_destroy(&(baum_i_paths){workspace->path, workspace->motion});
   baum_i_free(workspace->redundancy.omitted);
   baum_i_kkt_destroy(workspace->redundancy.kkt);
   baum_i_kkt_destroy(workspace->kkt);

@@ -30,7 +30,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "dynamics/immobile.h"
 
 static const baum_workspace *workspace_of(const baum_i_cvode_newton *newton)
 {
@@ -89,19 +88,6 @@ static void make_right_side(const baum_i_cvode_newton *newton, const double *r, 
   }
 }
 
-/* Bodies that are left out of the motion stay where they are to the last digit: f = (v, 0). */
-static void solve_immobile(const baum_i_cvode_newton *newton, const double *r, double *x)
-{
-  const baum_workspace *w = workspace_of(newton);
-  const baum_i_immobile *immobile = w->immobile;
-  int nq = w->mechanism->nq;
-  for (int k = 0; immobile && immobile->rests && k < immobile->count; k++) {
-    int i = immobile->velocity[k];
-    x[nq + i] = r[nq + i];
-    x[i] = r[i] + r[nq + i] / newton->c;
-  }
-}
-
 static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector b,
                  sunrealtype tolerance)
 {
@@ -110,13 +96,14 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
   baum_i_cvode_newton *newton = solver->content;
   baum_i_sundials_klu *klu = &newton->klu;
   const baum_mechanism *m = workspace_of(newton)->mechanism;
+  double *change = N_VGetArrayPointer(x);
   make_right_side(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(klu->right));
   int failed = baum_i_sundials_klu_solve(klu, klu->solution, klu->right);
-  const double *solution = N_VGetArrayPointer(klu->solution);
-  double *d = N_VGetArrayPointer(x);
-  baum_i_sundials_join(klu->sundials, klu->sundials->present, solution, 1.0, d);
-  memcpy(d + m->nq, solution + m->nv, (size_t)m->nv * sizeof *d);
-  solve_immobile(newton, N_VGetArrayPointer(b), N_VGetArrayPointer(x));
+  double *solution = N_VGetArrayPointer(klu->solution);
+  baum_i_rest_fixed_bodies(m, solution); /* to the last digit */
+  baum_i_rest_fixed_bodies(m, solution + m->nv);
+  baum_i_sundials_join(klu->sundials, klu->sundials->present, solution, 1.0, change);
+  memcpy(change + m->nq, solution + m->nv, (size_t)m->nv * sizeof *change);
   return failed;
 }
 

@@ -96,11 +96,11 @@ static void set_dense_weights(baum_i_block *b)
   }
 }
 
-static baum_status mark_still(const baum_i_block_layout *layout, baum_i_block *b)
+static baum_status mark_fixed(const baum_i_block_layout *layout, baum_i_block *b)
 {
   size_t bodies = (size_t)layout->structure->mass_block_count;
-  b->still = layout->still ? baum_i_copy(layout->still, bodies, 1) : baum_i_alloc(bodies, 1);
-  return b->still ? BAUM_OK : BAUM_ERR_MEMORY;
+  b->fixed = layout->fixed ? baum_i_copy(layout->fixed, bodies, 1) : baum_i_alloc(bodies, 1);
+  return b->fixed ? BAUM_OK : BAUM_ERR_MEMORY;
 }
 
 baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out)
@@ -112,7 +112,7 @@ baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, bau
   }
   b->structure = layout->structure;
   b->hub = -1;
-  baum_status status = mark_still(layout, b);
+  baum_status status = mark_fixed(layout, b);
   if (status == BAUM_OK) {
     status = baum_i_block_find_structure(layout, b);
   }
@@ -143,7 +143,7 @@ void baum_i_block_destroy(baum_i_block *block)
     block->pins,  block->fulls,       block->side_body_block, block->entries,
     block->alike, block->opposite,    block->first_pairs,     block->full_pairs,
     block->zeros, block->target,      block->place,           block->side_from,
-    block->dense, block->dense_sides, block->still,           block->numbers};
+    block->dense, block->dense_sides, block->fixed,           block->numbers};
   for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
@@ -161,9 +161,9 @@ bool baum_i_block_set_mass(baum_i_block *block, const double *mass)
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
     for (int c = 0; c < body->size; c++) {
       double m = mass[body->value + c * body->size + c];
-      double weight = block->still[i] ? 0.0 : 1.0 / m;
+      double weight = block->fixed[i] ? 0.0 : 1.0 / m;
       positive = positive && m > 0.0;
-      block->mass[body->first + c] = block->still[i] ? 0.0 : m;
+      block->mass[body->first + c] = block->fixed[i] ? 0.0 : m;
       block->response[body->first + c] = weight;
       block->weight[2 * (1 + i) + (c < 2 ? 0 : 1)] = weight;
     }

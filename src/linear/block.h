@@ -35,7 +35,7 @@ typedef struct baum_i_block_layout {
   const baum_i_block_pin *pins;  /* (row_block_count) */
   const unsigned char *diagonal; /* (mass_block_count) non-zero: M is diagonal and constant there */
   const unsigned char *omitted;  /* (nc) or NULL, see baum_i_kkt_values */
-  const unsigned char *still;    /* (mass_block_count) or NULL: a = 0 there whatever acts, as of
+  const unsigned char *fixed;    /* (mass_block_count) or NULL: a = 0 there whatever acts, as of
                                     ground; diagonal ones only */
 } baum_i_block_layout;
 
@@ -127,7 +127,7 @@ typedef struct baum_i_block {
   bool leaves_v;     /* a body block has numbers outside of v: dense bodies, particles */
   int hub;           /* mass block that more rows touch than blocks are good for; -1: none */
 
-  unsigned char *still; /* (mass_block_count) W = 0 */
+  unsigned char *fixed; /* (mass_block_count) W = 0 */
 
   baum_i_pin_node *pins;         /* (even pin_count) */
   baum_i_full_node *fulls;       /* (full_count) */

@@ -46,9 +46,9 @@ typedef struct baum_i_block_builder {
 /* Whether W = 0 there, so that it couples nothing. */
 static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body_block)
 {
-  const unsigned char *still = u->block->still;
+  const unsigned char *fixed = u->block->fixed;
   return body_block == 0 ||
-         (body_block <= u->layout->structure->mass_block_count && still[body_block - 1]);
+         (body_block <= u->layout->structure->mass_block_count && fixed[body_block - 1]);
 }
 
 /* Couplings of nodes that share a body block, and the blocks that are cleared first. BAUM_OK or

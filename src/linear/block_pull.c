@@ -24,7 +24,7 @@ void baum_i_block_pull(baum_i_block *block, const double *x)
   memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
   for (int i = 0; i < block->structure->mass_block_count; i++) {
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
-    if (!block->still[i]) {
+    if (!block->fixed[i]) {
       memcpy(block->pull + body->first, x + body->first, (size_t)body->size * sizeof *x);
     }
   }

@@ -54,6 +54,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->held);
   baum_i_free(mechanism->scale);
   baum_i_free(mechanism->position_scale);
+  baum_i_free(mechanism->fixed_q);
   baum_i_free(mechanism->places);
   mechanism->body_groups = NULL;
   mechanism->joint_groups = NULL;
@@ -67,6 +68,7 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   mechanism->held = NULL;
   mechanism->scale = NULL;
   mechanism->position_scale = NULL;
+  mechanism->fixed_q = NULL;
   mechanism->places = NULL;
   mechanism->frozen = false;
 }
@@ -363,10 +365,11 @@ static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
   mechanism->held = baum_i_alloc(nv, sizeof(bool));
   mechanism->scale = baum_i_alloc(nv, sizeof(double));
   mechanism->position_scale = baum_i_alloc(nq, sizeof(double));
+  mechanism->fixed_q = baum_i_alloc(nq, sizeof(double));
   mechanism->places = baum_i_alloc((size_t)mechanism->body_count + 1, sizeof(baum_i_body_place));
   bool complete = mechanism->parameters && mechanism->design_q && mechanism->design_v &&
                   mechanism->held && mechanism->scale && mechanism->position_scale &&
-                  mechanism->places;
+                  mechanism->fixed_q && mechanism->places;
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
@@ -440,6 +443,9 @@ static baum_status build(baum_mechanism *mechanism)
   if (status == BAUM_OK) {
     draw_bodies(mechanism);
     status = lower(mechanism);
+  }
+  if (status == BAUM_OK) {
+    baum_i_find_fixed_bodies(mechanism);
   }
   return status;
 }

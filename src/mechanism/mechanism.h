@@ -9,6 +9,14 @@
 /* Share and release; destroying is releasing. */
 const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism);
 
+/* ---- fixed_bodies.c ---- */
+
+/* Once all numbers are known. */
+void baum_i_find_fixed_bodies(baum_mechanism *mechanism);
+/* Their part of q (nq), and of v (nv), which becomes zero. */
+void baum_i_place_fixed_bodies(const baum_mechanism *mechanism, double *q);
+void baum_i_rest_fixed_bodies(const baum_mechanism *mechanism, double *v);
+
 /* Free everything that freeze made; keeps the elements. */
 void baum_i_mechanism_thaw(baum_mechanism *mechanism);
 

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A run that goes on where another one stands, of the same mechanism and with options of its own. */
 #include "base/alloc.h"
-#include "dynamics/immobile.h"
 #include "simulate/schedule.h"
 
 /* Where a run stands, and what acts on it from outside. */
@@ -60,12 +59,7 @@ static void exchange(baum_simulation *run, standing *s)
 static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
 {
   if (run->options.start != BAUM_START_AS_GIVEN) {
-    baum_i_look_at_immobile(run->workspace, theirs->q, theirs->v);
-    baum_status status = baum_i_project(run->workspace, t, theirs->q, theirs->v);
-    if (status != BAUM_OK) {
-      baum_i_look_at_immobile(run->workspace, run->state.q, run->state.v);
-      return status;
-    }
+    BAUM_I_TRY(baum_i_project(run->workspace, t, theirs->q, theirs->v));
   }
   return baum_simulation_set_state(run, t, theirs->q, theirs->v);
 }

@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "dynamics/immobile.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
@@ -113,16 +112,12 @@ static void list_options(const baum_simulation *run, baum_i_saved *list)
 static void list_structure(const baum_simulation *run, baum_i_saved *list)
 {
   const baum_workspace *w = run->workspace;
-  const baum_i_immobile *immobile = w->immobile;
-  size_t still = immobile ? (size_t)immobile->count : 0;
   baum_i_saved_compare(list, "the rank of the constraints", w->redundancy.rank);
   baum_i_saved_part *rows = add(list, "which rows are redundant", BAUM_I_SAVED_ROWS);
   rows->place = w->redundancy.omitted;
   rows->size = (size_t)w->mechanism->nc;
   rows->integer = w->redundancy.count;
   baum_i_saved_compare(list, "whether blocks suit", w->path != NULL);
-  add_choice(list, "which bodies cannot move", immobile ? immobile->velocity : NULL,
-             still * sizeof *immobile->velocity);
 }
 
 /* ---- what is put back ---- */
@@ -160,11 +155,6 @@ static void list_choices(baum_simulation *run, baum_i_saved *list)
   BAUM_I_SAVED_ADD(list, "amplification", run->gains.amplification);
   BAUM_I_SAVED_ADD_FLAG(list, "metric chosen", w->metric_ready);
   add_array(list, "metric", w->metric, w->mechanism->nv);
-  if (w->immobile) {
-    BAUM_I_SAVED_ADD_FLAG(list, "immobile", w->immobile->rests);
-    add_array(list, "immobile position", w->immobile->position, w->immobile->count);
-    add_array(list, "immobile phi", w->immobile->phi, w->immobile->row_count);
-  }
 }
 
 static void list_counters(baum_counters *c, baum_i_saved *list)

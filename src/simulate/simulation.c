@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
@@ -148,26 +147,14 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
   }
 }
 
-/* Others solve for poses or for residuals. */
-static bool goes_by_accelerations(const baum_integrator *integrator)
-{
-  return !integrator->without_freedom && !integrator->solves_residuals;
-}
-
-/* At the start pose: which rows and bodies to leave out, and whether blocks suit what is left. */
+/* At the start pose: which rows to omit, and whether blocks suit what is left. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
   const baum_i_state *start = &run->trial;
   w->blocks_only = run->options.solver == BAUM_SOLVER_BLOCK;
-  baum_status status = baum_i_find_redundancy(w, start->t, start->q);
-  if (status == BAUM_OK) {
-    status = baum_i_use_blocks(w);
-  }
-  if (status == BAUM_OK && goes_by_accelerations(run->integrator)) {
-    status = baum_i_leave_out_immobile(w, start->t, start->q, start->v);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_find_redundancy(w, start->t, start->q));
+  return baum_i_use_blocks(w);
 }
 
 static baum_status start_as_drawn(baum_simulation *run)

@@ -3,7 +3,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "dynamics/immobile.h"
 #include "mechanism/definition.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
@@ -225,16 +224,30 @@ static void start_as_given(baum_simulation *run, double t, const double *q, cons
   }
 }
 
-baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
+/* Fixed bodies are where they are, whatever was given of them. */
+static void place_fixed_bodies(baum_simulation *run)
 {
-  start_as_given(run, t, q, v);
+  baum_i_place_fixed_bodies(run->workspace->mechanism, run->trial.q);
+  baum_i_rest_fixed_bodies(run->workspace->mechanism, run->trial.v);
+}
+
+static baum_status start(baum_simulation *run, const double *q, const double *v)
+{
   if (run->options.start == BAUM_START_ASSEMBLE) {
     memcpy(run->spare.q, run->trial.q, (size_t)run->workspace->mechanism->nq * sizeof *q);
     return start_assembled(run, run->spare.q, v);
   }
-  run->workspace->point.t = t; /* for the message */
-  baum_status status = baum_i_check_sizes(run->workspace, "velocity", run->trial.v);
-  return status == BAUM_OK && run->options.start == BAUM_START_EXACT ? check_exact(run) : status;
+  run->workspace->point.t = run->trial.t; /* for the message */
+  BAUM_I_TRY(baum_i_check_sizes(run->workspace, "velocity", run->trial.v));
+  return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
+}
+
+baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
+{
+  start_as_given(run, t, q, v);
+  BAUM_I_TRY(start(run, q, v));
+  place_fixed_bodies(run);
+  return BAUM_OK;
 }
 
 baum_status baum_i_run_measure(baum_simulation *run, double *energy)
@@ -243,7 +256,6 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy)
   const baum_i_state *trial = &run->trial;
   double kinetic = 0.0;
   double potential = 0.0;
-  baum_i_look_at_immobile(w, trial->q, trial->v);
   baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
   if (status == BAUM_OK) {
     status = baum_i_energy(w, trial->t, trial->q, trial->v, &kinetic, &potential);
@@ -361,6 +373,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   baum_i_schedule_move(simulation, before, t);
   if (is_of_this_run(simulation, t, q, v)) {
     start_as_given(simulation, t, q, v);
+    place_fixed_bodies(simulation);
   } else {
     status = baum_i_run_start(simulation, t, q, v);
     status = status == BAUM_OK ? baum_i_run_check_velocities(simulation) : status;
@@ -382,7 +395,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   if (status != BAUM_OK) {
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
-    baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
+    baum_i_clear_fixed_rows(simulation->workspace);
   } else {
     baum_i_run_accept(simulation, energy);
   }

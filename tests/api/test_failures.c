@@ -89,6 +89,7 @@ static baum_mechanism *pendulum(fault *user)
   f.bodies = &body;
   f.body_count = 1;
   f.force = force;
+  f.depends_on_velocity = false;
   f.user = user;
   assert_int_equal(baum_mechanism_add_user_force(m, &f, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(m), BAUM_OK);

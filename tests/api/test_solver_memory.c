@@ -119,7 +119,7 @@ static baum_status run(const baum_mechanism *m)
   o.step = 1e-3;
   baum_status status = baum_simulation_create(m, &o, &s);
   if (status == BAUM_OK) {
-    assert_non_null(strstr(baum_simulation_explain(s), "1 body at rest left out"));
+    assert_non_null(strstr(baum_simulation_explain(s), "1 fixed body left out"));
     status = baum_simulation_step(s, 3);
   }
   baum_simulation_destroy(s);
@@ -141,7 +141,7 @@ static baum_status build_and_run(void *context)
   return status;
 }
 
-static void what_cannot_move_survives_every_failing_allocation(void **state)
+static void fixed_bodies_survive_every_failing_allocation(void **state)
 {
   (void)state;
   if (!heap_is_ours()) {
@@ -184,7 +184,7 @@ static void so_does_a_singular_pose(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(what_cannot_move_survives_every_failing_allocation),
+    cmocka_unit_test(fixed_bodies_survive_every_failing_allocation),
     cmocka_unit_test(so_does_a_singular_pose),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 #include "scenes.h"
 #include "simulate/run.h"
 #include "solvers.h"
@@ -242,7 +242,7 @@ static bool bench_steps(const arguments *given)
   return fine;
 }
 
-/* ---- bodies that cannot move ---- */
+/* ---- fixed bodies ---- */
 
 /* [s] of a step; all: also what holds frames is solved. */
 static double time_mounted(int frames, bool all)
@@ -259,9 +259,10 @@ static double time_mounted(int frames, bool all)
     return step;
   }
   if (baum_simulation_create(m.mechanism, &options, &run) >= BAUM_OK) {
-    if (all) {
-      baum_i_immobile_destroy(run->workspace->immobile);
-      run->workspace->immobile = NULL;
+    baum_workspace *w = run->workspace;
+    if (all && w->motion != w->path) {
+      baum_i_block_path_destroy(w->motion);
+      w->motion = w->path;
     }
     step = timing_best(step_once, run, 0) / 16;
   }
@@ -270,7 +271,7 @@ static double time_mounted(int frames, bool all)
   return step;
 }
 
-static bool bench_immobile(void)
+static bool bench_fixed_bodies(void)
 {
   bool fine = true;
   printf("\nslider-crank on welded frames, ns per step of semi-implicit Euler\n%6s %10s %10s %6s\n",
@@ -399,7 +400,7 @@ int main(int count, char **words)
   bool fine = bench_solvers(&given);
   fine = bench_steps(&given) && fine;
   if (!given.only) {
-    fine = bench_immobile() && fine;
+    fine = bench_fixed_bodies() && fine;
     fine = bench_redundancy() && fine;
     fine = bench_variants() && fine;
   }

@@ -81,6 +81,7 @@ static baum_mechanism *make(bool declared)
   force.bodies = &disc;
   force.body_count = 1;
   force.force = torque;
+  force.depends_on_velocity = false;
   assert_int_equal(baum_mechanism_add_user_force(m, &force, NULL), BAUM_OK);
   if (declared) {
     double mixed[BREAKS + 1] = {TIMES[2], TIMES[0], TIMES[1], TIMES[0]};

@@ -73,8 +73,9 @@ static baum_workspace *make_workspace(const baum_mechanism *m, bool blocks)
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
   if (!blocks) {
-    baum_i_block_path_destroy(w->path);
+    baum_i_paths_destroy(&(baum_i_paths){w->path, w->motion});
     w->path = NULL;
+    w->motion = NULL;
   }
   return w;
 }

@@ -300,6 +300,7 @@ baum_mechanism *make_faulty_pendulum(force_fault *fault)
   def.bodies = &id;
   def.body_count = 1;
   def.force = answer_fault;
+  def.depends_on_velocity = false;
   def.user = fault;
   check(baum_mechanism_add_user_force(mechanism, &def, NULL));
   return freeze(mechanism);
@@ -358,6 +359,7 @@ baum_mechanism *make_oscillator(void)
   def.bodies = &id;
   def.body_count = 1;
   def.force = pull;
+  def.depends_on_velocity = false;
   check(baum_mechanism_add_user_force(mechanism, &def, NULL));
   return freeze(mechanism);
 }

@@ -384,6 +384,9 @@ static baum_status read_run(const baum_mechanism *m, redundant_state *s)
     status = baum_simulation_set_state(run, 0.0, s->q, s->v);
   }
   if (status >= BAUM_OK) {
+    /* Fixed bodies are where they are. */
+    memcpy(s->q, baum_simulation_q(run), (size_t)s->nv * sizeof *s->q);
+    memcpy(s->v, baum_simulation_v(run), (size_t)s->nv * sizeof *s->v);
     status = baum_simulation_get(run, channels, 2, s->a);
   }
   if (status >= BAUM_OK) {

@@ -124,7 +124,7 @@ static bool open_singular(saved_scene *scene, int number)
   return true;
 }
 
-/* Further ones: other solvers, redundant rows, immobile bodies, the energy account, kinematics. */
+/* Further ones: other solvers, redundant rows, fixed bodies, the energy account, kinematics. */
 static bool open_other(saved_scene *scene, int number)
 {
   static const baum_solver solvers[] = {BAUM_SOLVER_KLU, BAUM_SOLVER_QR, BAUM_SOLVER_BLOCK};

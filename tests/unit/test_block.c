@@ -47,7 +47,7 @@ static tables own_tables(void)
 typedef struct equations {
   saddle s;
   unsigned char diagonal[MOST_BODIES];
-  unsigned char still[MOST_BODIES];
+  unsigned char fixed[MOST_BODIES];
   baum_i_block_pin pins[4 * MOST_BODIES];
 } equations;
 
@@ -88,7 +88,7 @@ static baum_status create(const equations *x, int *hub, baum_i_block **out)
                                       .pins = x->pins,
                                       .diagonal = x->diagonal,
                                       .omitted = x->s.values.omitted,
-                                      .still = x->still};
+                                      .fixed = x->fixed};
   return baum_i_block_create(&layout, hub, out);
 }
 
@@ -250,7 +250,7 @@ static void bodies_at_rest_are_ground(void **state)
     saddle_solve(&x->s, want);
     memcpy(x->s.jacobian, jacobian, (size_t)x->s.jacobian_count * sizeof *jacobian);
     memcpy(x->s.f + body->first, force, sizeof force);
-    x->still[at] = 1;
+    x->fixed[at] = 1;
     solve(x, &plain, 2);
     assert_solution(x, want, 1e-12);
     tested++;
@@ -389,8 +389,9 @@ static void compare(const baum_mechanism *m, double tolerance)
     v[i] = isnan(v[i]) ? 0.1 * i : v[i];
   }
   use_plain(w[1]);
-  baum_i_block_path_destroy(w[2]->path);
+  baum_i_paths_destroy(&(baum_i_paths){w[2]->path, w[2]->motion});
   w[2]->path = NULL;
+  w[2]->motion = NULL;
   for (int k = 0; k < 3; k++) {
     assert_int_equal(baum_i_acceleration(w[k], 0.0, q, v, 5.0, 7.0), BAUM_OK);
     assert_near_all(w[k]->a, w[0]->a, m->nv, tolerance, 0.0);

@@ -21,7 +21,7 @@ typedef struct net {
   baum_i_row_block *rows;
   int *columns;
   unsigned char *diagonal;
-  unsigned char *still;
+  unsigned char *fixed;
   baum_i_block_pin *pins;
 } net;
 
@@ -32,10 +32,10 @@ static net make_net(int bodies, int most_rows)
     .rows = calloc((size_t)most_rows, sizeof *n.rows),
     .columns = calloc((size_t)most_rows, 6 * sizeof *n.columns),
     .diagonal = malloc((size_t)bodies),
-    .still = calloc((size_t)bodies, 1),
+    .fixed = calloc((size_t)bodies, 1),
     .pins = calloc((size_t)most_rows, sizeof *n.pins),
   };
-  assert_true(n.masses && n.rows && n.columns && n.diagonal && n.still && n.pins);
+  assert_true(n.masses && n.rows && n.columns && n.diagonal && n.fixed && n.pins);
   memset(n.diagonal, 1, (size_t)bodies);
   for (int i = 0; i < bodies; i++) {
     n.masses[i] = (baum_i_mass_block){.first = 3 * i, .size = 3, .value = 9 * i};
@@ -61,7 +61,7 @@ static void join(net *n, int a, int b)
 static baum_status create_net(const net *n, int *hub, baum_i_block **out)
 {
   const baum_i_block_layout layout = {
-    .structure = &n->structure, .pins = n->pins, .diagonal = n->diagonal, .still = n->still};
+    .structure = &n->structure, .pins = n->pins, .diagonal = n->diagonal, .fixed = n->fixed};
   return baum_i_block_create(&layout, hub, out);
 }
 
@@ -71,7 +71,7 @@ static void free_net(net *n)
   free(n->rows);
   free(n->columns);
   free(n->diagonal);
-  free(n->still);
+  free(n->fixed);
   free(n->pins);
 }
 
@@ -146,7 +146,7 @@ static void hubs_are_refused_and_named(void **state)
   assert_int_equal(create_net(&many, &hub, &b), BAUM_ERR_SINGULAR);
   assert_int_equal(hub, 3);
   many.diagonal[3] = 1;
-  many.still[3] = 1;
+  many.fixed[3] = 1;
   assert_int_equal(create_net(&many, &hub, &b), BAUM_OK);
   assert_int_equal(hub, -1);
   assert_int_equal(b->off_count, 0);

@@ -147,6 +147,11 @@ static int check_states(const solver *s, double tolerance, chance *c)
     for (int i = 0; i < s->n; i++) {
       y[i] = s->workspace->mechanism->design_q[i] + 0.02 * y[i];
     }
+    const baum_mechanism *m = s->workspace->mechanism;
+    baum_i_place_fixed_bodies(m, y);
+    baum_i_rest_fixed_bodies(m, y + s->n);
+    baum_i_rest_fixed_bodies(m, r);
+    baum_i_rest_fixed_bodies(m, r + s->n);
     double defect = defect_of(s, 0.1 * k, y, gammas[k % 3], r);
     checked += isnan(defect) ? 0 : 1;
     if (defect > tolerance) {

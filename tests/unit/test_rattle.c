@@ -235,7 +235,7 @@ static void all_solvers_give_the_same_motion(void **state)
 }
 
 /* Rows that depend on others, and bodies that cannot move, do not alter the motion. */
-static void redundant_rows_and_immobile_bodies_alter_nothing(void **state)
+static void redundant_rows_and_fixed_bodies_alter_nothing(void **state)
 {
   (void)state;
   model plain = make_crank((model_slider_crank){0});
@@ -284,7 +284,7 @@ int main(void)
     cmocka_unit_test(the_way_back_leads_to_the_start),
     cmocka_unit_test(areas_in_phase_space_are_kept),
     cmocka_unit_test(all_solvers_give_the_same_motion),
-    cmocka_unit_test(redundant_rows_and_immobile_bodies_alter_nothing),
+    cmocka_unit_test(redundant_rows_and_fixed_bodies_alter_nothing),
     cmocka_unit_test(a_step_without_an_end_is_refused_and_leaves_the_state),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -19,7 +19,7 @@ static const struct {
   uint64_t list;
 } VERSIONS[] = {{2, 0x3956a242f9ee4941}, {3, 0x3a778c64b5d2095},  {4, 0x7fc3c87834ce807a},
                 {5, 0xb02996ce68cf2c81}, {6, 0x37e70fad50fef35f}, {7, 0x974e21bbeb901ac8},
-                {8, 0xe27f46b9d6cc18c5}};
+                {8, 0x946fcffc036a66cd}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 

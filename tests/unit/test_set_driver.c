@@ -138,6 +138,7 @@ static scene make_scene(faults *f)
   force.bodies = &s.rod;
   force.body_count = 1;
   force.force = no_force;
+  force.depends_on_velocity = false;
   force.user = f;
   assert_int_equal(baum_mechanism_add_user_force(s.mechanism, &force, NULL), BAUM_OK);
   assert_int_equal(baum_mechanism_freeze(s.mechanism), BAUM_OK);

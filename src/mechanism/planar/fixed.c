@@ -62,6 +62,22 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
   out[2] = 0.0;
 }
 
+/* ---- fixed bodies ---- */
+
+static void weld(const double *parameters, bool from_a, const double *known, double *q)
+{
+  baum_i_frame_kind kind = known ? BAUM_I_FRAME_BODY : BAUM_I_FRAME_GROUND;
+  baum_i_frame f = baum_i_frame_at(kind, known, NULL);
+  const double *p = parameters + (from_a ? 0 : 2);
+  const double *s = parameters + (from_a ? 2 : 0);
+  double angle = parameters[BAUM_I_PLANAR_NUMBERS + ANGLE];
+  q[2] = f.angle + (from_a ? angle : -angle);
+  double cosine = cos(q[2]);
+  double sine = sin(q[2]);
+  q[0] = f.x + f.c * p[0] - f.s * p[1] - (cosine * s[0] - sine * s[1]);
+  q[1] = f.y + f.s * p[0] + f.c * p[1] - (sine * s[0] + cosine * s[1]);
+}
+
 /* ---- type ---- */
 
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
@@ -91,12 +107,8 @@ static const baum_i_joint_type type = {
   .lower = lower,
   .evaluate = evaluate,
   .linearize = linearize,
+  .weld = weld,
   .place = baum_i_planar_place,
 };
 
 BAUM_I_DEFINE(joint, planar_fixed, type)
-
-bool baum_i_is_weld(const baum_i_joint *joint)
-{
-  return joint->type == &type;
-}

@@ -89,9 +89,6 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
 /* Bodies of a planar definition; for the `bodies` function of types. */
 void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
 
-/* Does a joint keep its two bodies in place to each other? fixed.c */
-bool baum_i_is_weld(const baum_i_joint *joint);
-
 /* Points on both bodies from the definition and the design configuration, s[0..1] on a, s[2..3] on b. A
  * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by
  * baum_i_planar_check()). */

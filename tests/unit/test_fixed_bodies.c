@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies that cannot move, left out of a run's motion. */
+/* Bodies that welds hold to ground, left out of a run's motion. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,7 +14,7 @@
 
 #include "assert_near.h"
 #include "check.h"
-#include "dynamics/immobile.h"
+#include "dynamics/block_path.h"
 #include "simulate/run.h"
 
 #define PI 3.14159265358979323846
@@ -107,8 +107,8 @@ static baum_simulation *start(const baum_mechanism *m, const baum_simulation_opt
 
 static int left_out(const baum_simulation *run)
 {
-  const baum_i_immobile *immobile = run->workspace->immobile;
-  return immobile && immobile->rests ? immobile->path->still_count : 0;
+  const baum_i_block_path *path = run->workspace->motion;
+  return path ? path->fixed_count : 0;
 }
 
 /* By the solver of the whole system. */
@@ -150,15 +150,15 @@ static void welded_frames_are_left_out_and_the_motion_is_the_same(void **state)
   mounted it = make_mounted();
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(it.mechanism, &o);
-  assert_non_null(strstr(baum_simulation_explain(run),
-                         "blocks, 2 nodes, 1 coupling; 2 bodies at rest left out;"));
+  assert_non_null(
+    strstr(baum_simulation_explain(run), "blocks, 2 nodes, 1 coupling; 2 fixed bodies left out;"));
   baum_simulation_destroy(run);
   assert_same_motion(it.mechanism, FRAMES);
   baum_mechanism_destroy(it.mechanism);
 }
 
-/* A triangle on the ground is rigid without a weld; a pendulum has nothing to do with it. */
-static void rigid_islands_are_left_out(void **state)
+/* A triangle on the ground is rigid without a weld. */
+static void rigid_islands_are_solved_for(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -170,8 +170,32 @@ static void rigid_islands_are_left_out(void **state)
   pin(m, left, right, 1.0, 1.0);
   pin(m, BAUM_GROUND, bob, 4.0, 0.0);
   check(baum_mechanism_freeze(m));
-  assert_same_motion(m, 2);
+  assert_same_motion(m, 0);
   baum_mechanism_destroy(m);
+}
+
+/* In whatever order welds are added, and from whichever side. */
+static void chains_of_welds_are_fixed_in_any_order(void **state)
+{
+  (void)state;
+  enum { CHAIN = 7 };
+  for (int step = 1; step < CHAIN; step++) { /* 7 is prime: every step comes by all bodies */
+    baum_mechanism *m = begin();
+    baum_body_id bodies[CHAIN + 1] = {BAUM_GROUND};
+    for (int k = 1; k <= CHAIN; k++) {
+      bodies[k] = add_body(m, k, 0.1 * k);
+    }
+    for (int k = 1; k <= CHAIN; k++) {
+      int at = 1 + k * step % CHAIN;
+      (void)weld(m, bodies[k % 2 ? at : at - 1], bodies[k % 2 ? at - 1 : at]);
+    }
+    check(baum_mechanism_freeze(m));
+    assert_int_equal(m->fixed_count, CHAIN);
+    for (int i = 0; i < m->nq; i++) {
+      ASSERT_NEAR(m->fixed_q[i], m->design_q[i], 0.0, 1e-14);
+    }
+    baum_mechanism_destroy(m);
+  }
 }
 
 /* What carries more joints than blocks are good for does not matter when it stands still. */
@@ -190,8 +214,8 @@ static void a_hub_at_rest_is_no_hub(void **state)
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(m, &o);
-  assert_non_null(strstr(baum_simulation_explain(run),
-                         "blocks, 60 nodes, 0 couplings; 1 body at rest left out;"));
+  assert_non_null(
+    strstr(baum_simulation_explain(run), "blocks, 60 nodes, 0 couplings; 1 fixed body left out;"));
   baum_simulation_destroy(run);
   assert_same_motion(m, 1);
   baum_mechanism_destroy(m);
@@ -222,9 +246,9 @@ static void what_a_driver_holds_is_not_left_out(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as redundant as
- * one of the cranks' own. */
-static void nothing_is_left_out_where_another_row_was_spared(void **state)
+/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as redundant as one of the cranks'
+ * own, but what fixes a body is kept. */
+static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -244,66 +268,15 @@ static void nothing_is_left_out_where_another_row_was_spared(void **state)
   check(baum_mechanism_rows(m, foot, &first, NULL));
   const unsigned char *omitted = run->workspace->redundancy.omitted + first;
   assert_int_equal(run->workspace->redundancy.count, 1);
-  assert_int_equal(omitted[0] + omitted[1] + omitted[2], 1); /* otherwise this tests nothing */
-  assert_int_equal(left_out(run), 0);
-  baum_simulation_destroy(run);
-  baum_mechanism_destroy(m);
-}
-
-/* A frame, and two bars that two pins lock and a third one carries: one of these rows is redundant. In its place the first of
- * the weld, which is what holds the frame, cannot be spared. */
-static void rows_of_what_is_left_out_are_not_exchanged(void **state)
-{
-  (void)state;
-  baum_mechanism *m = begin();
-  baum_body_id frame = add_body(m, 0.0, 0.0);
-  baum_body_id first = add_body(m, 0.5, 0.0);
-  baum_body_id second = add_body(m, 1.2, 0.3);
-  (void)weld(m, BAUM_GROUND, frame);
-  (void)pin(m, frame, first, 0.0, 0.0);
-  (void)pin(m, first, second, 0.9, 0.0);
-  (void)pin(m, first, second, 1.1, 0.25);
-  check(baum_mechanism_freeze(m));
-  baum_simulation_options o = fixed_step();
-  baum_simulation *run = start(m, &o);
-  const baum_workspace *w = run->workspace;
-  const unsigned char *now = w->redundancy.omitted;
-  unsigned char omitted[9];
-  unsigned char before[9];
-  assert_int_equal(left_out(run), 1);
-  assert_int_equal(w->redundancy.count, 1);
-  memcpy(before, now, sizeof before);
-  memset(omitted, 0, sizeof omitted);
-  omitted[0] = 1;
-  const baum_i_block_path *path = w->path;
-  assert_int_equal(baum_i_omit_rows(run->workspace, omitted), BAUM_ERR_UNSUPPORTED);
-  assert_memory_equal(now, before, sizeof before);
-  assert_ptr_equal(w->path, path);
+  assert_int_equal(omitted[0] + omitted[1] + omitted[2], 0);
   assert_int_equal(left_out(run), 1);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
-}
-
-static void methods_that_need_multipliers_leave_out_nothing(void **state)
-{
-  (void)state;
-  if (!BAUM_HAVE_SUNDIALS) {
-    skip();
-  }
-  mounted it = make_mounted();
-  baum_simulation_options o = baum_simulation_options_default();
-  o.integrator = baum_ida();
-  o.rtol = 1e-6;
-  baum_simulation *run = start(it.mechanism, &o);
-  assert_int_equal(left_out(run), 0);
-  check(baum_simulation_advance_to(run, 0.1));
-  baum_simulation_destroy(run);
-  baum_mechanism_destroy(it.mechanism);
 }
 
 /* ---- they stay where they are ---- */
 
-static void bodies_left_out_do_not_move_by_a_digit(void **state)
+static void fixed_bodies_do_not_move_by_a_digit(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -321,10 +294,8 @@ static void bodies_left_out_do_not_move_by_a_digit(void **state)
       baum_simulation *run = start(it.mechanism, &o);
       double q[3 * FRAMES];
       memcpy(q, baum_simulation_q(run), sizeof q);
-      bool leaves_out = left_out(run) == FRAMES;
-      assert_true(leaves_out || integrator->solves_residuals);
       check(baum_simulation_advance_to(run, 0.2));
-      for (int i = 0; leaves_out && i < 3 * FRAMES; i++) {
+      for (int i = 0; !integrator->solves_residuals && i < 3 * FRAMES; i++) {
         assert_true(baum_simulation_q(run)[i] == q[i]);
         assert_true(baum_simulation_v(run)[i] == 0.0);
       }
@@ -336,7 +307,7 @@ static void bodies_left_out_do_not_move_by_a_digit(void **state)
 
 /* ---- what is reported is of the whole ---- */
 
-static void reactions_of_what_is_left_out_are_right(void **state)
+static void reactions_of_fixed_bodies_are_right(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -369,7 +340,7 @@ static void reactions_of_what_is_left_out_are_right(void **state)
   baum_mechanism_destroy(it.mechanism);
 }
 
-static void violations_of_what_is_left_out_are_watched(void **state)
+static void rows_between_fixed_bodies_stay_fulfilled(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -388,7 +359,7 @@ static void violations_of_what_is_left_out_are_watched(void **state)
 
 /* ---- states that have them elsewhere ---- */
 
-static void frames_out_of_place_are_solved_for(void **state)
+static void frames_out_of_place_are_put_back(void **state)
 {
   (void)state;
   mounted it = make_mounted();
@@ -399,24 +370,17 @@ static void frames_out_of_place_are_solved_for(void **state)
   double v[3 * BODIES];
   memcpy(q, baum_simulation_q(run), sizeof q);
   memcpy(v, baum_simulation_v(run), sizeof v);
-  assert_int_equal(left_out(run), FRAMES);
+  double place = q[0];
   q[0] += 1e-3;
-  check(baum_simulation_set_state(run, 0.0, q, v));
-  assert_int_equal(left_out(run), 0);
-  check(baum_simulation_advance_to(run, 0.5));
-  ASSERT_NEAR(baum_simulation_q(run)[0], 0.0, 0.0, 1e-5); /* the gains have brought it back */
-  q[0] -= 1e-3;
   v[1] = 1e-3;
   check(baum_simulation_set_state(run, 0.0, q, v));
-  assert_int_equal(left_out(run), 0);
-  v[1] = 0.0;
-  check(baum_simulation_set_state(run, 0.0, q, v));
-  assert_int_equal(left_out(run), FRAMES);
+  assert_true(baum_simulation_q(run)[0] == place);
+  assert_true(baum_simulation_v(run)[1] == 0.0);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(it.mechanism);
 }
 
-static void a_start_out_of_place_leaves_out_nothing(void **state)
+static void a_start_out_of_place_is_put_in_place(void **state)
 {
   (void)state;
   baum_mechanism *m = begin();
@@ -427,14 +391,15 @@ static void a_start_out_of_place_leaves_out_nothing(void **state)
   def.point_a[1] = 0.0;
   def.point_b[0] = 0.0;
   def.point_b[1] = 0.0;
+  def.angle = 0.3;
   check(baum_mechanism_add_planar_fixed(m, &def, NULL));
   check(baum_mechanism_freeze(m));
   baum_simulation_options o = fixed_step();
   o.start = BAUM_START_AS_GIVEN;
   baum_simulation *run = start(m, &o);
-  assert_int_equal(left_out(run), 0);
   check(baum_simulation_advance_to(run, 0.5));
-  ASSERT_NEAR(baum_simulation_q(run)[0], 1.001, 0.0, 1e-5);
+  ASSERT_NEAR(baum_simulation_q(run)[0], 1.001, 0.0, 1e-15);
+  ASSERT_NEAR(baum_simulation_q(run)[2], 0.3, 0.0, 1e-15);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);
 }
@@ -470,18 +435,17 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(welded_frames_are_left_out_and_the_motion_is_the_same),
-    cmocka_unit_test(rigid_islands_are_left_out),
+    cmocka_unit_test(rigid_islands_are_solved_for),
+    cmocka_unit_test(chains_of_welds_are_fixed_in_any_order),
     cmocka_unit_test(a_hub_at_rest_is_no_hub),
     cmocka_unit_test(nothing_but_frames_is_nothing_to_solve),
     cmocka_unit_test(what_a_driver_holds_is_not_left_out),
-    cmocka_unit_test(nothing_is_left_out_where_another_row_was_spared),
-    cmocka_unit_test(rows_of_what_is_left_out_are_not_exchanged),
-    cmocka_unit_test(methods_that_need_multipliers_leave_out_nothing),
-    cmocka_unit_test(bodies_left_out_do_not_move_by_a_digit),
-    cmocka_unit_test(reactions_of_what_is_left_out_are_right),
-    cmocka_unit_test(violations_of_what_is_left_out_are_watched),
-    cmocka_unit_test(frames_out_of_place_are_solved_for),
-    cmocka_unit_test(a_start_out_of_place_leaves_out_nothing),
+    cmocka_unit_test(rows_that_fix_a_body_are_kept),
+    cmocka_unit_test(fixed_bodies_do_not_move_by_a_digit),
+    cmocka_unit_test(reactions_of_fixed_bodies_are_right),
+    cmocka_unit_test(rows_between_fixed_bodies_stay_fulfilled),
+    cmocka_unit_test(frames_out_of_place_are_put_back),
+    cmocka_unit_test(a_start_out_of_place_is_put_in_place),
     cmocka_unit_test(a_state_that_is_refused_changes_nothing),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
