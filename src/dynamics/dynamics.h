@@ -68,9 +68,9 @@ struct baum_workspace {
   baum_i_block_path *solved_by;     /* of the last solution; NULL: kkt */
   baum_i_block_path *eliminated_by; /* whose pivots are of now, whoever has solved; NULL: none */
   baum_i_redundancy redundancy;
-  bool mass_ready;     /* a constant M has been evaluated */
-  bool jacobian_ready; /* the last evaluation has set all blocks of J */
-  bool metric_ready;   /* W has been chosen */
+  bool mass_ready;      /* a constant M has been evaluated */
+  bool jacobian_ready;  /* the last evaluation has set all blocks of J */
+  int32_t metric_ready; /* W has been chosen */
 
   double *mass;            /* block values */
   double *jacobian;        /* block values */

@@ -15,16 +15,18 @@
 
 /* What is integrated, and how exactly. Constant but for direction and stop. */
 typedef struct baum_i_problem {
+  /* Saved with a run, up to `workspace`: of another processor these may differ in the last digits. */
+  double alpha;     /* [1/s] >= 0 */
+  double beta;      /* [1/s] >= 0 */
+  double direction; /* +1 forward, -1 backward in time: alpha carries it */
+  double rate;      /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
+  double max_step;  /* [s] > 0, INFINITY for none; variable step */
+
   baum_workspace *workspace;
   baum_formulation formulation;
-  double alpha;              /* [1/s] >= 0 */
-  double beta;               /* [1/s] >= 0 */
-  double direction;          /* +1 forward, -1 backward in time: alpha carries it */
   double step;               /* [s] > 0, or NaN: variable */
   double rtol;               /* NaN for fixed step */
   double atol;               /* >= 0 */
-  double rate;               /* [1/s] > 0, 1/T: velocities are measured against scale x rate */
-  double max_step;           /* [s] > 0, INFINITY for none; variable step */
   double tolerance_q;        /* [-] > 0, factors on rtol and atol */
   double tolerance_v;        /* [-] > 0 */
   double tolerance_lambda;   /* [-] > 0, INFINITY: multipliers are outside of the error test */

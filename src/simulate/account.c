@@ -25,6 +25,7 @@
 #include "simulate/account.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -37,10 +38,15 @@ enum { MOST_NODES = 4, HERMITE_ORDER = 4 };
 static const double FAR = 10.0;
 
 struct baum_i_account {
+  /* Numbers alone, saved up to `workspace`. */
+  double before[BAUM_I_WORKS]; /* up to the last step */
+  double last[BAUM_I_WORKS];   /* of it */
+  double read[BAUM_I_WORKS];   /* up to the state that was asked for */
+  int32_t broken;              /* a work could not be evaluated */
+
   baum_workspace *workspace;
   baum_i_problem problem; /* the run's, with that workspace */
   int nodes;
-  bool broken;       /* a work could not be evaluated */
   bool fresh;        /* no step since the method began anew */
   bool far;          /* the projection of the last step moved far */
   void *stepper;     /* the method once more, for shorter steps; NULL: none */
@@ -49,9 +55,6 @@ struct baum_i_account {
   double *unprojected; /* (nq + nv) the end of the last step, or a sample, before projection */
   double *end_a;       /* (nv) acceleration there, fixed step */
   double *lambda;      /* (nc) of (5) */
-  double before[BAUM_I_WORKS]; /* up to the last step */
-  double last[BAUM_I_WORKS];   /* of it */
-  double read[BAUM_I_WORKS];   /* up to the state that was asked for */
 };
 
 /* Gauss' rules over (-1, 1); row n - 1 for n nodes. */
@@ -317,6 +320,9 @@ static void follow(baum_simulation *run)
 {
   baum_i_account *account = run->account;
   account->problem.direction = run->problem.direction;
+  account->problem.alpha = run->problem.alpha; /* which restoring may change */
+  account->problem.beta = run->problem.beta;
+  account->problem.rate = run->problem.rate;
   account->workspace->point.parameters = run->workspace->point.parameters;
   account->workspace->point.inputs = run->workspace->point.inputs;
   account->workspace->row_gains = run->workspace->row_gains;
@@ -538,19 +544,10 @@ void baum_i_account_forget(baum_i_account *account)
 
 void baum_i_account_saved(baum_i_account *account, baum_i_saved *list)
 {
-  BAUM_I_SAVED_ADD_FLAG(list, "account broken", account->broken);
-  BAUM_I_SAVED_ADD(list, "account before", account->before);
-  BAUM_I_SAVED_ADD(list, "account last", account->last);
-  BAUM_I_SAVED_ADD(list, "account read", account->read);
-  BAUM_I_SAVED_ADD(list, "account from", account->from.t);
-  baum_i_saved_add(
-    list, "account from q, v", account->from.q,
-    ((size_t)account->workspace->mechanism->nq + (size_t)account->workspace->mechanism->nv) *
-      sizeof *account->from.q);
-  BAUM_I_SAVED_ADD(list, "account alpha", account->problem.alpha);
-  BAUM_I_SAVED_ADD(list, "account beta", account->problem.beta);
-  BAUM_I_SAVED_ADD(list, "account rate", account->problem.rate);
-  BAUM_I_SAVED_ADD_COUNT(list, "account evaluations", account->workspace->evaluations);
+  baum_workspace *w = account->workspace;
+  baum_i_saved_add(list, account, offsetof(baum_i_account, workspace), 0);
+  baum_i_saved_add(list, &w->evaluations, sizeof w->evaluations, 1);
+  baum_i_saved_add_state(list, w->mechanism, &account->from);
 }
 
 /* ---- public ---- */

@@ -16,6 +16,7 @@
 #include "simulate/companion.h"
 
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -55,16 +56,18 @@ enum {
 typedef enum state_of_companion { WAITS, GOES_ALONG, ENDED } state_of_companion;
 
 struct baum_i_companion {
+  /* Numbers alone, saved up to `method`. */
+  int64_t unseen; /* steps whose local errors are not known */
+  int64_t begun;  /* evaluations of the run before it went along */
+  double sum;     /* of local errors */
+  double apart;   /* [s] since when the two are; NaN: they are not */
+  int32_t doing;  /* a state_of_companion */
+
   const baum_integrator *method;
   baum_workspace *workspace;
   baum_i_problem problem; /* of the companion */
   void *self;
-  int32_t doing;            /* a state_of_companion */
   baum_i_local_error local; /* of the run */
-  double sum;               /* of local errors */
-  int64_t unseen;           /* steps whose local errors are not known */
-  double apart;             /* [s] since when the two are; NaN: they are not */
-  int64_t begun;            /* evaluations of the run before it went along */
   baum_i_state state;       /* where its next step begins */
   baum_i_state at;          /* where the run is */
   baum_i_state kept[2];     /* of the run, STRIDE steps or more and less ago */
@@ -405,20 +408,10 @@ void baum_i_companion_forget(baum_simulation *run)
 
 /* ---- saved ---- */
 
-static void add_state(baum_i_saved *list, const baum_workspace *w, baum_i_state *state)
-{
-  size_t numbers = (size_t)w->mechanism->nq + (size_t)w->mechanism->nv;
-  BAUM_I_SAVED_ADD(list, "companion t", state->t);
-  baum_i_saved_add(list, "companion q, v", state->q, numbers * sizeof *state->q);
-}
-
 void baum_i_companion_saved(baum_i_companion *c, baum_i_saved *list)
 {
-  BAUM_I_SAVED_ADD_BOUNDED(list, "companion", c->doing, WAITS, ENDED);
-  BAUM_I_SAVED_ADD(list, "companion sum", c->sum);
-  BAUM_I_SAVED_ADD_COUNT(list, "companion unseen", c->unseen);
-  BAUM_I_SAVED_ADD(list, "companion apart", c->apart);
-  BAUM_I_SAVED_ADD_COUNT(list, "companion begun", c->begun);
-  BAUM_I_SAVED_ADD_COUNT(list, "companion evaluations", c->workspace->evaluations);
-  add_state(list, c->workspace, &c->state);
+  baum_workspace *w = c->workspace;
+  baum_i_saved_add(list, c, offsetof(baum_i_companion, method), 2);
+  baum_i_saved_add(list, &w->evaluations, sizeof w->evaluations, 1);
+  baum_i_saved_add_state(list, w->mechanism, &c->state);
 }

@@ -14,26 +14,28 @@ enum {
 /* One under way, or just found between two steps. */
 typedef struct baum_i_crossing {
   double from;         /* [s] last clear state before */
-  bool gap;            /* no singular pose is on the way, as far as can be seen there */
   double largest_turn; /* [-] change of the velocity in a step, of its size */
-  int joint;           /* of the least pivot, -1: none */
+  int32_t gap;         /* no singular pose is on the way, as far as can be seen there */
+  int32_t joint;       /* of the least pivot, -1: none */
 } baum_i_crossing;
 
 struct baum_i_crossings {
+  /* Numbers alone, saved up to `recent`. */
   double usual; /* largest pivot so far */
-  int recent_count;
+  baum_i_crossing present;
+  int32_t recent_count;
+  int32_t clear_count;
+  int32_t open;
+  int32_t unseen;      /* the last recent state has not been looked at */
+  int32_t joint_noted; /* of its smallest pivot, where it is near; -1: none */
+
   baum_i_knot recent[BAUM_I_RECENT]; /* last states, the last one last */
-  int clear_count;
   baum_i_knot
     clear[BAUM_I_HERMITE_MOST]; /* states away from singular poses, not too close together */
   baum_i_knot at;               /* a state between two */
   baum_i_knot other;
   baum_i_knot between;
-  baum_i_knot lowest; /* of the passage under way: t, pivot and q */
-  bool unseen;        /* the last recent state has not been looked at */
-  int joint_noted;    /* of its smallest pivot, where it is near; -1: none */
-  bool open;
-  baum_i_crossing present;
+  baum_i_knot lowest; /* of the crossing under way: t, pivot and q */
   baum_near_singular kept[BAUM_I_PASSAGES];
 };
 

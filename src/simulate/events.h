@@ -25,15 +25,17 @@ typedef struct baum_i_event {
 } baum_i_event;
 
 struct baum_i_events {
+  /* Numbers alone, saved up to `list`. */
+  int64_t recorded;
+  double t;     /* looked at up to here */
+  double begin; /* where fresh ones began */
+  double from;  /* variable step: start of the last one */
+
   baum_i_event *list;       /* (count) */
   baum_i_event_mark *marks; /* (count) */
   int count;
-  double t;          /* looked at up to here */
-  double begin;      /* where fresh ones began */
-  double from;       /* variable step: start of the last one */
-  double *memory;    /* of look */
-  baum_i_state look; /* a state between */
-  int64_t recorded;
+  double *memory;                                  /* of look */
+  baum_i_state look;                               /* a state between */
   baum_event_record records[BAUM_I_EVENT_RECORDS]; /* the last ones, number k at k mod its size */
 };
 

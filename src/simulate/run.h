@@ -52,6 +52,17 @@ typedef struct baum_i_events baum_i_events;
 typedef struct baum_i_saved baum_i_saved; /* saved.h */
 
 struct baum_simulation {
+  /* How far it has come: numbers alone, saved up to `options`. */
+  baum_i_grid grid;
+  double origin; /* [s] where the method began anew: its times may be counted from there */
+  double start_energy;
+  double largest_gamma;               /* over all rows and steps */
+  double rows_looked_at;              /* [s] redundant ones, with KLU and QR; see rows.c */
+  double judged_phi;                  /* max_phi when that was last looked at */
+  int64_t near_singular_seen;         /* workspace->near_singular at the last look */
+  int64_t announced[BAUM_I_WARNINGS]; /* how many of a warning a status has announced */
+  baum_counters counters;
+
   baum_simulation_options options;
   const baum_integrator *integrator;
   baum_workspace *workspace;
@@ -77,19 +88,9 @@ struct baum_simulation {
   double *acceleration;     /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
-  baum_i_grid grid;
-  double origin; /* [s] where the method began anew: its times may be counted from there */
-  baum_counters counters;
   baum_i_work
     before; /* what solvers have done for the run in other processes, less what is not of it */
-  double start_energy;
-  double largest_gamma;       /* over all rows and steps */
-  int64_t near_singular_seen; /* workspace->near_singular at the last look */
-  double rows_looked_at;      /* [s] redundant ones, with KLU and QR; see rows.c */
-  double judged_phi;          /* max_phi when that was last looked at */
-
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
-  int64_t announced[BAUM_I_WARNINGS];     /* how many of it a status has announced */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
   baum_i_gain_choice gains;

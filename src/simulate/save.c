@@ -4,17 +4,21 @@
  * A buffer is words of eight bytes as this machine has them:
  *
  *   "baumsave"       a number by which byte order and doubles are known      version
- *   size in bytes    fingerprint of the mechanism (2)                        sum over the names of the parts
- *   for each part of the list in saved.h: its length in bytes, and its bytes filled up to whole words
+ *   size in bytes    fingerprint of the mechanism (2)
+ *   the parts of saved.h
  *   sum over all before (base/digest.h)
  *
  * Everything is checked before anything changes. What methods remember of steps, and pivots, are not in it: saving
  * makes the run forget them, as restoring does, so that both go on alike.
  */
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/digest.h"
+#include "base/text.h"
+#include "dynamics/immobile.h"
 #include "mechanism/fingerprint.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
@@ -36,40 +40,163 @@ typedef struct header {
   uint64_t version;
   uint64_t size;
   baum_i_fingerprint mechanism;
-  uint64_t parts;
 } header;
 
-static size_t padded(size_t size)
-{
-  return (size + WORD - 1) / WORD * WORD;
-}
+/* ---- what must agree ---- */
 
-/* Which parts there are. */
-static uint64_t sum_of_names(const baum_i_saved *list)
+static const char *const NUMBERS[BAUM_I_SAVED_NUMBERS] = {
+  "step",
+  "rtol",
+  "atol",
+  "max_step",
+  "tolerance_q",
+  "tolerance_v",
+  "tolerance_lambda",
+  "the first number of the gains",
+  "the second number of the gains",
+};
+
+static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {
+  "the rule of the gains",
+  "row_gain_count",
+  "the sum over row_gains",
+  "solver",
+  "energy_account",
+  "error_check",
+  "the rank of the constraints",
+  "whether blocks suit",
+  "the number of velocities that cannot change",
+  "the sum over which these are",
+  "the number of events",
+  "the sum over what the events are",
+};
+
+static int64_t sum_of(const void *bytes, size_t size)
 {
   baum_i_digest sum = {0};
-  for (int k = 0; k < list->count; k++) {
-    baum_i_digest_add_text(&sum, list->parts[k].name);
-  }
-  return sum.value;
+  baum_i_digest_add(&sum, bytes, size);
+  return (int64_t)(sum.value >> 1);
 }
 
-static header header_of(const baum_simulation *run, const baum_i_saved *list)
+/* But for functions and names. */
+static int64_t sum_of_events(const baum_i_events *events)
 {
-  header h = {.number = NUMBER, .version = BAUM_I_SAVED_VERSION, .parts = sum_of_names(list)};
-  memcpy(h.magic, MAGIC, WORD);
-  h.mechanism = run->fingerprint;
-  return h;
+  baum_i_digest sum = {0};
+  for (int k = 0; events && k < events->count; k++) {
+    const baum_i_event *event = &events->list[k];
+    baum_i_digest_add_integer(&sum, event->joint);
+    baum_i_digest_add_integer(&sum, event->def.direction);
+    baum_i_digest_add_integer(&sum, event->def.terminal);
+    baum_i_digest_add(&sum, &event->def.value, sizeof event->def.value);
+    baum_i_digest_add(&sum, &event->def.tolerance, sizeof event->def.tolerance);
+  }
+  return (int64_t)(sum.value >> 1);
 }
 
-/* The most that a list takes. */
-static size_t largest_size(const baum_i_saved *list)
+static baum_i_saved_identity identity_of(const baum_simulation *run)
 {
-  size_t size = sizeof(header) + WORD;
-  for (int k = 0; k < list->count; k++) {
-    size += WORD + padded(list->parts[k].size);
+  const baum_simulation_options *o = &run->options;
+  const baum_workspace *w = run->workspace;
+  const char *formulation = baum_formulation_name(o->formulation);
+  const baum_i_immobile *still = w->immobile;
+  size_t gains = run->row_gains ? (size_t)w->mechanism->nc * sizeof *run->row_gains : 0;
+  baum_i_saved_identity identity = {
+    .numbers = {o->step, o->rtol, o->atol, o->max_step, o->tolerance_q, o->tolerance_v,
+                o->tolerance_lambda, o->gains.value[0], o->gains.value[1]},
+    .integers = {o->gains.rule, o->row_gain_count, sum_of(run->row_gains, gains), o->solver,
+                 run->account != NULL, o->error_check, w->redundancy.rank, w->path != NULL,
+                 still ? still->count : 0,
+                 still ? sum_of(still->velocity, (size_t)still->count * sizeof *still->velocity)
+                       : 0,
+                 run->events ? run->events->count : 0, sum_of_events(run->events)},
+  };
+  baum_i_print(identity.integrator, BAUM_I_SAVED_TEXT, "%s", run->integrator->name);
+  baum_i_print(identity.formulation, BAUM_I_SAVED_TEXT, "%s", formulation ? formulation : "none");
+  return identity;
+}
+
+/* ---- the list ---- */
+
+/* In the order of their names. */
+static void list_named(baum_simulation *run, baum_i_saved *list)
+{
+  baum_workspace *w = run->workspace;
+  const baum_mechanism *m = w->mechanism;
+  baum_i_saved_add(list, &list->identity, sizeof list->identity, 0);
+  baum_i_saved_add_all(list, w->redundancy.omitted, sizeof *w->redundancy.omitted, m->nc);
+  baum_i_saved_add_some(list, run->parameters, sizeof *run->parameters,
+                        run->parameters ? m->parameter_count : 0, m->parameter_count);
+  baum_i_saved_add_some(list, run->schedule.jumps, sizeof *run->schedule.jumps, run->schedule.count,
+                        INT64_MAX);
+  baum_i_saved_add(list, run, offsetof(baum_simulation, options), 0);
+  baum_i_saved_add_all(list, run->crossings, offsetof(baum_i_crossings, recent),
+                       run->crossings != NULL);
+}
+
+static void list_knots(baum_i_saved *list, const baum_mechanism *m, baum_i_knot *knots, int count)
+{
+  for (int k = 0; k < count; k++) {
+    baum_i_saved_add_array(list, &knots[k].t, 1);
+    baum_i_saved_add_array(list, &knots[k].pivot, 1);
+    baum_i_saved_add_array(list, knots[k].q, m->nq);
+    baum_i_saved_add_array(list, knots[k].v, m->nv);
   }
-  return size;
+}
+
+static void list_crossings(baum_simulation *run, baum_i_saved *list)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  baum_i_crossings *p = run->crossings;
+  list_knots(list, m, p->recent, BAUM_I_RECENT);
+  list_knots(list, m, p->clear, BAUM_I_HERMITE_MOST);
+  list_knots(list, m, &p->lowest, 1);
+  baum_i_saved_add_some(list, p->kept, sizeof *p->kept, run->counters.near_singular_intervals,
+                        BAUM_I_PASSAGES);
+}
+
+static void list_events(baum_i_events *events, baum_i_saved *list)
+{
+  baum_i_saved_add(list, events, offsetof(baum_i_events, list), 1);
+  baum_i_saved_add_all(list, events->marks, sizeof *events->marks, events->count);
+  baum_i_saved_add_some(list, events->records, sizeof *events->records, events->recorded,
+                        BAUM_I_EVENT_RECORDS);
+}
+
+void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
+{
+  baum_workspace *w = run->workspace;
+  const baum_mechanism *m = w->mechanism;
+  list->count = 0;
+  list->identity = identity_of(run);
+  list_named(run, list);
+  baum_i_saved_add(list, &run->problem, offsetof(baum_i_problem, workspace), 0);
+  baum_i_saved_add(list, &run->gains.amplification, sizeof run->gains.amplification, 0);
+  baum_i_saved_add(list, &w->evaluations, sizeof w->evaluations, 1);
+  baum_i_saved_add(list, &w->near_singular, sizeof w->near_singular, 1);
+  baum_i_saved_add(list, &w->redundancy.tried, sizeof w->redundancy.tried, 0);
+  baum_i_saved_add(list, &w->metric_ready, sizeof w->metric_ready, 0);
+  baum_i_saved_add_state(list, m, &run->state);
+  baum_i_saved_add_array(list, w->inputs, m->input_count);
+  baum_i_saved_add_array(list, w->metric, m->nv);
+  baum_i_saved_add_some(list, run->warnings, sizeof *run->warnings, run->counters.warnings,
+                        BAUM_I_WARNINGS);
+  if (w->immobile) {
+    baum_i_saved_add(list, &w->immobile->rests, sizeof w->immobile->rests, 0);
+    baum_i_saved_add_array(list, w->immobile->position, w->immobile->count);
+    baum_i_saved_add_array(list, w->immobile->phi, w->immobile->row_count);
+  }
+  if (run->account) {
+    baum_i_account_saved(run->account, list);
+  }
+  if (run->companion) {
+    baum_i_companion_saved(run->companion, list);
+  }
+  if (run->crossings) {
+    list_crossings(run, list);
+  }
+  if (run->events) {
+    list_events(run->events, list);
+  }
 }
 
 /* ---- forget ---- */
@@ -115,56 +242,19 @@ static void begin_anew(baum_simulation *run)
 
 /* ---- save ---- */
 
-/* Bytes of a part, of which it has at most BAUM_I_SAVED_TEXT of its own. */
-static const void *bytes_of(const baum_i_saved_part *part, char own[BAUM_I_SAVED_TEXT],
-                            size_t *size)
-{
-  *size = part->size;
-  switch (part->kind) {
-  case BAUM_I_SAVED_NUMBER: memcpy(own, &part->number, sizeof part->number); return own;
-  case BAUM_I_SAVED_INTEGER: memcpy(own, &part->integer, sizeof part->integer); return own;
-  case BAUM_I_SAVED_TEXT_OF:
-    memset(own, 0, BAUM_I_SAVED_TEXT);
-    memcpy(own, part->place, strnlen(part->place, BAUM_I_SAVED_TEXT - 1));
-    return own;
-  case BAUM_I_SAVED_NUMBERS: *size = part->place ? part->size : 0; return part->place;
-  case BAUM_I_SAVED_SOME: *size = part->used; return part->place;
-  case BAUM_I_SAVED_CHOICE:
-  case BAUM_I_SAVED_BOUNDED:
-  case BAUM_I_SAVED_STATE:
-  case BAUM_I_SAVED_JUMPS:
-  case BAUM_I_SAVED_ROWS:
-  default: return part->place;
-  }
-}
-
-static unsigned char *put(unsigned char *to, const void *bytes, size_t size)
-{
-  if (size > 0) {
-    memcpy(to, bytes, size);
-    memset(to + size, 0, padded(size) - size);
-  }
-  return to + padded(size);
-}
-
 static size_t write_all(const baum_simulation *run, const baum_i_saved *list, unsigned char *buffer)
 {
-  unsigned char *next = buffer + sizeof(header);
-  for (int k = 0; k < list->count; k++) {
-    char own[BAUM_I_SAVED_TEXT];
-    size_t size = 0;
-    const void *bytes = bytes_of(&list->parts[k], own, &size);
-    uint64_t length = size;
-    next = put(next, &length, sizeof length);
-    next = put(next, bytes, size);
-  }
-  size_t before = (size_t)(next - buffer);
-  header h = header_of(run, list);
-  h.size = before + WORD;
-  (void)put(buffer, &h, sizeof h);
+  const unsigned char *end = baum_i_saved_write(list, buffer + sizeof(header));
+  size_t before = (size_t)(end - buffer);
+  header h = {.number = NUMBER,
+              .version = BAUM_I_SAVED_VERSION,
+              .size = before + WORD,
+              .mechanism = run->fingerprint};
+  memcpy(h.magic, MAGIC, WORD);
+  memcpy(buffer, &h, sizeof h);
   baum_i_digest sum = {0};
   baum_i_digest_add(&sum, buffer, before);
-  (void)put(next, &sum.value, sizeof sum.value);
+  memcpy(buffer + before, &sum.value, WORD);
   return before + WORD;
 }
 
@@ -176,13 +266,10 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
                        simulation ? "size" : "the simulation");
   }
-  baum_status status = baum_i_run_may_be_changed(simulation, call); /* it forgets pivots */
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call)); /* it forgets pivots */
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
-  size_t most = largest_size(&list);
+  size_t most = sizeof(header) + baum_i_saved_size(&list) + WORD;
   if (!buffer) {
     *size = most;
     return BAUM_OK;
@@ -209,41 +296,39 @@ typedef struct reader {
   const unsigned char *bytes;
   size_t size;
   header head;
-  const unsigned char *at[BAUM_I_SAVED_PARTS]; /* where each part is */
-  size_t length[BAUM_I_SAVED_PARTS];
+  baum_i_saved_places parts;
 } reader;
 
-#define refuse(...) baum_i_fail(BAUM_ERR_BUFFER, "baum_simulation_restore: " __VA_ARGS__)
+#define refuse(...)   baum_i_fail(BAUM_ERR_BUFFER, "baum_simulation_restore: the buffer " __VA_ARGS__)
+#define OTHER_OPTIONS "is of a run with other options: "
 
 /* Is it of this library, and whole? */
 static baum_status check_header(reader *r)
 {
   const header *h = &r->head;
   if (r->size < sizeof *h + WORD) {
-    return refuse("the buffer has %zu bytes, less than its head; it is cut off, or none of "
+    return refuse("has %zu bytes, less than its head; it is cut off, or none of "
                   "baum_simulation_save()",
                   r->size);
   }
   memcpy(&r->head, r->bytes, sizeof r->head);
   if (memcmp(h->magic, MAGIC, WORD) != 0) {
-    return refuse("the buffer is none of baum_simulation_save()");
+    return refuse("is none of baum_simulation_save()");
   }
   if (h->number != NUMBER) { /* also where it is no number there */
-    return refuse("the buffer is of a machine with another order of bytes or other numbers, or "
+    return refuse("is of a machine with another order of bytes or other numbers, or "
                   "damaged");
   }
   if (h->version != BAUM_I_SAVED_VERSION) {
-    return refuse("the buffer has version %llu of the format, this library reads version %d; save "
+    return refuse("has version %llu of the format, this library reads version %d; save "
                   "with the library that restores",
                   (unsigned long long)h->version, (int)BAUM_I_SAVED_VERSION);
   }
   if (h->size > r->size) {
-    return refuse("the buffer has %zu bytes of %llu; it is cut off", r->size,
-                  (unsigned long long)h->size);
+    return refuse("has %zu bytes of %llu; it is cut off", r->size, (unsigned long long)h->size);
   }
   if (h->size < sizeof *h + WORD || h->size % WORD != 0) {
-    return refuse("the buffer is damaged: it says that it has %llu bytes",
-                  (unsigned long long)h->size);
+    return refuse("is damaged: it says that it has %llu bytes", (unsigned long long)h->size);
   }
   return BAUM_OK;
 }
@@ -254,7 +339,7 @@ static baum_status check_sum(reader *r)
   baum_i_digest sum = {0};
   baum_i_digest_add(&sum, r->bytes, before);
   if (memcmp(&sum.value, r->bytes + before, WORD) != 0) {
-    return refuse("the buffer is damaged: its sum is not that of its bytes");
+    return refuse("is damaged: its sum is not that of its bytes");
   }
   return BAUM_OK;
 }
@@ -264,163 +349,63 @@ static baum_status check_mechanism(const reader *r, const baum_simulation *run)
   const baum_i_fingerprint *there = &r->head.mechanism;
   const baum_i_fingerprint *here = &run->fingerprint;
   if (there->structure != here->structure) {
-    return refuse("the buffer is of another mechanism: kinds, number or connections of elements "
+    return refuse("is of another mechanism: kinds, number or connections of elements "
                   "differ");
   }
   if (there->numbers != here->numbers) {
-    return refuse("the buffer is of another mechanism: elements are the same, but not all masses, "
+    return refuse("is of another mechanism: elements are the same, but not all masses, "
                   "lengths or other numbers of theirs");
   }
   return BAUM_OK;
 }
 
-/* A lone double that must agree; one that is not given, as there. */
-static baum_status check_number(const baum_i_saved_part *part, const unsigned char *at)
+static baum_status check_text(const char *name, const char *there, const char *here)
 {
-  double there = 0.0;
-  memcpy(&there, at, sizeof there);
-  if (there == part->number || (isnan(there) && isnan(part->number))) {
+  if (memcmp(there, here, BAUM_I_SAVED_TEXT) == 0) {
     return BAUM_OK;
   }
-  return refuse("the buffer is of a run with other options: %s is %.9g there and %.9g here",
-                part->name, there, part->number);
+  return refuse(OTHER_OPTIONS "the %s is %.31s there and %s here", name, there, here);
 }
 
-static baum_status check_integer(const baum_i_saved_part *part, const unsigned char *at)
+/* A number may not be given, as there. */
+static baum_status check_identity(const reader *r, const baum_i_saved_identity *here)
 {
-  int64_t there = 0;
-  memcpy(&there, at, sizeof there);
-  if (there == part->integer) {
-    return BAUM_OK;
+  baum_i_saved_identity there = {0};
+  if (r->head.size < sizeof(header) + WORD + sizeof there + WORD) {
+    return BAUM_OK; /* which is found out next */
   }
-  return refuse("the buffer is of a run with other options: %s is %lld there and %lld here",
-                part->name, (long long)there, (long long)part->integer);
+  memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
+  BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));
+  BAUM_I_TRY(check_text("formulation", there.formulation, here->formulation));
+  for (int k = 0; k < BAUM_I_SAVED_INTEGERS; k++) {
+    if (there.integers[k] != here->integers[k]) {
+      return refuse(OTHER_OPTIONS "%s is %lld there and %lld here", INTEGERS[k],
+                    (long long)there.integers[k], (long long)here->integers[k]);
+    }
+  }
+  for (int k = 0; k < BAUM_I_SAVED_NUMBERS; k++) {
+    double a = there.numbers[k];
+    double b = here->numbers[k];
+    if (a != b && !(isnan(a) && isnan(b))) {
+      return refuse(OTHER_OPTIONS "%s is %.9g there and %.9g here", NUMBERS[k], a, b);
+    }
+  }
+  return BAUM_OK;
 }
 
-/* A bool, an int32_t or an int64_t. */
-static int64_t whole_number(const baum_i_saved_part *part, const unsigned char *at)
+/* As many as here, or all taken for independent here. */
+static baum_status check_omitted(const reader *r, const baum_i_redundancy *here)
 {
-  int32_t shorter = at[0];
-  int64_t longer = 0;
-  if (part->size == sizeof longer) {
-    memcpy(&longer, at, sizeof longer);
-    return longer;
-  }
-  if (part->size == sizeof shorter) {
-    memcpy(&shorter, at, sizeof shorter);
-  }
-  return shorter;
-}
-
-static baum_status check_bounds(const baum_i_saved_part *part, const unsigned char *at)
-{
-  int64_t there = whole_number(part, at);
-  if (there >= part->least && there <= part->most) {
-    return BAUM_OK;
-  }
-  return refuse("the buffer is damaged: %s is %lld there", part->name, (long long)there);
-}
-
-static baum_status check_text(const baum_i_saved_part *part, const unsigned char *at)
-{
-  char there[BAUM_I_SAVED_TEXT];
-  memcpy(there, at, sizeof there);
-  there[sizeof there - 1] = '\0';
-  if (strcmp(there, part->place) == 0) {
-    return BAUM_OK;
-  }
-  return refuse("the buffer is of a run with other options: %s is %s there and %s here", part->name,
-                there, (const char *)part->place);
-}
-
-/* Whether a part may have this length. */
-static bool has_length(const baum_i_saved_part *part, size_t length)
-{
-  if (part->kind == BAUM_I_SAVED_JUMPS) {
-    return length % sizeof(baum_i_jump) == 0;
-  }
-  if (part->kind == BAUM_I_SAVED_SOME) {
-    return length <= part->size && length % part->unit == 0;
-  }
-  return length == part->size || (part->kind == BAUM_I_SAVED_NUMBERS && length == 0);
-}
-
-static baum_status check_choice(const baum_i_saved_part *part, const unsigned char *at)
-{
-  if (part->size == 0 || memcmp(at, part->place, part->size) == 0) {
-    return BAUM_OK;
-  }
-  return refuse("the buffer does not fit: %s is not as it is here", part->name);
-}
-
-static baum_status check_rows(const baum_i_saved_part *part, const unsigned char *at)
-{
-  int64_t left_out = 0;
+  const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
+  int64_t count = 0;
   bool sound = true;
-  for (size_t i = 0; i < part->size; i++) {
-    sound = sound && at[i] <= 1;
-    left_out += at[i];
+  for (int64_t i = 0; i < r->parts.count[BAUM_I_SAVED_OMITTED]; i++) {
+    sound = sound && omitted[i] <= 1;
+    count += omitted[i];
   }
-  if (sound && (left_out == part->integer || part->integer == 0)) {
-    return BAUM_OK;
-  }
-  return refuse("the buffer does not fit: %s is not as it may be here", part->name);
-}
-
-static baum_status check_jumps(const baum_i_saved_part *part, const unsigned char *at,
-                               size_t length)
-{
-  if (baum_i_schedule_is_sound(at, length, part->integer)) {
-    return BAUM_OK;
-  }
-  return refuse("the buffer is damaged: %s are not in order", part->name);
-}
-
-static baum_status check_part(const baum_i_saved_part *part, const unsigned char *at, size_t length)
-{
-  if (!has_length(part, length)) {
-    return refuse("the buffer does not fit: %s has %zu bytes there and %zu here", part->name,
-                  length, part->size);
-  }
-  switch (part->kind) {
-  case BAUM_I_SAVED_NUMBER: return check_number(part, at);
-  case BAUM_I_SAVED_INTEGER: return check_integer(part, at);
-  case BAUM_I_SAVED_TEXT_OF: return check_text(part, at);
-  case BAUM_I_SAVED_BOUNDED: return check_bounds(part, at);
-  case BAUM_I_SAVED_CHOICE: return check_choice(part, at);
-  case BAUM_I_SAVED_ROWS: return check_rows(part, at);
-  case BAUM_I_SAVED_JUMPS: return check_jumps(part, at, length);
-  case BAUM_I_SAVED_STATE:
-  case BAUM_I_SAVED_NUMBERS:
-  case BAUM_I_SAVED_SOME:
-  default: return BAUM_OK;
-  }
-}
-
-/* Where the parts are, and whether each fits. */
-static baum_status check_parts(reader *r, const baum_i_saved *list)
-{
-  size_t next = sizeof(header);
-  size_t end = (size_t)r->head.size - WORD;
-  for (int k = 0; k < list->count; k++) {
-    uint64_t length = 0;
-    if (end - next < WORD) {
-      return refuse("the buffer does not fit: it ends before %s", list->parts[k].name);
-    }
-    memcpy(&length, r->bytes + next, sizeof length);
-    next += WORD;
-    if (length > end - next) {
-      return refuse("the buffer does not fit: it ends in %s", list->parts[k].name);
-    }
-    r->at[k] = r->bytes + next;
-    r->length[k] = (size_t)length;
-    next += padded((size_t)length);
-    baum_status status = check_part(&list->parts[k], r->at[k], r->length[k]);
-    if (status != BAUM_OK) {
-      return status;
-    }
-  }
-  return next == end ? BAUM_OK : refuse("the buffer does not fit: there is something behind it");
+  return sound && (count == here->count || here->count == 0)
+           ? BAUM_OK
+           : refuse("does not fit: which rows are redundant is not as it may be here");
 }
 
 static double number_at(const unsigned char *bytes, int k)
@@ -431,99 +416,121 @@ static double number_at(const unsigned char *bytes, int k)
 }
 
 /* A driver that has no other motion than its polynomial cannot be without it. */
-static baum_status check_laws(const baum_mechanism *m, const unsigned char *numbers)
+static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
-  for (int k = 0; k < m->joint_count; k++) {
+  const unsigned char *numbers = r->parts.at[BAUM_I_SAVED_PARAMETERS];
+  int64_t count = r->parts.count[BAUM_I_SAVED_PARAMETERS];
+  if (count != 0 && count != m->parameter_count) {
+    return refuse("is damaged: it has %lld parameters", (long long)count);
+  }
+  for (int k = 0; k < m->joint_count && count > 0; k++) {
     int at = m->joints[k]->element.parameter + BAUM_I_DRIVER_POLYNOMIAL;
     if (m->joints[k]->type->drives && m->parameters[at] != 0.0 && number_at(numbers, at) == 0.0) {
-      return refuse("the buffer is damaged: it has no law for joint %d", k + 1);
+      return refuse("is damaged: it has no law for joint %d", k + 1);
     }
   }
   return BAUM_OK;
 }
 
-static baum_status check_all_laws(const reader *r, const baum_mechanism *m,
-                                  const baum_i_saved *list)
+static baum_status check_counters(const reader *r)
 {
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < list->count && status == BAUM_OK; k++) {
-    if (list->parts[k].kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
-      status = check_laws(m, r->at[k]);
+  baum_counters c;
+  memcpy(&c, r->parts.at[BAUM_I_SAVED_PROGRESS] + offsetof(baum_simulation, counters), sizeof c);
+  const int64_t counts[] = {c.steps,           c.rejected,
+                            c.short_steps,     c.evaluations,
+                            c.restarts,        c.factorizations,
+                            c.forced_steps,    c.full_factorizations,
+                            c.near_singular,   c.near_singular_intervals,
+                            c.branch_warnings, c.nonlinear_iterations};
+  bool sound = c.warnings >= 0 && c.warnings <= BAUM_I_WARNINGS && c.doubts >= 0 &&
+               c.doubts <= BAUM_I_WARNINGS;
+  for (size_t k = 0; k < sizeof counts / sizeof *counts; k++) {
+    sound = sound && counts[k] >= 0 && counts[k] <= INT64_MAX / 2;
+  }
+  return sound ? BAUM_OK : refuse("is damaged: a counter is out of range");
+}
+
+/* What is used as an index. */
+static baum_status check_crossings(const reader *r, int joints)
+{
+  const struct {
+    size_t at;
+    int least;
+    int most;
+  } indices[] = {
+    {offsetof(baum_i_crossings, recent_count), 0, BAUM_I_RECENT},
+    {offsetof(baum_i_crossings, clear_count), 0, BAUM_I_HERMITE_MOST},
+    {offsetof(baum_i_crossings, joint_noted), -1, joints - 1},
+    {offsetof(baum_i_crossings, present.joint), -1, joints - 1},
+  };
+  for (size_t k = 0; k < 4 && r->parts.count[BAUM_I_SAVED_CROSSINGS] > 0; k++) {
+    int32_t index = 0;
+    memcpy(&index, r->parts.at[BAUM_I_SAVED_CROSSINGS] + indices[k].at, sizeof index);
+    if (index < indices[k].least || index > indices[k].most) {
+      return refuse("is damaged: an index of singularity crossings is %d", (int)index);
     }
   }
-  return status;
+  return BAUM_OK;
+}
+
+static baum_status check_parts(reader *r, const baum_simulation *run, const baum_i_saved *list)
+{
+  const baum_mechanism *m = run->workspace->mechanism;
+  size_t size = (size_t)r->head.size - sizeof(header) - WORD;
+  const char *wrong = baum_i_saved_find(list, r->bytes + sizeof(header), size, &r->parts);
+  if (wrong) {
+    return refuse("%s", wrong);
+  }
+  BAUM_I_TRY(check_omitted(r, &run->workspace->redundancy));
+  BAUM_I_TRY(check_laws(r, m));
+  if (!baum_i_schedule_is_sound(r->parts.at[BAUM_I_SAVED_JUMPS], r->parts.count[BAUM_I_SAVED_JUMPS],
+                                m->input_count)) {
+    return refuse("is damaged: scheduled inputs are not in order");
+  }
+  BAUM_I_TRY(check_counters(r));
+  return check_crossings(r, m->joint_count);
 }
 
 static baum_status check(reader *r, const baum_simulation *run, const baum_i_saved *list)
 {
-  baum_status status = check_header(r);
-  if (status == BAUM_OK) {
-    status = check_sum(r);
-  }
-  if (status == BAUM_OK) {
-    status = check_mechanism(r, run);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = check_parts(r, list);
-  if (status == BAUM_OK && r->head.parts != sum_of_names(list)) {
-    status = refuse("the buffer does not fit: it has other parts; save with the library that "
-                    "restores");
-  }
-  return status == BAUM_OK ? check_all_laws(r, run->workspace->mechanism, list) : status;
+  BAUM_I_TRY(check_header(r));
+  BAUM_I_TRY(check_sum(r));
+  BAUM_I_TRY(check_mechanism(r, run));
+  BAUM_I_TRY(check_identity(r, &list->identity));
+  return check_parts(r, run, list);
 }
 
 /* ---- put back ---- */
 
-static bool is_put_back(const baum_i_saved_part *part)
+/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
+static baum_status make_room(baum_simulation *run, const reader *r)
 {
-  return part->kind == BAUM_I_SAVED_STATE || part->kind == BAUM_I_SAVED_BOUNDED ||
-         part->kind == BAUM_I_SAVED_SOME;
-}
-
-static baum_status leave_out_rows(baum_simulation *run, const reader *r, const baum_i_saved *list)
-{
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < list->count && run->workspace->redundancy.count > 0; k++) {
-    if (list->parts[k].kind == BAUM_I_SAVED_ROWS) {
-      status = baum_i_run_omit_rows(run, r->at[k]);
-    }
+  if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {
+    BAUM_I_TRY(baum_i_run_own_parameters(run));
   }
+  BAUM_I_TRY(baum_i_schedule_reserve(&run->schedule, (int)r->parts.count[BAUM_I_SAVED_JUMPS]));
+  if (run->workspace->redundancy.count == 0) {
+    return BAUM_OK;
+  }
+  baum_status status = baum_i_run_omit_rows(run, r->parts.at[BAUM_I_SAVED_OMITTED]);
   return status == BAUM_OK || status == BAUM_ERR_MEMORY
            ? status
-           : refuse("the buffer is damaged: the rows that it leaves out cannot be spared");
+           : refuse("is damaged: the rows that it leaves out cannot be spared");
 }
 
-/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
-static baum_status make_room(baum_simulation *run, const reader *r, const baum_i_saved *list)
-{
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < list->count && status == BAUM_OK; k++) {
-    baum_i_saved_kind kind = list->parts[k].kind;
-    if (kind == BAUM_I_SAVED_NUMBERS && r->length[k] > 0) {
-      status = baum_i_run_own_parameters(run);
-    } else if (kind == BAUM_I_SAVED_JUMPS) {
-      status = baum_i_schedule_reserve(&run->schedule, (int)(r->length[k] / sizeof(baum_i_jump)));
-    }
-  }
-  return status == BAUM_OK ? leave_out_rows(run, r, list) : status;
-}
-
-static void put_numbers_back(baum_simulation *run, const unsigned char *at, size_t length)
+static void put_inputs_back(baum_simulation *run, const reader *r)
 {
   const baum_mechanism *m = run->workspace->mechanism;
+  bool has_own = r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0;
   if (run->parameters) {
-    memcpy(run->parameters, length > 0 ? (const void *)at : m->parameters,
+    memcpy(run->parameters,
+           has_own ? (const void *)r->parts.at[BAUM_I_SAVED_PARAMETERS] : m->parameters,
            (size_t)m->parameter_count * sizeof *run->parameters);
   }
-}
-
-static void put_jumps_back(baum_i_schedule *schedule, const unsigned char *at, size_t length)
-{
-  schedule->count = (int)(length / sizeof *schedule->jumps);
-  if (length > 0) {
-    memcpy(schedule->jumps, at, length);
+  run->schedule.count = (int)r->parts.count[BAUM_I_SAVED_JUMPS];
+  if (run->schedule.count > 0) {
+    memcpy(run->schedule.jumps, r->parts.at[BAUM_I_SAVED_JUMPS],
+           (size_t)run->schedule.count * sizeof *run->schedule.jumps);
   }
 }
 
@@ -545,8 +552,11 @@ static void own_ids(baum_simulation *run)
 }
 
 /* Whatever bytes they were. */
-static void own_warnings(baum_simulation *run)
+static void own_entries(baum_simulation *run)
 {
+  for (int k = 0; run->events && k < run->events->count; k++) {
+    run->events->marks[k].side = baum_i_sign(run->events->marks[k].side);
+  }
   for (int64_t k = 0; k < run->counters.warnings; k++) {
     baum_warning *warning = &run->warnings[k];
     own_id(run, &warning->joint);
@@ -557,18 +567,14 @@ static void own_warnings(baum_simulation *run)
 
 static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
-  for (int k = 0; k < list->count; k++) {
-    const baum_i_saved_part *part = &list->parts[k];
-    if (part->kind == BAUM_I_SAVED_NUMBERS) {
-      put_numbers_back(run, r->at[k], r->length[k]);
-    } else if (part->kind == BAUM_I_SAVED_JUMPS) {
-      put_jumps_back(&run->schedule, r->at[k], r->length[k]);
-    } else if (is_put_back(part) && r->length[k] > 0) {
-      memcpy(part->place, r->at[k], r->length[k]);
+  put_inputs_back(run, r);
+  for (int k = BAUM_I_SAVED_PROGRESS; k < list->count; k++) {
+    if (r->parts.count[k] > 0) {
+      memcpy(list->parts[k].place, r->parts.at[k], (size_t)r->parts.count[k] * list->parts[k].unit);
     }
   }
   own_ids(run);
-  own_warnings(run);
+  own_entries(run);
   baum_i_run_count_from_here(run);
   baum_i_run_copy(run, &run->state, &run->ahead);
   forget(run);
@@ -580,18 +586,15 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_restore: %s is NULL",
                        simulation ? "the buffer" : "the simulation");
   }
-  baum_status status = baum_i_run_may_be_changed(simulation, "baum_simulation_restore");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, "baum_simulation_restore"));
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   reader r = {.bytes = buffer, .size = size};
-  status = check(&r, simulation, &list);
+  baum_status status = check(&r, simulation, &list);
   if (status == BAUM_OK) {
-    status = make_room(simulation, &r, &list);
+    status = make_room(simulation, &r);
   }
   if (status == BAUM_OK) {
     put_back(simulation, &r, &list);

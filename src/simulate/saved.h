@@ -1,76 +1,82 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is saved of a run: one list, by which save.c writes, checks and puts back.
+/* A run as a list of parts: plain structs and arrays, each where the run has it. save.c makes the list and takes it back;
+ * BAUM_I_SAVED_VERSION is raised whenever a part, or its meaning, changes. tests/unit/test_saved.c remembers which sizes each
+ * version had.
  *
- * Whoever adds something to a run that a later step reads adds it to the list too: in saved.c, or where it is made, as
- * account.c does. BAUM_I_SAVED_VERSION is raised whenever the list, or the meaning of a part, changes;
- * tests/unit/test_saved.c remembers which list each version had.
+ * Plain structs hold numbers alone; flags are int32_t, so that any bytes are some. Those that belong to an object are its
+ * members up to the first that is not saved.
  */
 #ifndef BAUM_I_SIMULATE_SAVED_H
 #define BAUM_I_SIMULATE_SAVED_H
 
+#include <stddef.h>
+
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 8, BAUM_I_SAVED_PARTS = 160, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 9, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
-typedef enum baum_i_saved_kind {
-  /* must be here as it was there: */
-  BAUM_I_SAVED_NUMBER,  /* a double */
-  BAUM_I_SAVED_INTEGER, /* an int64_t */
-  BAUM_I_SAVED_TEXT_OF, /* a text, of less than BAUM_I_SAVED_TEXT characters */
-  BAUM_I_SAVED_CHOICE,  /* bytes */
-  /* is put back: */
-  BAUM_I_SAVED_STATE,   /* bytes */
-  BAUM_I_SAVED_BOUNDED, /* a bool, int32_t or int64_t, which must be within bounds */
-  BAUM_I_SAVED_NUMBERS, /* the run's own parameters, if it has some */
-  BAUM_I_SAVED_JUMPS,   /* of the run's inputs, as many as there are */
-  BAUM_I_SAVED_ROWS,    /* which rows are left out, as many as here */
-  BAUM_I_SAVED_SOME     /* as many of a list as there are */
-} baum_i_saved_kind;
+/* Parts that are dealt with by name, in this order; the others are put back as they are. */
+enum {
+  BAUM_I_SAVED_IDENTITY,
+  BAUM_I_SAVED_OMITTED,
+  BAUM_I_SAVED_PARAMETERS,
+  BAUM_I_SAVED_JUMPS,
+  BAUM_I_SAVED_PROGRESS,
+  BAUM_I_SAVED_CROSSINGS
+};
+
+enum { BAUM_I_SAVED_NUMBERS = 9, BAUM_I_SAVED_INTEGERS = 12 };
+
+/* What must be here as it was there. */
+typedef struct baum_i_saved_identity {
+  char integrator[BAUM_I_SAVED_TEXT];
+  char formulation[BAUM_I_SAVED_TEXT];
+  double numbers[BAUM_I_SAVED_NUMBERS];
+  int64_t integers[BAUM_I_SAVED_INTEGERS];
+} baum_i_saved_identity;
 
 typedef struct baum_i_saved_part {
-  const char *name; /* in sentences; also tells the part from others */
-  baum_i_saved_kind kind;
-  void *place; /* not written to where it must agree */
-  size_t size; /* at most, in bytes */
-  size_t used; /* of SOME, in bytes */
-  size_t unit; /* of SOME, one of the list */
-  double number;
-  int64_t integer; /* of JUMPS, inputs that there are; of ROWS, how many are left out */
-  int64_t least;   /* of BOUNDED */
+  void *place;
+  size_t unit;   /* bytes of an entry */
+  int64_t count; /* entries that are here, */
+  int64_t least; /* and that there may be */
   int64_t most;
+  int counters; /* numbers at the beginning, int64_t, that go on counting */
 } baum_i_saved_part;
 
 struct baum_i_saved {
   int count;
   baum_i_saved_part parts[BAUM_I_SAVED_PARTS];
+  baum_i_saved_identity identity;
 };
 
-/* Bytes that are put back. */
-void baum_i_saved_add(baum_i_saved *list, const char *name, void *place, size_t size);
+/* A plain struct, of which the first numbers are counters. */
+void baum_i_saved_add(baum_i_saved *list, void *place, size_t size, int counters);
 
-/* Likewise a whole number of 1, 4 or 8 bytes that is used as one: a count, an index, a flag. */
-void baum_i_saved_add_bounded(baum_i_saved *list, const char *name, void *place, size_t size,
-                              int64_t least, int64_t most);
+/* `count` of them, no more and no less. */
+void baum_i_saved_add_all(baum_i_saved *list, void *place, size_t unit, int count);
+void baum_i_saved_add_array(baum_i_saved *list, double *values, int count);
+void baum_i_saved_add_state(baum_i_saved *list, const baum_mechanism *m, baum_i_state *state);
 
-/* Likewise the first `count` of a list that has room for `most`, or all of these where there were more. */
-void baum_i_saved_add_some(baum_i_saved *list, const char *name, void *place, size_t unit,
-                           int64_t count, int64_t most);
+/* The first `count` of a list that has room for `most`, or all of these where there were more. */
+void baum_i_saved_add_some(baum_i_saved *list, void *place, size_t unit, int64_t count,
+                           int64_t most);
 
-/* What must be here as it was there. */
-void baum_i_saved_compare(baum_i_saved *list, const char *name, int64_t value);
-
-/* For one object. */
-#define BAUM_I_SAVED_ADD(list, name, object) \
-  baum_i_saved_add((list), (name), &(object), sizeof(object))
-
-#define BAUM_I_SAVED_ADD_BOUNDED(list, name, object, least, most) \
-  baum_i_saved_add_bounded((list), (name), &(object), sizeof(object), (least), (most))
-#define BAUM_I_SAVED_ADD_FLAG(list, name, object) BAUM_I_SAVED_ADD_BOUNDED(list, name, object, 0, 1)
-/* One that may go on to count for ever. */
-#define BAUM_I_SAVED_ADD_COUNT(list, name, object) \
-  BAUM_I_SAVED_ADD_BOUNDED(list, name, object, 0, INT64_MAX / 2)
-
-/* All of a run. */
+/* save.c: all of a run. */
 void baum_i_saved_list(baum_simulation *run, baum_i_saved *list);
+
+/* Bytes that the list takes at most; written, it ends where that returns. */
+size_t baum_i_saved_size(const baum_i_saved *list);
+unsigned char *baum_i_saved_write(const baum_i_saved *list, unsigned char *to);
+
+/* Where the parts of a buffer are. */
+typedef struct baum_i_saved_places {
+  const unsigned char *at[BAUM_I_SAVED_PARTS];
+  int64_t count[BAUM_I_SAVED_PARTS];
+} baum_i_saved_places;
+
+/* NULL, or what is wrong with these bytes: they have to be the parts of the list and nothing else. */
+const char *baum_i_saved_find(const baum_i_saved *list, const unsigned char *from, size_t size,
+                              baum_i_saved_places *out);
 
 #endif

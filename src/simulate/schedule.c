@@ -75,14 +75,14 @@ baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *t
   return status;
 }
 
-bool baum_i_schedule_is_sound(const void *bytes, size_t size, int64_t input_count)
+bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count)
 {
   const char *at = bytes;
   double last = -(double)INFINITY;
-  bool sound = size % sizeof(baum_i_jump) == 0;
-  for (size_t k = 0; k < size / sizeof(baum_i_jump) && sound; k++) {
+  bool sound = true;
+  for (int64_t k = 0; k < count && sound; k++) {
     baum_i_jump jump;
-    memcpy(&jump, at + k * sizeof jump, sizeof jump);
+    memcpy(&jump, at + (size_t)k * sizeof jump, sizeof jump);
     sound = jump.input >= 0 && jump.input < input_count && isfinite(jump.t) && jump.t >= last &&
             isfinite(jump.before) && isfinite(jump.after);
     last = jump.t;

@@ -17,7 +17,7 @@ baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
 /* Into an empty one. BAUM_OK or BAUM_ERR_MEMORY. */
 baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
 
-/* Are these bytes, of any alignment, jumps of a run with so many inputs? */
-bool baum_i_schedule_is_sound(const void *bytes, size_t size, int64_t input_count);
+/* Are these bytes, of any alignment, `count` jumps of a run with so many inputs? */
+bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);
 
 #endif

@@ -16,7 +16,7 @@
 #include "models.h"
 
 /* Where things are in a buffer, in bytes. */
-enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 56 };
+enum { AT_NUMBER = 8, AT_VERSION = 16, AT_SIZE = 24, AT_STRUCTURE = 32, HEAD = 48 };
 
 typedef struct saved {
   unsigned char *bytes;
@@ -333,7 +333,7 @@ static void runs_with_other_options(void **state)
     {"the rule of the gains is", use_gains},
     {"energy_account is 1 there and 0 here", use_account},
     {"solver is 1 there and 0 here", use_solver},
-    {"row_gains has 8 bytes there and 0 here", use_row_gains},
+    {"row_gain_count is 1 there and 0 here", use_row_gains},
   };
   scene s = open_scene();
   for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
