@@ -109,13 +109,8 @@ static baum_status power_at(baum_i_account *account, const baum_i_state *at,
 {
   baum_workspace *w = account->workspace;
   int nc = w->mechanism->nc;
-  baum_status status = solve(account, at);
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_power(&w->point, power);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(solve(account, at));
+  BAUM_I_TRY(baum_i_mechanism_power(&w->point, power));
   power[BAUM_I_WORK_DRIVERS] = -product(nc, w->nu, w->lambda);
   power[BAUM_I_WORK_VIOLATION] = -product(nc, w->phi_rate, w->lambda);
   power[BAUM_I_WORK_PROJECTION] = 0.0;

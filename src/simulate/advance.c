@@ -67,17 +67,11 @@ static baum_status watch_step(baum_simulation *run, double t_next)
 
 static baum_status kept_step(baum_simulation *run, double t_next)
 {
-  baum_status status = baum_i_run_choose_rows(run);
-  if (status == BAUM_OK) {
-    status = baum_i_run_try_step(run, t_next, true);
-  }
-  if (status == BAUM_OK) {
-    status = watch_step(run, t_next);
-  }
-  if (status == BAUM_OK) {
-    keep_trial(run);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_choose_rows(run));
+  BAUM_I_TRY(baum_i_run_try_step(run, t_next, true));
+  BAUM_I_TRY(watch_step(run, t_next));
+  keep_trial(run);
+  return BAUM_OK;
 }
 
 static baum_status whole_step(baum_simulation *run, int direction)
@@ -96,12 +90,9 @@ static baum_status whole_step(baum_simulation *run, int direction)
 /* To a break and over it. */
 static baum_status break_step(baum_simulation *run, baum_i_break next, double on_grid)
 {
-  baum_status status = baum_i_run_is_at(run, next) ? BAUM_OK : kept_step(run, next.near);
-  if (status == BAUM_OK) {
-    run->counters.short_steps += fabs(on_grid - next.near) > SAME_TIME * run->options.step;
-    status = baum_i_run_pass(run, next);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_is_at(run, next) ? BAUM_OK : kept_step(run, next.near));
+  run->counters.short_steps += fabs(on_grid - next.near) > SAME_TIME * run->options.step;
+  return baum_i_run_pass(run, next);
 }
 
 /* The next step on the grid or to a break. */
@@ -115,11 +106,9 @@ static baum_status next_fixed(baum_simulation *run, int direction)
 
 static baum_status short_step(baum_simulation *run, double t)
 {
-  baum_status status = kept_step(run, t);
-  if (status == BAUM_OK) {
-    leave_grid(run);
-  }
-  return status;
+  BAUM_I_TRY(kept_step(run, t));
+  leave_grid(run);
+  return BAUM_OK;
 }
 
 /* Where next_fixed() leads to. */
@@ -168,23 +157,17 @@ static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
 static baum_status internal_step(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
-  baum_status status = baum_i_run_try_own_step(run);
-  if (status == BAUM_OK) {
-    baum_i_crossings_step(run, &run->trial);
-  }
-  if (status == BAUM_OK && run->account) {
+  BAUM_I_TRY(baum_i_run_try_own_step(run));
+  baum_i_crossings_step(run, &run->trial);
+  if (run->account) {
     baum_i_account_step(run);
   }
-  if (status == BAUM_OK) {
-    baum_i_run_copy(run, &run->trial, &run->ahead);
-    run->counters.steps++;
-    status = baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v);
-  }
-  if (status == BAUM_OK) {
-    baum_i_run_observe(run, run->ahead.t, false);
-    baum_i_crossings_look(run);
-  }
-  return status;
+  baum_i_run_copy(run, &run->trial, &run->ahead);
+  run->counters.steps++;
+  BAUM_I_TRY(baum_i_violation(w, run->ahead.t, run->ahead.q, run->ahead.v));
+  baum_i_run_observe(run, run->ahead.t, false);
+  baum_i_crossings_look(run);
+  return BAUM_OK;
 }
 
 /* The end of the last internal step becomes the present state. */
@@ -222,15 +205,10 @@ static baum_status pass_breaks(baum_simulation *run)
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
   catch_up(run);
-  baum_status status = baum_i_run_may_go_on(run, taken);
-  if (status == BAUM_OK) {
-    status = baum_i_run_choose_rows(run);
-  }
-  if (status == BAUM_OK) {
-    baum_i_companion_follow(run, &run->state);
-    status = internal_step(run);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_may_go_on(run, taken));
+  BAUM_I_TRY(baum_i_run_choose_rows(run));
+  baum_i_companion_follow(run, &run->state);
+  return internal_step(run);
 }
 
 static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)
@@ -295,14 +273,12 @@ static baum_status turn(baum_simulation *run, double t)
   if (direction == run->problem.direction) {
     return BAUM_OK;
   }
-  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = turn_to(run, direction);
-  }
-  if (status == BAUM_OK && run->events) {
+  BAUM_I_TRY(run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK);
+  BAUM_I_TRY(turn_to(run, direction));
+  if (run->events) {
     baum_i_events_go_on(run);
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status advance(baum_simulation *run, double t, int64_t *taken)
@@ -310,10 +286,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
   if (t == run->state.t) {
     return BAUM_OK;
   }
-  baum_status status = turn(run, t);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(turn(run, t));
   return baum_i_problem_has_fixed_step(&run->problem) ? advance_fixed(run, t, taken)
                                                       : advance_variable(run, t, taken);
 }
@@ -358,21 +331,18 @@ static baum_status check_time(const baum_simulation *run, const char *call, doub
   if (!run) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
   }
-  baum_status status = baum_i_check_finite(call, "t", "s", t);
-  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
+  BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
+  return baum_i_run_may_be_changed(run, call);
 }
 
 /* ---- public ---- */
 
 baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
 {
-  baum_status status = check_time(simulation, "baum_simulation_advance_to", t);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_time(simulation, "baum_simulation_advance_to", t));
   public_call c;
   begin(simulation, &c);
-  status = advance(simulation, t, &c.taken);
+  baum_status status = advance(simulation, t, &c.taken);
   return finish(simulation, status, &c);
 }
 
@@ -381,11 +351,8 @@ static baum_status one_step(baum_simulation *run)
   if (baum_i_problem_has_fixed_step(&run->problem)) {
     return next_fixed(run, 1);
   }
-  baum_status status = watch_last(run, INFINITY);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = pass_breaks(run);
+  BAUM_I_TRY(watch_last(run, INFINITY));
+  baum_status status = pass_breaks(run);
   if (status == BAUM_OK) {
     catch_up(run);
     status = baum_i_run_choose_rows(run);
@@ -404,17 +371,14 @@ static baum_status one_step(baum_simulation *run)
 
 baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
 {
-  baum_status status = check_time(simulation, "baum_simulation_step", 0.0);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_time(simulation, "baum_simulation_step", 0.0));
   if (count <= 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_step: count is %lld, must be > 0",
                        (long long)count);
   }
   public_call c;
   begin(simulation, &c);
-  status = turn(simulation, INFINITY);
+  baum_status status = turn(simulation, INFINITY);
   for (int64_t k = 0; k < count && status == BAUM_OK; k++) {
     status = baum_i_run_may_go_on(simulation, k);
     if (status == BAUM_OK) {
@@ -455,8 +419,8 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
   if (baum_i_output_width(run->workspace->mechanism, channels, count) < 0) {
     return BAUM_ERR_ARGUMENT;
   }
-  baum_status status = check_times(run, times, n);
-  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
+  BAUM_I_TRY(check_times(run, times, n));
+  return baum_i_run_may_be_changed(run, call);
 }
 
 /* To a sample time: by whole steps, and from there to the side on the trial state,

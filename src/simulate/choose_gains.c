@@ -178,15 +178,10 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
   if (is_auto(run)) {
     measure_rate(run, &context);
   }
-  baum_status status = o->row_gains ? copy_row_gains(run) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = baum_i_gains_choose(&o->gains, &context, &run->gains);
-  }
-  if (status == BAUM_OK && run->row_gains) {
-    status = judge_row_gains(run, &context);
-  }
-  if (status != BAUM_OK) {
-    return status;
+  BAUM_I_TRY(o->row_gains ? copy_row_gains(run) : BAUM_OK);
+  BAUM_I_TRY(baum_i_gains_choose(&o->gains, &context, &run->gains));
+  if (run->row_gains) {
+    BAUM_I_TRY(judge_row_gains(run, &context));
   }
   problem->alpha = run->gains.alpha;
   problem->beta = run->gains.beta;

@@ -134,16 +134,11 @@ baum_status baum_i_companion_create(baum_simulation *run)
     return baum_i_fail_memory();
   }
   run->companion = c;
-  baum_status status = baum_i_run_make_workspace(run, &c->workspace);
-  if (status == BAUM_OK) {
-    status = make_memory(c);
-  }
-  if (status == BAUM_OK) {
-    run->beside[1] = c->workspace;
-    choose_problem(run, c);
-    status = c->method->create(&c->problem, &run->trial, &c->self);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_make_workspace(run, &c->workspace));
+  BAUM_I_TRY(make_memory(c));
+  run->beside[1] = c->workspace;
+  choose_problem(run, c);
+  return c->method->create(&c->problem, &run->trial, &c->self);
 }
 
 void baum_i_companion_destroy(baum_i_companion *c)

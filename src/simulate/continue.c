@@ -82,13 +82,10 @@ static baum_status check_both(const baum_simulation *run, const baum_simulation 
 baum_status baum_simulation_continue(baum_simulation *simulation, const baum_simulation *from)
 {
   standing theirs;
-  baum_status status = check_both(simulation, from);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_both(simulation, from));
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  status = copy_standing(from, &theirs);
+  baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
     status = take_over(simulation, from->state.t, &theirs);

@@ -403,12 +403,8 @@ static void look_between(baum_simulation *run, double t)
 {
   baum_i_crossings *p = run->crossings;
   baum_i_state between = {.t = t, .q = p->between.q, .v = p->between.v};
-  baum_status status =
-    run->integrator->interpolate(run->self, &run->problem, t, between.q, between.v);
-  if (status == BAUM_OK) {
-    status = baum_i_find_pivot(run->workspace, t, between.q, between.v);
-  }
-  if (status == BAUM_OK) {
+  if (run->integrator->interpolate(run->self, &run->problem, t, between.q, between.v) == BAUM_OK &&
+      baum_i_find_pivot(run->workspace, t, between.q, between.v) == BAUM_OK) {
     baum_i_crossings_note(run, &between);
     baum_i_crossings_look(run);
   }
@@ -452,10 +448,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
   }
   int64_t count = simulation->counters.near_singular_intervals;
   int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
-  baum_status status = baum_i_check_entry(k, 0, most, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));
   baum_near_singular entry = simulation->crossings->kept[k];
   if (entry.joint.index1 > 0) { /* of a run that has been restored it may have another tag */
     entry.joint = baum_i_joint_id(simulation->workspace->mechanism, entry.joint.index1 - 1);

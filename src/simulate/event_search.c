@@ -99,8 +99,8 @@ static baum_status glance(baum_simulation *run, double t)
 
 static baum_status value_at(baum_simulation *run, double t)
 {
-  baum_status status = find_state(run, t);
-  return status == BAUM_OK ? baum_i_events_evaluate(run, &run->trial) : status;
+  BAUM_I_TRY(find_state(run, t));
+  return baum_i_events_evaluate(run, &run->trial);
 }
 
 /* ---- one event ---- */
@@ -272,10 +272,7 @@ static int happen(baum_simulation *run, double end)
 static baum_status stop(baum_simulation *run, int terminal, double t)
 {
   baum_i_events *events = run->events;
-  baum_status status = value_at(run, t);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(value_at(run, t));
   events->t = t;
   for (int k = 0; k < events->count; k++) {
     events->marks[k].value = events->list[k].next;

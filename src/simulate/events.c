@@ -46,18 +46,14 @@ static baum_status check_source(const baum_mechanism *m, const baum_event_def *d
 
 static baum_status check(const baum_mechanism *m, const baum_event_def *def, const char *label)
 {
-  baum_status status = check_source(m, def, label);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "value", "rad or m", def->value);
+  BAUM_I_TRY(check_source(m, def, label));
+  BAUM_I_TRY(baum_i_check_finite(label, "value", "rad or m", def->value));
+  if (def->direction < -1 || def->direction > 1) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: direction is %d, must be -1, 0 or 1", label,
+                       (int)def->direction);
   }
-  if (status == BAUM_OK && (def->direction < -1 || def->direction > 1)) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: direction is %d, must be -1, 0 or 1", label,
-                         (int)def->direction);
-  }
-  if (status == BAUM_OK && !isnan(def->tolerance)) {
-    status = baum_i_check_positive(label, "tolerance", "s", def->tolerance);
-  }
-  return status;
+  return !isnan(def->tolerance) ? baum_i_check_positive(label, "tolerance", "s", def->tolerance)
+                                : BAUM_OK;
 }
 
 static void label_of(int number, const char *name, char text[BAUM_I_LABEL_SIZE])
@@ -275,16 +271,13 @@ static baum_status check_add(const baum_simulation *run, const baum_event_def *d
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,
                                       int32_t *index)
 {
-  baum_status status = check_add(simulation, def);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_add(simulation, def));
   baum_event_def given = baum_event_def_default();
   memcpy(&given, def, def->struct_size); /* what an older version lacks has its default */
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
-  status = baum_i_check_name("event", number, given.name);
+  baum_status status = baum_i_check_name("event", number, given.name);
   if (status == BAUM_OK) {
     status = check(simulation->workspace->mechanism, &given, label);
   }
@@ -321,10 +314,7 @@ baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
   }
   int64_t count = baum_simulation_event_count(simulation);
   int64_t first = count > BAUM_I_EVENT_RECORDS ? count - BAUM_I_EVENT_RECORDS : 0;
-  baum_status status = baum_i_check_entry(k, first, count, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_entry(k, first, count, call));
   const baum_event_record *record = &simulation->events->records[k % BAUM_I_EVENT_RECORDS];
   baum_i_give_sized(out, caller_size, record, sizeof *record);
   return BAUM_OK;

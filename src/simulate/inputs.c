@@ -112,10 +112,7 @@ static baum_status begin_with(baum_simulation *run, const baum_i_schedule *made,
 static baum_status replace(baum_simulation *run, const given *g)
 {
   baum_i_schedule made = {.jumps = NULL};
-  baum_status status = baum_i_schedule_reserve(&made, run->schedule.count + g->count);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_schedule_reserve(&made, run->schedule.count + g->count));
   merge(&run->schedule, g, &made);
   return begin_with(run, &made, g->input);
 }
@@ -148,12 +145,12 @@ static baum_status check(const baum_simulation *run, baum_input_id input, const 
   if (!run) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", CALL);
   }
-  baum_status status = baum_i_check_input(run->workspace->mechanism, input, CALL, "input");
-  if (status == BAUM_OK && (count < 0 || (count > 0 && (!times || !values)))) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", CALL,
-                         count < 0 ? "count is negative" : "times or values are NULL");
+  BAUM_I_TRY(baum_i_check_input(run->workspace->mechanism, input, CALL, "input"));
+  if ((count < 0 || (count > 0 && (!times || !values)))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", CALL,
+                       count < 0 ? "count is negative" : "times or values are NULL");
   }
-  return status == BAUM_OK ? baum_i_run_may_be_changed(run, CALL) : status;
+  return baum_i_run_may_be_changed(run, CALL);
 }
 
 baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,
@@ -251,14 +248,11 @@ baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_i
                                        double ds, double dds)
 {
   const double law[3] = {s, ds, dds};
-  baum_status status = check_driver(simulation, "baum_simulation_set_driver", driver, law);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_driver(simulation, "baum_simulation_set_driver", driver, law));
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   const baum_mechanism *m = simulation->workspace->mechanism;
-  status = baum_i_run_own_parameters(simulation);
+  baum_status status = baum_i_run_own_parameters(simulation);
   if (status == BAUM_OK) {
     status = set_driver(simulation, m->joints[baum_i_joint_index(m, driver)], law);
   }

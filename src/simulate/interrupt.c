@@ -100,10 +100,7 @@ baum_status baum_i_run_is_wanted(baum_simulation *run)
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
 {
   double t = end_of_last_step(run);
-  baum_status status = baum_i_run_is_wanted(run);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_run_is_wanted(run));
   if (taken >= run->options.max_steps) {
     return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,
                        (long long)run->options.max_steps);

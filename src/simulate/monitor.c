@@ -272,19 +272,11 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   double kinetic = 0.0;
   double potential = 0.0;
   const baum_i_state *state = &simulation->state;
-  baum_status status = baum_i_run_may_be_read(simulation, "baum_simulation_counters");
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_counters"));
+  BAUM_I_TRY(
+    baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential));
   baum_counters *c = &simulation->counters;
-  status = tell_residual(simulation, c);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(tell_residual(simulation, c));
   baum_i_run_count(simulation);
   predict(simulation, c);
   c->energy_change = kinetic + potential - simulation->start_energy;

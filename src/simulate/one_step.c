@@ -94,14 +94,10 @@ baum_status baum_i_run_try_own_step(baum_simulation *run)
 
 baum_status baum_i_run_inside(baum_simulation *run, double t)
 {
-  baum_status status =
-    run->integrator->interpolate(run->self, &run->problem, t, run->trial.q, run->trial.v);
-  if (status == BAUM_OK) {
-    run->trial.t = t;
-    status = check_finite(run, &run->trial);
-  }
-  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_project(run->workspace, t, run->trial.q, run->trial.v);
-  }
-  return status;
+  BAUM_I_TRY(run->integrator->interpolate(run->self, &run->problem, t, run->trial.q, run->trial.v));
+  run->trial.t = t;
+  BAUM_I_TRY(check_finite(run, &run->trial));
+  return run->problem.formulation == BAUM_FORMULATION_PROJECTION
+           ? baum_i_project(run->workspace, t, run->trial.q, run->trial.v)
+           : BAUM_OK;
 }

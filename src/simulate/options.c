@@ -106,8 +106,8 @@ static baum_status check_neither(const baum_simulation_options *o)
                          fields[k], values[k], o->integrator->name);
     }
   }
-  baum_status status = check_no_factors(o);
-  return status == BAUM_OK ? check_max_step(o) : status;
+  BAUM_I_TRY(check_no_factors(o));
+  return check_max_step(o);
 }
 
 static baum_status check_tolerance(const baum_simulation_options *o)
@@ -129,8 +129,8 @@ static baum_status check_tolerance(const baum_simulation_options *o)
   if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
     return refuse("atol", "", o->atol, "must be finite and >= 0");
   }
-  baum_status status = check_factors(o);
-  return status == BAUM_OK ? check_max_step(o) : status;
+  BAUM_I_TRY(check_factors(o));
+  return check_max_step(o);
 }
 
 /* Methods of either kind go by what is given. */

@@ -358,9 +358,8 @@ baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel 
   if (baum_i_output_width(simulation->workspace->mechanism, channels, count) < 0) {
     return BAUM_ERR_ARGUMENT;
   }
-  baum_status status = baum_i_run_may_be_read(simulation, "baum_simulation_get");
-  return status == BAUM_OK ? baum_i_output(simulation, &simulation->state, channels, count, row)
-                           : status;
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_get"));
+  return baum_i_output(simulation, &simulation->state, channels, count, row);
 }
 
 baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique)
@@ -371,12 +370,7 @@ baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool
   }
   const baum_i_state *state = &simulation->state;
   baum_workspace *w = simulation->workspace;
-  baum_status status = baum_i_run_may_be_read(simulation, "baum_simulation_unique_multipliers");
-  if (status == BAUM_OK) {
-    status = baum_i_reported_acceleration(w, state->t, state->q, state->v);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_find_unique_multipliers(w, unique);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_unique_multipliers"));
+  BAUM_I_TRY(baum_i_reported_acceleration(w, state->t, state->q, state->v));
+  return baum_i_find_unique_multipliers(w, unique);
 }

@@ -26,18 +26,14 @@ static baum_status restart_method(baum_simulation *run)
 
 baum_status baum_i_run_restart(baum_simulation *run)
 {
-  baum_status status = run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = restart_method(run);
-  }
-  if (status == BAUM_OK) {
-    run->origin = run->state.t;
-    baum_i_companion_restart(run);
-  }
-  if (status == BAUM_OK && run->events) {
+  BAUM_I_TRY(run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK);
+  BAUM_I_TRY(restart_method(run));
+  run->origin = run->state.t;
+  baum_i_companion_restart(run);
+  if (run->events) {
     baum_i_events_go_on(run);
   }
-  return status;
+  return BAUM_OK;
 }
 
 void baum_i_run_end_before_change(baum_simulation *run)

@@ -85,9 +85,7 @@ void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state
 
 baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted)
 {
-  baum_status status = baum_i_omit_rows(run->workspace, omitted);
-  if (status == BAUM_OK) {
-    tell_others(run);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_omit_rows(run->workspace, omitted));
+  tell_others(run);
+  return BAUM_OK;
 }

@@ -20,10 +20,7 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out)
 {
   const baum_workspace *w = run->workspace;
-  baum_status status = baum_i_workspace_create(w->mechanism, w->choice, out);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_workspace_create(w->mechanism, w->choice, out));
   baum_i_redundancy *mine = &(*out)->redundancy;
   mine->rank = w->redundancy.rank;
   mine->rank_at_start = w->redundancy.rank_at_start;
@@ -156,10 +153,7 @@ baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k
                        simulation ? "out is NULL or caller_size is too small"
                                   : "the simulation is NULL");
   }
-  baum_status status = baum_i_check_entry(k, 0, simulation->counters.warnings, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_entry(k, 0, simulation->counters.warnings, call));
   baum_warning warning = simulation->warnings[k];
   if (warning.count > 1) {
     size_t used = strlen(warning.text);

@@ -18,7 +18,6 @@
 #include "base/alloc.h"
 #include "base/digest.h"
 #include "base/text.h"
-#include "dynamics/immobile.h"
 #include "mechanism/fingerprint.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
@@ -65,8 +64,6 @@ static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {
   "error_check",
   "the rank of the constraints",
   "whether blocks suit",
-  "the number of velocities that cannot change",
-  "the sum over which these are",
   "the number of events",
   "the sum over what the events are",
 };
@@ -98,16 +95,12 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
   const baum_simulation_options *o = &run->options;
   const baum_workspace *w = run->workspace;
   const char *formulation = baum_formulation_name(o->formulation);
-  const baum_i_immobile *still = w->immobile;
   size_t gains = run->row_gains ? (size_t)w->mechanism->nc * sizeof *run->row_gains : 0;
   baum_i_saved_identity identity = {
     .numbers = {o->step, o->rtol, o->atol, o->max_step, o->tolerance_q, o->tolerance_v,
                 o->tolerance_lambda, o->gains.value[0], o->gains.value[1]},
     .integers = {o->gains.rule, o->row_gain_count, sum_of(run->row_gains, gains), o->solver,
                  run->account != NULL, o->error_check, w->redundancy.rank, w->path != NULL,
-                 still ? still->count : 0,
-                 still ? sum_of(still->velocity, (size_t)still->count * sizeof *still->velocity)
-                       : 0,
                  run->events ? run->events->count : 0, sum_of_events(run->events)},
   };
   baum_i_print(identity.integrator, BAUM_I_SAVED_TEXT, "%s", run->integrator->name);
@@ -180,11 +173,6 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_add_array(list, w->metric, m->nv);
   baum_i_saved_add_some(list, run->warnings, sizeof *run->warnings, run->counters.warnings,
                         BAUM_I_WARNINGS);
-  if (w->immobile) {
-    baum_i_saved_add(list, &w->immobile->rests, sizeof w->immobile->rests, 0);
-    baum_i_saved_add_array(list, w->immobile->position, w->immobile->count);
-    baum_i_saved_add_array(list, w->immobile->phi, w->immobile->row_count);
-  }
   if (run->account) {
     baum_i_account_saved(run->account, list);
   }

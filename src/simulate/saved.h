@@ -25,7 +25,7 @@ enum {
   BAUM_I_SAVED_CROSSINGS
 };
 
-enum { BAUM_I_SAVED_NUMBERS = 9, BAUM_I_SAVED_INTEGERS = 12 };
+enum { BAUM_I_SAVED_NUMBERS = 9, BAUM_I_SAVED_INTEGERS = 10 };
 
 /* What must be here as it was there. */
 typedef struct baum_i_saved_identity {

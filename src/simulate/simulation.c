@@ -55,13 +55,8 @@ static baum_status choose_problem(baum_simulation *run)
     .tolerance_v = portion * o->tolerance_v,
     .tolerance_lambda = portion * o->tolerance_lambda,
   };
-  baum_status status = baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0);
-  if (status == BAUM_OK) {
-    status = baum_i_check_sizes(run->workspace, "acceleration", run->workspace->a);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_acceleration(run->workspace, start->t, start->q, start->v, 0.0, 0.0));
+  BAUM_I_TRY(baum_i_check_sizes(run->workspace, "acceleration", run->workspace->a));
   double rate = baum_i_run_start_rate(run);
   if (!isfinite(rate)) {
     return baum_i_fail(
@@ -188,12 +183,10 @@ static baum_status make_integrator(baum_simulation *run)
 static baum_status accept_start(baum_simulation *run)
 {
   double energy = 0.0;
-  baum_status status = baum_i_run_measure(run, &energy);
-  if (status == BAUM_OK) {
-    baum_i_run_accept(run, energy);
-    run->fingerprint = baum_i_mechanism_fingerprint(run->workspace->mechanism);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_measure(run, &energy));
+  baum_i_run_accept(run, energy);
+  run->fingerprint = baum_i_mechanism_fingerprint(run->workspace->mechanism);
+  return BAUM_OK;
 }
 
 /* One after the other, each on what the ones before have made. */
@@ -243,17 +236,11 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_create: out is NULL");
   }
   *out = NULL;
-  baum_status status = check_create(mechanism, options);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_create(mechanism, options));
   baum_simulation_options checked = baum_simulation_options_default();
   memcpy(&checked, options, options->struct_size); /* what an older version lacks has its default */
   checked.struct_size = sizeof checked;
-  status = baum_i_options_check(&checked);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_options_check(&checked));
   baum_simulation *run = baum_i_alloc(1, sizeof *run);
   if (!run) {
     return baum_i_fail_memory();
@@ -263,7 +250,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   atomic_init(&run->cancelled, 0);
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  status = baum_i_message_settle(prepare(run, mechanism), &kept);
+  baum_status status = baum_i_message_settle(prepare(run, mechanism), &kept);
   if (status != BAUM_OK) {
     baum_simulation_destroy(run);
     return status;

@@ -91,15 +91,10 @@ static baum_status start_assembled(baum_simulation *run, const double *q, const 
   const baum_mechanism *m = run->workspace->mechanism;
   memcpy(run->trial.v, v, (size_t)m->nv * sizeof *v);
   double largest = 0.0;
-  baum_status status =
-    baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held);
-  if (status == BAUM_OK) {
-    status = check_displacement(run, q, &largest);
-  }
-  if (status == BAUM_OK) {
-    run->counters.start_change = largest;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_assemble(run->workspace, run->trial.t, run->trial.q, run->trial.v, m->held));
+  BAUM_I_TRY(check_displacement(run, q, &largest));
+  run->counters.start_change = largest;
+  return BAUM_OK;
 }
 
 /* ---- exact ---- */
@@ -123,15 +118,11 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
 static baum_status check_exact(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
-  baum_status status = baum_i_violation(w, run->trial.t, run->trial.q, run->trial.v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_violation(w, run->trial.t, run->trial.q, run->trial.v));
   double rate = baum_i_scaled_size(w->mechanism, run->trial.v);
   baum_i_row_displacements(w, w->rhs);
-  status = check_rows(run, w->phi, EXACT, "Phi", "m or rad");
-  return status == BAUM_OK ? check_rows(run, w->phi_rate, EXACT * rate, "Phi'", "m/s or rad/s")
-                           : status;
+  BAUM_I_TRY(check_rows(run, w->phi, EXACT, "Phi", "m or rad"));
+  return check_rows(run, w->phi_rate, EXACT * rate, "Phi'", "m/s or rad/s");
 }
 
 /* ---- velocities that rows hold hardly ---- */
