@@ -96,12 +96,11 @@ static double product(int n, const double *x, const double *y)
 static baum_status solve(baum_i_account *account, const baum_i_state *at)
 {
   baum_workspace *w = account->workspace;
-  baum_status status = baum_i_acceleration(w, at->t, at->q, at->v, 0.0, 0.0);
+  BAUM_I_TRY(baum_i_acceleration(w, at->t, at->q, at->v, 0.0, 0.0));
   memcpy(account->lambda, w->lambda, (size_t)w->mechanism->nc * sizeof *w->lambda);
-  if (status == BAUM_OK && account->problem.formulation == BAUM_FORMULATION_BAUMGARTE) {
-    status = baum_i_problem_acceleration(&account->problem, at->t, at->q, at->v);
-  }
-  return status;
+  return account->problem.formulation == BAUM_FORMULATION_BAUMGARTE
+           ? baum_i_problem_acceleration(&account->problem, at->t, at->q, at->v)
+           : BAUM_OK;
 }
 
 static baum_status power_at(baum_i_account *account, const baum_i_state *at,
@@ -185,11 +184,11 @@ static baum_status add_potentials(baum_i_account *account, double factor, double
 {
   double potential[BAUM_I_POWERS];
   baum_i_point_set(&account->workspace->point, t, q, v);
-  baum_status status = baum_i_mechanism_potential_of_whole(&account->workspace->point, potential);
-  for (int k = 0; k < BAUM_I_POWERS && status == BAUM_OK; k++) {
+  BAUM_I_TRY(baum_i_mechanism_potential_of_whole(&account->workspace->point, potential));
+  for (int k = 0; k < BAUM_I_POWERS; k++) {
     works[k] += factor * potential[k];
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status integrate(baum_simulation *run, const stretch *s, double works[BAUM_I_WORKS])
@@ -199,21 +198,16 @@ static baum_status integrate(baum_simulation *run, const stretch *s, double work
   const double *place = PLACE[account->nodes - 1];
   const double *weight = WEIGHT[account->nodes - 1];
   double half = 0.5 * (s->t - from->t);
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < account->nodes && status == BAUM_OK; k++) {
+  for (int k = 0; k < account->nodes; k++) {
     double power[BAUM_I_WORKS] = {0.0};
-    status = find_node(run, s, 0.5 + 0.5 * place[k]);
-    if (status == BAUM_OK) {
-      status = power_at(account, &account->node, power);
-    }
+    BAUM_I_TRY(find_node(run, s, 0.5 + 0.5 * place[k]));
+    BAUM_I_TRY(power_at(account, &account->node, power));
     for (int i = 0; i < BAUM_I_WORKS; i++) {
       works[i] += half * weight[k] * power[i];
     }
   }
-  if (status == BAUM_OK) {
-    status = add_potentials(account, -1.0, from->t, from->q, from->v, works);
-  }
-  return status == BAUM_OK ? add_potentials(account, 1.0, s->t, s->q, s->v, works) : status;
+  BAUM_I_TRY(add_potentials(account, -1.0, from->t, from->q, from->v, works));
+  return add_potentials(account, 1.0, s->t, s->q, s->v, works);
 }
 
 /* The energy that a projection from one state to another has brought. */
@@ -223,12 +217,10 @@ static baum_status add_projection(baum_i_account *account, double t, const doubl
   baum_workspace *w = account->workspace;
   double before[2] = {0.0};
   double after[2] = {0.0};
-  baum_status status = baum_i_energy(w, t, from, from + w->mechanism->nq, &before[0], &before[1]);
-  if (status == BAUM_OK) {
-    status = baum_i_energy(w, t, q, v, &after[0], &after[1]);
-  }
+  BAUM_I_TRY(baum_i_energy(w, t, from, from + w->mechanism->nq, &before[0], &before[1]));
+  BAUM_I_TRY(baum_i_energy(w, t, q, v, &after[0], &after[1]));
   works[BAUM_I_WORK_PROJECTION] += after[0] - before[0] + (after[1] - before[1]);
-  return status;
+  return BAUM_OK;
 }
 
 /* Where IDA began, which may be off the state it was given. */
@@ -237,16 +229,12 @@ static baum_status move_start(baum_simulation *run, double works[BAUM_I_WORKS])
   baum_i_account *account = run->account;
   const baum_i_state *from = &account->from;
   const baum_i_state *node = &account->node;
-  baum_status status =
-    run->integrator->interpolate(run->self, &account->problem, from->t, node->q, node->v);
-  if (status == BAUM_OK) {
-    /* A state's q and v are one after the other. */
-    status = add_projection(account, from->t, from->q, node->q, node->v, works);
-  }
-  baum_i_state moved = *node;
-  moved.t = from->t;
-  baum_i_run_copy(run, &moved, &account->from);
-  return status;
+  BAUM_I_TRY(run->integrator->interpolate(run->self, &account->problem, from->t, node->q, node->v));
+  /* A state's q and v are one after the other. */
+  BAUM_I_TRY(add_projection(account, from->t, from->q, node->q, node->v, works));
+  account->node.t = from->t;
+  baum_i_run_copy(run, node, &account->from);
+  return BAUM_OK;
 }
 
 /* Did the projection to a state move far beyond the errors that the method allows itself? */
@@ -301,13 +289,9 @@ static baum_status work_to(baum_simulation *run, const baum_i_state *state,
     s.q = raw;
     s.v = raw + run->workspace->mechanism->nq;
   }
-  baum_status status = choose_nodes(run, &s);
-  if (status == BAUM_OK) {
-    status = integrate(run, &s, works);
-  }
-  return status == BAUM_OK && projected
-           ? add_projection(account, state->t, raw, state->q, state->v, works)
-           : status;
+  BAUM_I_TRY(choose_nodes(run, &s));
+  BAUM_I_TRY(integrate(run, &s, works));
+  return projected ? add_projection(account, state->t, raw, state->q, state->v, works) : BAUM_OK;
 }
 
 /* Equations as the run has them now. */
@@ -402,13 +386,11 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   const baum_mechanism *m = run->workspace->mechanism;
   stretch s = {.t = t};
   follow(run);
-  baum_status status = choose_nodes(run, &s);
-  if (status == BAUM_OK) {
-    status = find_node(run, &s, 1.0);
-  }
+  BAUM_I_TRY(choose_nodes(run, &s));
+  BAUM_I_TRY(find_node(run, &s, 1.0));
   memcpy(account->unprojected, account->node.q, (size_t)m->nq * sizeof(double));
   memcpy(account->unprojected + m->nq, account->node.v, (size_t)m->nv * sizeof(double));
-  return status;
+  return BAUM_OK;
 }
 
 /* A sample of a fixed step is its trial state, whose step does not count; one of a variable step may be inside the last
@@ -503,19 +485,14 @@ baum_status baum_i_account_create(baum_simulation *run)
   if (!run->account) {
     return baum_i_fail_memory();
   }
-  baum_status status = make_memory(run);
-  if (status == BAUM_OK) {
-    status = baum_i_run_make_workspace(run, &run->account->workspace);
-    run->beside[0] = run->account->workspace;
-  }
-  if (status == BAUM_OK) {
-    run->account->problem = run->problem;
-    run->account->problem.workspace = run->account->workspace;
-    run->account->nodes = node_count(run);
-    run->workspace->unprojected = run->account->unprojected;
-    status = make_stepper(run);
-  }
-  return status;
+  BAUM_I_TRY(make_memory(run));
+  BAUM_I_TRY(baum_i_run_make_workspace(run, &run->account->workspace));
+  run->beside[0] = run->account->workspace;
+  run->account->problem = run->problem;
+  run->account->problem.workspace = run->account->workspace;
+  run->account->nodes = node_count(run);
+  run->workspace->unprojected = run->account->unprojected;
+  return make_stepper(run);
 }
 
 void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account)
@@ -551,20 +528,14 @@ baum_status baum_simulation_energy_account(baum_simulation *simulation, baum_ene
                                            size_t caller_size)
 {
   const char *call = "baum_simulation_energy_account";
-  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or its size too small" : "the simulation is NULL");
-  }
+  BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   if (!simulation->account) {
     return baum_i_fail(BAUM_ERR_STATE,
                        "%s: the run keeps no account; set the option energy_account", call);
   }
   double columns[BAUM_I_ACCOUNT_WIDTH];
-  baum_status status = baum_i_run_may_be_read(simulation, call);
-  status = status == BAUM_OK ? baum_i_account_put(simulation, &simulation->state, columns) : status;
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  BAUM_I_TRY(baum_i_account_put(simulation, &simulation->state, columns));
   const double *works = columns + 2;
   baum_energy_account account = {.kinetic = columns[0],
                                  .potential = columns[1],

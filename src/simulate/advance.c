@@ -104,13 +104,6 @@ static baum_status next_fixed(baum_simulation *run, int direction)
   return breaks ? break_step(run, next, t) : whole_step(run, direction);
 }
 
-static baum_status short_step(baum_simulation *run, double t)
-{
-  BAUM_I_TRY(kept_step(run, t));
-  leave_grid(run);
-  return BAUM_OK;
-}
-
 /* Where next_fixed() leads to. */
 static double next_time(const baum_simulation *run, int direction)
 {
@@ -126,13 +119,8 @@ static baum_status steps_before(baum_simulation *run, double t, int64_t *taken)
   int direction = run->problem.direction > 0.0 ? 1 : -1;
   double same = SAME_TIME * run->options.step;
   while (direction * (t - next_time(run, direction)) >= -same) {
-    baum_status status = baum_i_run_may_go_on(run, (*taken)++);
-    if (status == BAUM_OK) {
-      status = next_fixed(run, direction);
-    }
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(baum_i_run_may_go_on(run, (*taken)++));
+    BAUM_I_TRY(next_fixed(run, direction));
   }
   return BAUM_OK;
 }
@@ -144,12 +132,14 @@ static bool stands_at(const baum_simulation *run, double t)
 
 static baum_status advance_fixed(baum_simulation *run, double t, int64_t *taken)
 {
-  baum_status status = steps_before(run, t, taken);
-  if (status != BAUM_OK || stands_at(run, t)) {
-    return status;
+  BAUM_I_TRY(steps_before(run, t, taken));
+  if (stands_at(run, t)) {
+    return BAUM_OK;
   }
-  status = baum_i_run_may_go_on(run, (*taken)++);
-  return status == BAUM_OK ? short_step(run, t) : status;
+  BAUM_I_TRY(baum_i_run_may_go_on(run, (*taken)++));
+  BAUM_I_TRY(kept_step(run, t));
+  leave_grid(run);
+  return BAUM_OK;
 }
 
 /* ---- a variable-step method to a target ---- */
@@ -213,72 +203,39 @@ static baum_status next_step(baum_simulation *run, int64_t taken)
 
 static baum_status advance_variable(baum_simulation *run, double t, int64_t *taken)
 {
-  baum_status status = watch_last(run, t);
-  while (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) > 0.0) {
-    status = pass_breaks(run);
-    if (status == BAUM_OK && run->problem.direction * (t - run->ahead.t) <= 0.0) {
+  BAUM_I_TRY(watch_last(run, t));
+  while (run->problem.direction * (t - run->ahead.t) > 0.0) {
+    BAUM_I_TRY(pass_breaks(run));
+    if (run->problem.direction * (t - run->ahead.t) <= 0.0) {
       return BAUM_OK; /* t is at the break */
     }
-    if (status == BAUM_OK) {
-      status = next_step(run, (*taken)++);
-    }
-    if (status == BAUM_OK) {
-      status = watch_last(run, t);
-    }
-  }
-  if (status != BAUM_OK) {
-    return status;
+    BAUM_I_TRY(next_step(run, (*taken)++));
+    BAUM_I_TRY(watch_last(run, t));
   }
   if (t == run->ahead.t) {
     catch_up(run);
     return BAUM_OK;
   }
-  status = baum_i_run_inside(run, t);
-  if (status == BAUM_OK) {
-    baum_i_run_copy(run, &run->trial, &run->state);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_run_inside(run, t));
+  baum_i_run_copy(run, &run->trial, &run->state);
+  return BAUM_OK;
 }
 
 /* ---- what every call begins and ends with ---- */
 
-/* A multistep method that turns round begins anew from the present state; when it cannot, it has not turned. */
-static baum_status turn_to(baum_simulation *run, double direction)
-{
-  double before = run->problem.direction;
-  baum_i_run_end_before_change(run);
-  baum_i_companion_restart(run);
-  run->problem.direction = direction;
-  if (!baum_i_integrator_remembers(run->integrator, &run->problem)) {
-    return BAUM_OK;
-  }
-  baum_status status = run->integrator->restart(run->self, &run->problem, &run->state);
-  if (status != BAUM_OK) {
-    run->problem.direction = before;
-    return status;
-  }
-  if (run->account) {
-    baum_i_account_go_on(run);
-  }
-  run->counters.restarts++;
-  run->origin = run->state.t;
-  baum_i_run_copy(run, &run->state, &run->ahead);
-  return BAUM_OK;
-}
-
-/* Point the run towards t. */
+/* Point the run towards t. When a multistep method cannot restart from the present state, it has not turned. */
 static baum_status turn(baum_simulation *run, double t)
 {
+  double before = run->problem.direction;
   double direction = t < run->state.t ? -1.0 : 1.0;
-  if (direction == run->problem.direction) {
+  if (direction == before) {
     return BAUM_OK;
   }
-  BAUM_I_TRY(run->events ? baum_i_events_evaluate(run, &run->state) : BAUM_OK);
-  BAUM_I_TRY(turn_to(run, direction));
-  if (run->events) {
-    baum_i_events_go_on(run);
-  }
-  return BAUM_OK;
+  baum_i_run_end_before_change(run);
+  run->problem.direction = direction;
+  baum_status status = baum_i_run_restart(run);
+  run->problem.direction = status == BAUM_OK ? direction : before;
+  return status;
 }
 
 static baum_status advance(baum_simulation *run, double t, int64_t *taken)
@@ -342,8 +299,17 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
   BAUM_I_TRY(check_time(simulation, "baum_simulation_advance_to", t));
   public_call c;
   begin(simulation, &c);
-  baum_status status = advance(simulation, t, &c.taken);
-  return finish(simulation, status, &c);
+  return finish(simulation, advance(simulation, t, &c.taken), &c);
+}
+
+/* Of the method's own length, from the end of the last one. */
+static baum_status own_step(baum_simulation *run)
+{
+  BAUM_I_TRY(pass_breaks(run));
+  catch_up(run);
+  BAUM_I_TRY(baum_i_run_choose_rows(run));
+  BAUM_I_TRY(internal_step(run));
+  return watch_last(run, INFINITY);
 }
 
 static baum_status one_step(baum_simulation *run)
@@ -352,21 +318,21 @@ static baum_status one_step(baum_simulation *run)
     return next_fixed(run, 1);
   }
   BAUM_I_TRY(watch_last(run, INFINITY));
-  baum_status status = pass_breaks(run);
-  if (status == BAUM_OK) {
-    catch_up(run);
-    status = baum_i_run_choose_rows(run);
-  }
-  if (status == BAUM_OK) {
-    status = internal_step(run);
-  }
-  if (status == BAUM_OK) {
-    status = watch_last(run, INFINITY);
-  }
+  baum_status status = own_step(run);
   if (status != BAUM_STOP_EVENT) {
     catch_up(run);
   }
   return status;
+}
+
+static baum_status steps(baum_simulation *run, int64_t count)
+{
+  BAUM_I_TRY(turn(run, INFINITY));
+  for (int64_t k = 0; k < count; k++) {
+    BAUM_I_TRY(baum_i_run_may_go_on(run, k));
+    BAUM_I_TRY(one_step(run));
+  }
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
@@ -378,14 +344,7 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
   }
   public_call c;
   begin(simulation, &c);
-  baum_status status = turn(simulation, INFINITY);
-  for (int64_t k = 0; k < count && status == BAUM_OK; k++) {
-    status = baum_i_run_may_go_on(simulation, k);
-    if (status == BAUM_OK) {
-      status = one_step(simulation);
-    }
-  }
-  return finish(simulation, status, &c);
+  return finish(simulation, steps(simulation, count), &c);
 }
 
 /* ---- sampling ---- */
@@ -432,18 +391,14 @@ static baum_status advance_beside(baum_simulation *run, double t, int64_t *taken
   if (t == run->state.t) {
     return BAUM_OK;
   }
-  baum_status status = turn(run, t);
-  if (status == BAUM_OK) {
-    status = steps_before(run, t, taken);
+  BAUM_I_TRY(turn(run, t));
+  BAUM_I_TRY(steps_before(run, t, taken));
+  if (stands_at(run, t)) {
+    return BAUM_OK;
   }
-  if (status == BAUM_OK && !stands_at(run, t)) {
-    *at = &run->trial;
-    status = baum_i_run_try_step(run, t, false);
-    if (status == BAUM_OK) {
-      status = watch_step(run, t);
-    }
-  }
-  return status;
+  *at = &run->trial;
+  BAUM_I_TRY(baum_i_run_try_step(run, t, false));
+  return watch_step(run, t);
 }
 
 static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t *taken,
@@ -454,32 +409,31 @@ static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t
   return beside ? advance_beside(run, t, taken, at) : advance(run, t, taken);
 }
 
+/* As many rows as `done` tells. */
+static baum_status sample_all(baum_simulation *run, const double *times, int64_t n,
+                              const baum_channel *channels, int count, double *rows, int64_t *done,
+                              int64_t *taken)
+{
+  int width = baum_i_output_width(run->workspace->mechanism, channels, count);
+  for (; *done < n; ++*done) {
+    const baum_i_state *at = NULL;
+    BAUM_I_TRY(baum_i_run_is_wanted(run));
+    BAUM_I_TRY(sample_one(run, times[*done], *done == n - 1, taken, &at));
+    BAUM_I_TRY(baum_i_output(run, at, channels, count, rows + *done * width));
+  }
+  return BAUM_OK;
+}
+
 baum_status baum_simulation_sample(baum_simulation *simulation, const double *times, int64_t n,
                                    const baum_channel *channels, int32_t count, double *rows,
                                    int64_t *done)
 {
-  if (done) {
-    *done = 0;
-  }
-  baum_status status = check_sample(simulation, times, n, channels, count, rows);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  int64_t own = 0;
+  done = done ? done : &own;
+  *done = 0;
+  BAUM_I_TRY(check_sample(simulation, times, n, channels, count, rows));
   public_call c;
   begin(simulation, &c);
-  int width = baum_i_output_width(simulation->workspace->mechanism, channels, count);
-  for (int64_t k = 0; k < n && status == BAUM_OK; k++) {
-    const baum_i_state *at = NULL;
-    status = baum_i_run_is_wanted(simulation);
-    if (status == BAUM_OK) {
-      status = sample_one(simulation, times[k], k == n - 1, &c.taken, &at);
-    }
-    if (status == BAUM_OK) {
-      status = baum_i_output(simulation, at, channels, count, rows + k * width);
-    }
-    if (status == BAUM_OK && done) {
-      *done = k + 1;
-    }
-  }
-  return finish(simulation, status, &c);
+  return finish(simulation, sample_all(simulation, times, n, channels, count, rows, done, &c.taken),
+                &c);
 }

@@ -198,12 +198,11 @@ static void judge(baum_simulation *run, double t, bool ends)
 /* ---- go along ---- */
 
 /* Its state where the run is, which is inside its last step. */
-static baum_status come_to(baum_i_companion *c, double t)
+static baum_status come_to(baum_simulation *run, double t)
 {
+  baum_i_companion *c = run->companion;
   if (t == c->state.t) {
-    c->at.t = t;
-    memcpy(c->at.q, c->state.q, (size_t)c->workspace->mechanism->nq * sizeof *c->at.q);
-    memcpy(c->at.v, c->state.v, (size_t)c->workspace->mechanism->nv * sizeof *c->at.v);
+    baum_i_run_copy(run, &c->state, &c->at);
     return BAUM_OK;
   }
   c->at.t = t;
@@ -233,16 +232,15 @@ static void use_present_equations(baum_simulation *run)
   c->workspace->row_gains = run->workspace->row_gains;
 }
 
-/* Steps until it is at t or past it. */
-static baum_status pass(baum_simulation *run, double t)
+/* By steps until it is at t or past it. */
+static baum_status go_to(baum_simulation *run, double t)
 {
   baum_i_companion *c = run->companion;
-  baum_status status = BAUM_OK;
-  while (status == BAUM_OK && c->problem.direction * (t - c->state.t) > 0.0) {
-    status =
-      is_too_costly(run) ? BAUM_ERR_STEP : c->method->advance(c->self, &c->problem, &c->state);
+  while (c->problem.direction * (t - c->state.t) > 0.0) {
+    BAUM_I_TRY(is_too_costly(run) ? BAUM_ERR_STEP
+                                  : c->method->advance(c->self, &c->problem, &c->state));
   }
-  return status;
+  return come_to(run, t);
 }
 
 static void give_up(baum_simulation *run)
@@ -254,18 +252,14 @@ static void give_up(baum_simulation *run)
 /* Compare at a state of the run. What fails here says nothing of the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
-  baum_i_companion *c = run->companion;
   use_present_equations(run);
-  baum_status status = pass(run, state->t);
-  if (status == BAUM_OK) {
-    status = come_to(c, state->t);
-  }
-  if (status == BAUM_OK) {
+  bool reached = go_to(run, state->t) == BAUM_OK;
+  if (reached) {
     compare(run, state);
   } else {
     give_up(run);
   }
-  return status == BAUM_OK;
+  return reached;
 }
 
 static bool goes_along(const baum_simulation *run)

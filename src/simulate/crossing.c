@@ -441,11 +441,7 @@ baum_status baum_simulation_near_singular(const baum_simulation *simulation, int
                                           baum_near_singular *out, size_t caller_size)
 {
   const char *call = "baum_simulation_near_singular";
-  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or caller_size is too small"
-                                  : "the simulation is NULL");
-  }
+  BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   int64_t count = simulation->counters.near_singular_intervals;
   int64_t most = count < BAUM_I_PASSAGES ? count : BAUM_I_PASSAGES;
   BAUM_I_TRY(baum_i_check_entry(k, 0, most, call));

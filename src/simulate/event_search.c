@@ -323,23 +323,17 @@ static bool any_has_passed(const baum_i_events *events)
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;
-  baum_status status = BAUM_OK;
-  bool moved = false;
-  for (int k = 0; k < events->count && status == BAUM_OK; k++) {
-    if (moved) {
-      status = value_at(run, t);
-      moved = false;
-    }
-    if (status == BAUM_OK && has_passed(events, k) && is_wanted(run, k)) {
-      status = locate(run, k, t);
-      moved = true;
+  for (int k = 0; k < events->count; k++) {
+    if (has_passed(events, k) && is_wanted(run, k)) {
+      BAUM_I_TRY(locate(run, k, t));
+      BAUM_I_TRY(value_at(run, t));
     }
   }
-  return status == BAUM_OK && moved ? value_at(run, t) : status;
+  return BAUM_OK;
 }
 
 /* Take the values at t. */
-static void keep(baum_i_events *events, double t)
+static void keep_values(baum_i_events *events, double t)
 {
   events->t = t;
   for (int k = 0; k < events->count; k++) {
@@ -361,23 +355,17 @@ static baum_status look(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;
   exact = exact || is_end(run, t);
-  baum_status status = exact ? find_state(run, t) : glance(run, t);
-  if (status == BAUM_OK) {
-    status = baum_i_events_evaluate(run, exact ? &run->trial : &events->look);
+  BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
+  BAUM_I_TRY(baum_i_events_evaluate(run, exact ? &run->trial : &events->look));
+  if (!exact && any_differs(events)) {
+    BAUM_I_TRY(value_at(run, t));
   }
-  if (status == BAUM_OK && !exact && any_differs(events)) {
-    status = value_at(run, t);
+  if (any_has_passed(events)) {
+    BAUM_I_TRY(locate_all(run, t));
+    BAUM_I_TRY(deliver(run));
   }
-  if (status == BAUM_OK && any_has_passed(events)) {
-    status = locate_all(run, t);
-    if (status == BAUM_OK) {
-      status = deliver(run);
-    }
-  }
-  if (status == BAUM_OK) {
-    keep(events, t);
-  }
-  return status;
+  keep_values(events, t);
+  return BAUM_OK;
 }
 
 /* ---- the whole ---- */
@@ -388,21 +376,17 @@ baum_status baum_i_events_watch(baum_simulation *run, double to)
   bool fixed = is_fixed(run);
   double from = fixed ? run->state.t : events->from;
   double end = fixed ? to : run->ahead.t;
-  baum_status status = BAUM_OK;
   if (fixed) {
     baum_i_run_copy(run, &run->trial, &run->ahead);
   }
-  for (int k = 1; k < QUARTERS && status == BAUM_OK; k++) {
+  for (int k = 1; k < QUARTERS; k++) {
     double t = from + k * (end - from) / QUARTERS;
     if (is_before(run, events->t, t) && is_before(run, t, to)) {
-      status = look(run, t, false);
+      BAUM_I_TRY(look(run, t, false));
     }
   }
-  if (status == BAUM_OK && is_before(run, events->t, to)) {
-    status = look(run, to, true);
+  if (is_before(run, events->t, to)) {
+    BAUM_I_TRY(look(run, to, true));
   }
-  if (status == BAUM_OK && fixed) {
-    status = find_state(run, to);
-  }
-  return status;
+  return fixed ? find_state(run, to) : BAUM_OK;
 }

@@ -159,12 +159,11 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
 
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state)
 {
-  baum_status status = BAUM_OK;
   baum_i_point_set(&run->workspace->point, state->t, state->q, state->v);
-  for (int k = 0; k < run->events->count && status == BAUM_OK; k++) {
-    status = evaluate_one(run, k, state);
+  for (int k = 0; k < run->events->count; k++) {
+    BAUM_I_TRY(evaluate_one(run, k, state));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- where they begin ---- */
@@ -277,16 +276,12 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   int number = simulation->events ? simulation->events->count : 0;
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
-  baum_status status = baum_i_check_name("event", number, given.name);
-  if (status == BAUM_OK) {
-    status = check(simulation->workspace->mechanism, &given, label);
+  BAUM_I_TRY(baum_i_check_name("event", number, given.name));
+  BAUM_I_TRY(check(simulation->workspace->mechanism, &given, label));
+  if (!simulation->events) {
+    BAUM_I_TRY(create(simulation));
   }
-  if (status == BAUM_OK && !simulation->events) {
-    status = create(simulation);
-  }
-  if (status == BAUM_OK) {
-    status = make_room(simulation->events, &given);
-  }
+  baum_status status = make_room(simulation->events, &given);
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
@@ -307,11 +302,7 @@ baum_status baum_simulation_event(const baum_simulation *simulation, int64_t k,
                                   baum_event_record *out, size_t caller_size)
 {
   const char *call = "baum_simulation_event";
-  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or caller_size is too small"
-                                  : "the simulation is NULL");
-  }
+  BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   int64_t count = baum_simulation_event_count(simulation);
   int64_t first = count > BAUM_I_EVENT_RECORDS ? count - BAUM_I_EVENT_RECORDS : 0;
   BAUM_I_TRY(baum_i_check_entry(k, first, count, call));

@@ -21,17 +21,13 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
   }
   baum_workspace *w = simulation->workspace;
-  baum_status status = baum_i_check_input_value(w->mechanism, input, call, value);
-  if (status == BAUM_OK) {
-    status = baum_i_run_may_be_changed(simulation, call);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_input_value(w->mechanism, input, call, value));
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
+  baum_status status = BAUM_OK;
   if (value != before) {
     baum_i_run_end_before_change(simulation);
     *present = value;
@@ -156,21 +152,15 @@ static baum_status check(const baum_simulation *run, baum_input_id input, const 
 baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,
                                            const double *times, const double *values, int32_t count)
 {
-  baum_status status = check(simulation, input, times, values, count);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check(simulation, input, times, values, count));
   int index = baum_i_input_index(simulation->workspace->mechanism, input);
   given g = {.input = index,
              .times = times,
              .values = values,
              .count = count,
              .before = simulation->workspace->inputs[index]};
-  for (int k = 0; k < count && status == BAUM_OK; k++) {
-    status = check_entry(simulation->workspace->mechanism, &g, k);
-  }
-  if (status != BAUM_OK) {
-    return status;
+  for (int k = 0; k < count; k++) {
+    BAUM_I_TRY(check_entry(simulation->workspace->mechanism, &g, k));
   }
   if (count == 0) {
     baum_i_schedule_end(simulation, index);
@@ -178,8 +168,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  status = replace(simulation, &g);
-  return baum_i_run_end_call(simulation, status, &kept);
+  return baum_i_run_end_call(simulation, replace(simulation, &g), &kept);
 }
 
 /* ---- drivers ---- */
@@ -191,10 +180,7 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
   }
   const baum_mechanism *m = run->workspace->mechanism;
-  baum_status status = baum_i_check_joint(m, driver, call, "driver");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_joint(m, driver, call, "driver"));
   char label[BAUM_I_LABEL_SIZE];
   const baum_i_joint *joint = m->joints[baum_i_joint_index(m, driver)];
   (void)baum_i_label(&joint->element, "joint", label);
@@ -204,10 +190,10 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   }
   static const char *const names[3] = {"s", "ds", "dds"};
   static const char *const units[3] = {"rad or m", "rad/s or m/s", "rad/s^2 or m/s^2"};
-  for (int k = 0; k < 3 && status == BAUM_OK; k++) {
-    status = baum_i_check_finite(label, names[k], units[k], law[k]);
+  for (int k = 0; k < 3; k++) {
+    BAUM_I_TRY(baum_i_check_finite(label, names[k], units[k], law[k]));
   }
-  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
+  return baum_i_run_may_be_changed(run, call);
 }
 
 baum_status baum_i_run_own_parameters(baum_simulation *run)

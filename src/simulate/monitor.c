@@ -264,11 +264,7 @@ static baum_status tell_residual(baum_simulation *run, baum_counters *c)
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                      size_t caller_size)
 {
-  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_counters: %s",
-                       simulation ? "out is NULL or caller_size is too small"
-                                  : "the simulation is NULL");
-  }
+  BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, "baum_simulation_counters"));
   double kinetic = 0.0;
   double potential = 0.0;
   const baum_i_state *state = &simulation->state;

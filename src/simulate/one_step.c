@@ -34,7 +34,7 @@ static baum_status check_finite(const baum_simulation *run, const baum_i_state *
 }
 
 /* What a function of the user answers knows nothing of the run. */
-static baum_status explain_callback(const baum_simulation *run, baum_status status)
+static baum_status explain(baum_simulation *run, baum_status status)
 {
   if (status == BAUM_ERR_CALLBACK) {
     bool retry = run->workspace->point.retry;
@@ -42,16 +42,35 @@ static baum_status explain_callback(const baum_simulation *run, baum_status stat
                       retry ? "; " : "", retry ? run->integrator->name : "",
                       retry ? " cannot take a smaller step" : "");
   }
-  return status;
+  return baum_i_run_explain_failure(run, status, &run->state);
+}
+
+/* From the present state, whose acceleration is known, to t_next. */
+static baum_status step_to(baum_simulation *run, double t_next)
+{
+  const baum_i_state *state = &run->state;
+  baum_i_state *trial = &run->trial;
+  BAUM_I_TRY(baum_i_run_limit_acceleration(run));
+  baum_i_run_copy(run, state, trial);
+  BAUM_I_TRY(
+    run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration));
+  trial->t = t_next;
+  BAUM_I_TRY(check_finite(run, trial));
+  if (run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
+    BAUM_I_TRY(baum_i_run_project(run, t_next));
+  }
+  if (run->account) {
+    baum_i_account_step(run);
+  }
+  return BAUM_OK;
 }
 
 baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observe)
 {
-  baum_i_state *trial = &run->trial;
   const baum_i_state *state = &run->state;
   baum_status status = baum_i_problem_motion(&run->problem, state->t, state->q, state->v);
   if (status != BAUM_OK) {
-    return baum_i_run_explain_failure(run, explain_callback(run, status), state);
+    return explain(run, status);
   }
   if (observe) {
     baum_i_crossings_note(run, state);
@@ -60,23 +79,7 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
   }
   memcpy(run->acceleration, run->workspace->a,
          (size_t)run->workspace->mechanism->nv * sizeof *run->acceleration);
-  status = baum_i_run_limit_acceleration(run);
-  if (status == BAUM_OK) {
-    baum_i_run_copy(run, state, trial);
-    status =
-      run->integrator->step(run->self, &run->problem, trial, t_next - state->t, run->acceleration);
-  }
-  trial->t = t_next;
-  if (status == BAUM_OK) {
-    status = check_finite(run, trial);
-  }
-  if (status == BAUM_OK && run->problem.formulation == BAUM_FORMULATION_PROJECTION) {
-    status = baum_i_run_project(run, t_next);
-  }
-  if (status == BAUM_OK && run->account) {
-    baum_i_account_step(run);
-  }
-  return baum_i_run_explain_failure(run, explain_callback(run, status), state);
+  return explain(run, step_to(run, t_next));
 }
 
 baum_status baum_i_run_try_own_step(baum_simulation *run)
@@ -88,8 +91,8 @@ baum_status baum_i_run_try_own_step(baum_simulation *run)
   run->problem.stop = baum_i_run_next_break(run).near;
   run->problem.stops = isfinite(run->problem.stop);
   baum_status status = run->integrator->advance(run->self, &run->problem, &run->trial);
-  status = baum_i_run_explain_failure(run, status, &run->ahead);
-  return status == BAUM_OK ? check_finite(run, &run->trial) : status;
+  BAUM_I_TRY(baum_i_run_explain_failure(run, status, &run->ahead));
+  return check_finite(run, &run->trial);
 }
 
 baum_status baum_i_run_inside(baum_simulation *run, double t)

@@ -322,30 +322,29 @@ static baum_status put_energies(baum_simulation *run, const baum_i_state *state,
                                 const baum_channel *channels, int count, double *row)
 {
   baum_workspace *w = run->workspace;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < count && status == BAUM_OK; k++) {
+  for (int k = 0; k < count; k++) {
     if (channels[k].quantity == BAUM_ENERGY) {
-      status = baum_i_energy(w, state->t, state->q, state->v, &row[0], &row[1]);
+      BAUM_I_TRY(baum_i_energy(w, state->t, state->q, state->v, &row[0], &row[1]));
     } else if (channels[k].quantity == BAUM_ENERGY_ACCOUNT) {
-      status = baum_i_account_put(run, state, row);
+      BAUM_I_TRY(baum_i_account_put(run, state, row));
     }
     row += channel_width(w->mechanism, &channels[k], k);
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
                           const baum_channel *channels, int count, double *row)
 {
   baum_workspace *w = run->workspace;
-  baum_status status = evaluate(w, state, channels, count);
   double *place = row;
-  for (int k = 0; k < count && status == BAUM_OK; k++) {
+  BAUM_I_TRY(evaluate(w, state, channels, count));
+  for (int k = 0; k < count; k++) {
     int width = put_channel(w, state, &channels[k], place);
-    status = check_channel(&channels[k], k, place, width);
+    BAUM_I_TRY(check_channel(&channels[k], k, place, width));
     place += width;
   }
-  return status == BAUM_OK ? put_energies(run, state, channels, count, row) : status;
+  return put_energies(run, state, channels, count, row);
 }
 
 baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,

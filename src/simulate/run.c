@@ -30,6 +30,13 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
   return baum_i_use_blocks(*out);
 }
 
+baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
+                                 const char *call)
+{
+  return run ? baum_i_check_sized(out, caller_size, call)
+             : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
+}
+
 /* ---- names of warnings ---- */
 
 static const struct {
@@ -148,11 +155,7 @@ baum_status baum_simulation_warning(const baum_simulation *simulation, int64_t k
                                     size_t caller_size)
 {
   const char *call = "baum_simulation_warning";
-  if (!simulation || !baum_i_takes_sized(out, caller_size)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       simulation ? "out is NULL or caller_size is too small"
-                                  : "the simulation is NULL");
-  }
+  BAUM_I_TRY(baum_i_run_check_out(simulation, out, caller_size, call));
   BAUM_I_TRY(baum_i_check_entry(k, 0, simulation->counters.warnings, call));
   baum_warning warning = simulation->warnings[k];
   if (warning.count > 1) {

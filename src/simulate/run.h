@@ -127,6 +127,10 @@ baum_status baum_i_run_finish(baum_simulation *run);
 /* Remember the sentence of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
+/* Of a call that reads from a run into a sized struct. BAUM_OK or BAUM_ERR_ARGUMENT. */
+baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
+                                 const char *call);
+
 /* A call that may have tried what fails ends: it leaves the message of a failure, or the one from before. */
 baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
                                 const baum_i_sentence *before);

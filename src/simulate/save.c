@@ -43,17 +43,15 @@ typedef struct header {
 
 /* ---- what must agree ---- */
 
-static const char *const NUMBERS[BAUM_I_SAVED_NUMBERS] = {
-  "step",
-  "rtol",
-  "atol",
-  "max_step",
-  "tolerance_q",
-  "tolerance_v",
-  "tolerance_lambda",
-  "the first number of the gains",
-  "the second number of the gains",
-};
+static const char *const NUMBERS[BAUM_I_SAVED_NUMBERS] = {"step",
+                                                          "rtol",
+                                                          "atol",
+                                                          "max_step",
+                                                          "tolerance_q",
+                                                          "tolerance_v",
+                                                          "tolerance_lambda",
+                                                          "the first number of the gains",
+                                                          "the second number of the gains"};
 
 static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {
   "the rule of the gains",
@@ -65,8 +63,7 @@ static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {
   "the rank of the constraints",
   "whether blocks suit",
   "the number of events",
-  "the sum over what the events are",
-};
+  "the sum over what the events are"};
 
 static int64_t sum_of(const void *bytes, size_t size)
 {

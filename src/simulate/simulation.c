@@ -77,13 +77,8 @@ static baum_status warn_redundancy(baum_simulation *run)
   const baum_i_state *start = &run->trial;
   if (r->count > 0) {
     char names[160];
-    baum_status status = baum_i_reported_acceleration(w, start->t, start->q, start->v);
-    if (status == BAUM_OK) {
-      status = baum_i_redundancy_text(w, names, sizeof names);
-    }
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(baum_i_reported_acceleration(w, start->t, start->q, start->v));
+    BAUM_I_TRY(baum_i_redundancy_text(w, names, sizeof names));
     baum_i_run_warn(run, BAUM_WARNING_REDUNDANT_ROWS, start->t, BAUM_I_NO_JOINT,
                     "%d redundant constraint %s among %s: accelerations are right, multipliers and "
                     "reactions of these joints are not unique and given with least norm",
@@ -199,14 +194,12 @@ static baum_status (*const STAGES[])(baum_simulation *run) = {
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
 {
   const baum_simulation_options *o = &run->options;
-  baum_status status = o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace);
+  BAUM_I_TRY(o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK);
+  BAUM_I_TRY(baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace));
+  for (size_t k = 0; k < sizeof STAGES / sizeof STAGES[0]; k++) {
+    BAUM_I_TRY(STAGES[k](run));
   }
-  for (size_t k = 0; k < sizeof STAGES / sizeof STAGES[0] && status == BAUM_OK; k++) {
-    status = STAGES[k](run);
-  }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_create(const baum_mechanism *mechanism,

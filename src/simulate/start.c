@@ -189,16 +189,16 @@ baum_status baum_i_run_check_velocities(baum_simulation *run)
   if (w->mechanism->nc == 0 || run->options.start == BAUM_START_AS_GIVEN) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
+  BAUM_I_TRY(baum_i_violation(w, trial->t, trial->q, trial->v));
   int row = -1;
   double size = 0.0;
-  if (status != BAUM_OK || !(find_worst_rate(trial, w, &row, &size) > ROUNDING)) {
-    return status;
+  if (!(find_worst_rate(trial, w, &row, &size) > ROUNDING)) {
+    return BAUM_OK;
   }
   double rate = fabs(w->phi_rate[row]);
   double change = 0.0;
-  status = find_change(w, trial, size, &change);
-  return status == BAUM_OK && change > OPEN ? tell_open(run, row, rate, change) : status;
+  BAUM_I_TRY(find_change(w, trial, size, &change));
+  return change > OPEN ? tell_open(run, row, rate, change) : BAUM_OK;
 }
 
 /* ---- the whole ---- */
@@ -247,12 +247,10 @@ baum_status baum_i_run_measure(baum_simulation *run, double *energy)
   const baum_i_state *trial = &run->trial;
   double kinetic = 0.0;
   double potential = 0.0;
-  baum_status status = baum_i_violation(w, trial->t, trial->q, trial->v);
-  if (status == BAUM_OK) {
-    status = baum_i_energy(w, trial->t, trial->q, trial->v, &kinetic, &potential);
-  }
+  BAUM_I_TRY(baum_i_violation(w, trial->t, trial->q, trial->v));
+  BAUM_I_TRY(baum_i_energy(w, trial->t, trial->q, trial->v, &kinetic, &potential));
   *energy = kinetic + potential;
-  return status;
+  return BAUM_OK;
 }
 
 void baum_i_run_accept(baum_simulation *run, double energy)
@@ -309,17 +307,15 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   }
   const baum_mechanism *m = run->workspace->mechanism;
   bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
-  baum_status status = baum_i_check_finite(call, "t", "s", t);
-  for (int i = 0; i < m->nq && status == BAUM_OK; i++) {
-    status = check_entry(call, 'q', i, q[i], false);
+  BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
+  for (int i = 0; i < m->nq; i++) {
+    BAUM_I_TRY(check_entry(call, 'q', i, q[i], false));
   }
-  if (status == BAUM_OK) {
-    status = check_manifold(run, call, q);
+  BAUM_I_TRY(check_manifold(run, call, q));
+  for (int i = 0; i < m->nv; i++) {
+    BAUM_I_TRY(check_entry(call, 'v', i, v[i], may_be_free));
   }
-  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
-    status = check_entry(call, 'v', i, v[i], may_be_free);
-  }
-  return status == BAUM_OK ? baum_i_run_may_be_changed(run, call) : status;
+  return baum_i_run_may_be_changed(run, call);
 }
 
 /* Whether a whole state violates the constraints no more than this run has already done, as one of
@@ -342,53 +338,46 @@ static bool is_of_this_run(baum_simulation *run, double t, const double *q, cons
   return phi <= run->counters.max_phi && phi_rate <= run->counters.max_phi_rate;
 }
 
-static baum_status restart(baum_simulation *run)
+/* The trial state becomes the given one, which the run may go on from: what may fail of that. */
+static baum_status prepare(baum_simulation *run, double t, const double *q, const double *v,
+                           double *energy)
 {
-  baum_status status = run->integrator->restart(run->self, &run->problem, &run->trial);
-  run->counters.restarts += status == BAUM_OK;
-  return status;
+  if (is_of_this_run(run, t, q, v)) {
+    start_as_given(run, t, q, v);
+  } else {
+    BAUM_I_TRY(baum_i_run_start(run, t, q, v));
+    BAUM_I_TRY(baum_i_run_check_velocities(run));
+  }
+  BAUM_I_TRY(baum_i_run_measure(run, energy));
+  if (run->events) {
+    BAUM_I_TRY(baum_i_events_evaluate(run, &run->trial));
+  }
+  baum_i_run_choose_rows_anew(run, &run->trial);
+  if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
+    /* the last, for it cannot be undone */
+    BAUM_I_TRY(run->integrator->restart(run->self, &run->problem, &run->trial));
+    run->counters.restarts++;
+  }
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_set_state(baum_simulation *simulation, double t, const double *q,
                                       const double *v)
 {
-  baum_status status = check_state(simulation, t, q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_state(simulation, t, q, v));
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
   double start_change = simulation->counters.start_change;
   double energy = 0.0;
   double before = simulation->state.t;
   baum_i_schedule_move(simulation, before, t);
-  if (is_of_this_run(simulation, t, q, v)) {
-    start_as_given(simulation, t, q, v);
-    place_fixed_bodies(simulation);
+  baum_status status = prepare(simulation, t, q, v, &energy);
+  if (status == BAUM_OK) {
+    baum_i_run_accept(simulation, energy);
   } else {
-    status = baum_i_run_start(simulation, t, q, v);
-    status = status == BAUM_OK ? baum_i_run_check_velocities(simulation) : status;
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_run_measure(simulation, &energy);
-  }
-  if (status == BAUM_OK && simulation->events) {
-    status = baum_i_events_evaluate(simulation, &simulation->trial);
-  }
-  if (status == BAUM_OK) {
-    baum_i_run_choose_rows_anew(simulation, &simulation->trial);
-  }
-  /* Last of what may fail, for it cannot be undone. */
-  if (status == BAUM_OK &&
-      baum_i_integrator_remembers(simulation->integrator, &simulation->problem)) {
-    status = restart(simulation);
-  }
-  if (status != BAUM_OK) {
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
-    baum_i_clear_fixed_rows(simulation->workspace);
-  } else {
-    baum_i_run_accept(simulation, energy);
+    baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
   }
   return baum_i_run_end_call(simulation, status, &kept);
 }
