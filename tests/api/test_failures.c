@@ -22,6 +22,7 @@ typedef enum fault {
   FAULT_NONE,
   FAULT_STOPS,   /* answers that the run shall stop */
   FAULT_RETRIES, /* asks for smaller steps for ever */
+  FAULT_RETRIES_ONCE,
   FAULT_NAN,
   FAULT_NOISE,  /* another large force at every place */
   FAULT_GROWTH, /* grows without bound: the motion ends in finite time */
@@ -42,7 +43,7 @@ static double noise(double x)
 static int force(double t, const double *q, const double *v, const double *inputs, double *out,
                  void *user)
 {
-  const fault *now = user;
+  fault *now = user;
   (void)inputs;
   out[0] = 0.0;
   out[1] = 0.0;
@@ -52,6 +53,7 @@ static int force(double t, const double *q, const double *v, const double *input
   switch (*now) {
   case FAULT_STOPS: return -3;
   case FAULT_RETRIES: return 2;
+  case FAULT_RETRIES_ONCE: *now = FAULT_NONE; return 2;
   case FAULT_NAN: out[0] = (double)NAN; break;
   case FAULT_NOISE: out[0] = noise(q[0] + t); break;
   case FAULT_GROWTH:
@@ -254,6 +256,29 @@ static void every_failure_names_time_place_and_remedy(void **state)
   assert_true(checked > 100);
 }
 
+static void what_a_method_gets_over_leaves_no_message(void **state)
+{
+  (void)state;
+  for (int i = 0; step_mode_at(i).integrator; i++) {
+    step_mode mode = step_mode_at(i);
+    fault now = FAULT_NONE;
+    baum_mechanism *m = pendulum(&now);
+    baum_simulation_options o = step_mode_options(mode, 1e-3, 1e-6);
+    baum_simulation *run = NULL;
+    assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
+    now = FAULT_RETRIES_ONCE;
+    assert_int_equal(baum_simulation_advance_to(NULL, 0.2), BAUM_ERR_ARGUMENT);
+    if (baum_simulation_advance_to(run, 0.2) == BAUM_OK) {
+      assert_int_equal(now, FAULT_NONE);
+      assert_non_null(strstr(baum_message(), "the simulation is NULL"));
+    } else {
+      assert_true(mode.fixed);
+    }
+    baum_simulation_destroy(run);
+    baum_mechanism_destroy(m);
+  }
+}
+
 static void more_digits_than_there_are_are_refused(void **state)
 {
   (void)state;
@@ -340,6 +365,7 @@ int main(void)
 {
   const struct CMUnitTest tests[] = {
     cmocka_unit_test(every_failure_names_time_place_and_remedy),
+    cmocka_unit_test(what_a_method_gets_over_leaves_no_message),
     cmocka_unit_test(more_digits_than_there_are_are_refused),
     cmocka_unit_test(inputs_and_laws_go_on_too),
     cmocka_unit_test(only_runs_of_the_same_mechanism_go_on),
