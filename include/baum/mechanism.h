@@ -135,13 +135,13 @@ typedef struct baum_coordinates_def {
   bool held;              /**< Assembly keeps the drawn positions. Default: false. */
   void *user;             /**< Passed to the functions, not owned. Default: NULL. */
   bool depends_on_velocity;       /**< force() reads v; RATTLE takes false alone. Default: true. */
-  int32_t position_count;         /**< [-] Number of positions. Default: 0, `size`. */
   const double *position_scale;   /**< (position_count) > 0, relevant changes of positions. Copied.
                                        Used with `rate`. Default: NULL, ones. */
   baum_rate_fn *rate;             /**< N(q) v. Default: NULL, q' = v. */
   baum_move_fn *move;             /**< Default: NULL; with `rate` it must be set. */
   baum_difference_fn *difference; /**< Default: NULL; with `rate` it must be set. */
   baum_normalize_fn *normalize;   /**< Default: NULL, every q is on the manifold. */
+  int32_t position_count;         /**< [-] Number of positions. Default: 0, `size`. */
 } baum_coordinates_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

@@ -87,11 +87,17 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row)
 
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column)
 {
-  int k = mechanism->body_count;
-  while (mechanism->bodies[k]->v > column) {
-    k--;
+  int low = 1;
+  int high = mechanism->body_count;
+  while (low < high) {
+    int middle = (low + high + 1) / 2;
+    if (mechanism->bodies[middle]->v <= column) {
+      low = middle;
+    } else {
+      high = middle - 1;
+    }
   }
-  return mechanism->bodies[k];
+  return mechanism->bodies[low];
 }
 
 /* ---- labels ---- */

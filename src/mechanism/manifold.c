@@ -27,6 +27,7 @@ static void move_body(const baum_i_body *body, double h, const double *v, double
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
+    body->manifold->normalize(body, q); /* of many moves roundings add up */
   } else {
     move_vector(body->nv, h, v, q);
   }
@@ -245,10 +246,10 @@ void baum_i_linearize_rate(const baum_mechanism *m, const double *q, const doubl
 void baum_i_span_move(const baum_mechanism *m, const baum_i_span *span, double h, const double *v,
                       double *q)
 {
-  for (int k = 0; k < span->body_count; k++) {
-    const baum_i_body *body = m->bodies[span->bodies[k]];
-    move_body(body, h, v, q);
-    v += body->nv;
+  for (int i = 0; i < span->nl;) {
+    const baum_i_body *body = baum_i_velocity_body(m, span->columns[i]);
+    move_body(body, h, v + i, q);
     q += body->nq;
+    i += body->nv;
   }
 }

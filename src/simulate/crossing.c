@@ -45,6 +45,7 @@ baum_status baum_i_crossings_create(baum_simulation *run)
     return baum_i_fail_memory();
   }
   double *next = (double *)(p + 1);
+  p->present.joint = -1;
   place_knots(m, p->recent, BAUM_I_RECENT, &next);
   place_knots(m, p->clear, BAUM_I_HERMITE_MOST, &next);
   place_knots(m, &p->at, 1, &next);

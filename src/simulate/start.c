@@ -377,7 +377,6 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   } else {
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
-    baum_i_look_at_immobile(simulation->workspace, simulation->state.q, simulation->state.v);
   }
   return baum_i_run_end_call(simulation, status, &kept);
 }

@@ -49,12 +49,12 @@ static const element_field coordinates_fields[] = {
   FIELD(baum_coordinates_def, held, FLAG),
   FIELD(baum_coordinates_def, user, FUNCTION),
   FIELD(baum_coordinates_def, depends_on_velocity, FLAG),
-  FIELD(baum_coordinates_def, position_count, INTEGER),
   FIELD(baum_coordinates_def, position_scale, ARRAY),
   FIELD(baum_coordinates_def, rate, FUNCTION),
   FIELD(baum_coordinates_def, move, FUNCTION),
   FIELD(baum_coordinates_def, difference, FUNCTION),
   FIELD(baum_coordinates_def, normalize, FUNCTION),
+  FIELD(baum_coordinates_def, position_count, INTEGER),
 };
 
 static const element_field planar_revolute_fields[] = {

@@ -90,12 +90,12 @@ class baum_coordinates_def(Structure):
         ("held", c_bool),
         ("user", c_void_p),
         ("depends_on_velocity", c_bool),
-        ("position_count", c_int32),
         ("position_scale", c_void_p),
         ("rate", baum_rate_fn),
         ("move", baum_move_fn),
         ("difference", baum_difference_fn),
         ("normalize", baum_normalize_fn),
+        ("position_count", c_int32),
     ]
 
 

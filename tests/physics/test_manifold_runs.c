@@ -1,0 +1,360 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Mechanisms whose positions are no vector (support/manifold_scenes.c) through every integrator of
+ * this build in every formulation that it offers: against their twins of ordinary bodies, or against
+ * the motion about the fixed point.
+ */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "assert_near.h"
+#include "check.h"
+#include "manifold_scenes.h"
+#include "step_mode.h"
+
+enum { SIZE = MANIFOLD_SIZE };
+
+static const double END = 0.5;
+
+/* A way to integrate. */
+typedef struct method {
+  step_mode mode;
+  baum_formulation formulation;
+} method;
+
+typedef void try_fn(const manifold_scene *scene, const method *with, const void *context);
+
+/* Every method of this build; returns how many. */
+static int for_each_method(const manifold_scene *scene, try_fn *try, const void *context)
+{
+  int tried = 0;
+  for (int k = 0; step_mode_at(k).integrator; k++) {
+    step_mode mode = step_mode_at(k);
+    bool refused = scene->gyroscopic && mode.integrator == baum_rattle();
+    for (int f = BAUM_FORMULATION_DEFAULT + 1; baum_formulation_name((baum_formulation)f); f++) {
+      if (!refused && baum_integrator_offers(mode.integrator, (baum_formulation)f)) {
+        try(scene, &(method){mode, (baum_formulation)f}, context);
+        tried++;
+      }
+    }
+  }
+  return tried;
+}
+
+/* h = 1e-3 or rtol = 1e-7. */
+static baum_simulation_options options_of(const method *with)
+{
+  baum_simulation_options options = step_mode_options(with->mode, 1e-3, 1e-7);
+  options.formulation = with->formulation;
+  return options;
+}
+
+static baum_simulation *start(const manifold_scene *scene, const method *with, int32_t *nq)
+{
+  baum_simulation *run = NULL;
+  baum_mechanism *mechanism = manifold_scene_make(scene);
+  baum_simulation_options options = options_of(with);
+  check(baum_mechanism_sizes(mechanism, nq, NULL, NULL));
+  assert_true(*nq <= SIZE);
+  check(baum_simulation_create(mechanism, &options, &run));
+  baum_mechanism_destroy(mechanism);
+  return run;
+}
+
+static void advance(baum_simulation *run, const manifold_scene *scene, const method *with, double t)
+{
+  baum_status status = baum_simulation_advance_to(run, t);
+  if (status < BAUM_OK) {
+    fail_msg("%s, %s, %s: %s", scene->name, baum_integrator_name(with->mode.integrator),
+             baum_formulation_name(with->formulation), baum_message());
+  }
+}
+
+static double apart(const double *a, const double *b, int count)
+{
+  double largest = 0.0;
+  for (int i = 0; i < count; i++) {
+    double size = fabs(a[i] - b[i]);
+    largest = size <= largest ? largest : size;
+  }
+  return largest;
+}
+
+static void expect(const char *what, double got, double most, const manifold_scene *scene,
+                   const method *with)
+{
+  if (!(got <= most)) {
+    fail_msg("%s, %s, %s, %s: %s is %.3g, allowed %.3g", scene->name,
+             baum_integrator_name(with->mode.integrator),
+             with->mode.fixed ? "fixed step" : "variable step",
+             baum_formulation_name(with->formulation), what, got, most);
+  }
+}
+
+/* ---- every method ---- */
+
+/* As in test_all_joints.c, with three times as much for the tops, which turn by 3 rad. */
+static double allowed(const method *with)
+{
+  static const double by_order[] = {2e-4, 5e-1, 1e-3, 1e-5, 1e-7, 1e-9, 3e-10, 3e-10, 3e-10};
+  if (with->formulation == BAUM_FORMULATION_INDEX3) {
+    return 1e-2; /* IDA's tolerance is of y, of which index 3 keeps less. */
+  }
+  double wide = step_mode_is_adams(with->mode) ? 300.0 : 1.0;
+  return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
+}
+
+/* The part of q that is of unit length: its first number, or -1 past the last. */
+static int unit_at(const manifold_scene *scene, int k, int *length)
+{
+  bool angle = strcmp(scene->name, "angle") == 0;
+  bool free_top = strcmp(scene->name, "free top") == 0;
+  bool mixed = strcmp(scene->name, "mixed double pendulum") == 0;
+  *length = free_top || scene->solve ? 4 : 2;
+  if (angle || free_top || mixed || scene->solve) {
+    int first = angle || free_top ? 0 : mixed ? 2 : 3;
+    return k == 0 ? first : -1;
+  }
+  int bodies = strcmp(scene->name, "slider-crank") == 0 ? 3 : 1;
+  return k < bodies ? 4 * k + 2 : -1;
+}
+
+static double off_manifold(const manifold_scene *scene, const double *q)
+{
+  double largest = 0.0;
+  int length;
+  for (int k = 0; unit_at(scene, k, &length) >= 0; k++) {
+    double square = 0.0;
+    for (int i = 0; i < length; i++) {
+      double x = q[unit_at(scene, k, &length) + i];
+      square += x * x;
+    }
+    largest = fmax(largest, fabs(sqrt(square) - 1.0));
+  }
+  return largest;
+}
+
+static void try_run(const manifold_scene *scene, const method *with, const void *want)
+{
+  int32_t nq;
+  baum_simulation *run = start(scene, with, &nq);
+  baum_counters counters;
+  for (int k = 1; k <= 5; k++) {
+    advance(run, scene, with, 0.2 * k * END);
+    expect("the distance from the manifold", off_manifold(scene, baum_simulation_q(run)), 1e-15,
+           scene, with);
+  }
+  check(baum_simulation_counters(run, &counters, sizeof counters));
+  double most = allowed(with);
+  expect("the error", apart(baum_simulation_q(run), want, nq), most, scene, with);
+  bool projected = with->formulation == BAUM_FORMULATION_PROJECTION;
+  expect("the violation", counters.max_phi, projected ? 1e-14 : most, scene, with);
+  assert_int_equal(counters.branch_warnings, 0);
+  baum_simulation_destroy(run);
+}
+
+static void every_method_carries_every_scene(void **state)
+{
+  (void)state;
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    double want[SIZE];
+    manifold_scene_solve(&manifold_scenes[k], END, want);
+    assert_true(for_each_method(&manifold_scenes[k], try_run, want) >= 15);
+  }
+}
+
+static void scenes_move_far(void **state)
+{
+  (void)state;
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    double end[SIZE] = {0.0};
+    double begin[SIZE] = {0.0};
+    manifold_scene_solve(&manifold_scenes[k], 0.0, begin);
+    manifold_scene_solve(&manifold_scenes[k], END, end);
+    if (!(apart(begin, end, SIZE) > 0.4)) {
+      fail_msg("%s moves by %.3g", manifold_scenes[k].name, apart(begin, end, SIZE));
+    }
+    baum_mobility mobility;
+    baum_mechanism *mechanism = manifold_scene_make(&manifold_scenes[k]);
+    check(baum_mechanism_check_derivatives(mechanism));
+    check(baum_mechanism_mobility(mechanism, &mobility, sizeof mobility));
+    assert_int_equal(mobility.degrees_of_freedom, manifold_scenes[k].degrees_of_freedom);
+    assert_int_equal(mobility.redundant_rows, 0);
+    baum_mechanism_destroy(mechanism);
+  }
+}
+
+/* ---- save and restore ---- */
+
+static void *save(baum_simulation *run, size_t *size)
+{
+  check(baum_simulation_save(run, NULL, 0, size));
+  void *buffer = malloc(*size);
+  assert_non_null(buffer);
+  check(baum_simulation_save(run, buffer, *size, size));
+  return buffer;
+}
+
+static void try_restore(const manifold_scene *scene, const method *with, const void *context)
+{
+  (void)context;
+  int32_t nq;
+  size_t size = 0;
+  baum_simulation *run = start(scene, with, &nq);
+  baum_simulation *other = start(scene, with, &nq);
+  advance(run, scene, with, 0.1);
+  void *saved = save(run, &size);
+  check(baum_simulation_restore(other, saved, size));
+  advance(run, scene, with, 0.2);
+  advance(other, scene, with, 0.2);
+  expect("a restored run", apart(baum_simulation_q(run), baum_simulation_q(other), nq), 0.0, scene,
+         with);
+  /* Put back by its state, too. */
+  double q[SIZE];
+  double v[SIZE];
+  int32_t nv;
+  baum_mechanism *mechanism = manifold_scene_make(scene);
+  check(baum_mechanism_sizes(mechanism, NULL, &nv, NULL));
+  baum_mechanism_destroy(mechanism);
+  memcpy(q, baum_simulation_q(run), (size_t)nq * sizeof *q);
+  memcpy(v, baum_simulation_v(run), (size_t)nv * sizeof *v);
+  advance(run, scene, with, 0.25);
+  check(baum_simulation_set_state(run, 0.2, q, v));
+  expect("a state put back", apart(baum_simulation_q(run), q, nq), 1e-15, scene, with);
+  free(saved);
+  baum_simulation_destroy(run);
+  baum_simulation_destroy(other);
+}
+
+static void runs_are_saved_and_restored(void **state)
+{
+  (void)state;
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    (void)for_each_method(&manifold_scenes[k], try_restore, NULL);
+  }
+}
+
+/* ---- events ---- */
+
+/* The first number of q. */
+static int first_position(double t, const double *q, const double *v, const double *inputs,
+                          double *out, void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  out[0] = q[0] - *(const double *)user;
+  return 0;
+}
+
+/* When the first number of q passes a value. */
+static double find_event(baum_simulation *run, double *value)
+{
+  baum_event_def def = baum_event_def_default();
+  def.function = first_position;
+  def.user = value;
+  check(baum_simulation_add_event(run, &def, NULL));
+  baum_status status = baum_simulation_advance_to(run, END);
+  if (status != BAUM_STOP_EVENT) {
+    fail_msg("%s: no event: %d", baum_message(), status);
+  }
+  return baum_simulation_time(run);
+}
+
+typedef struct passing {
+  double value;
+  double t;
+} passing;
+
+static void try_event(const manifold_scene *scene, const method *with, const void *context)
+{
+  const passing *want = context;
+  int32_t nq;
+  double value = want->value;
+  baum_simulation *run = start(scene, with, &nq);
+  double t = find_event(run, &value);
+  expect("the time of the event", fabs(t - want->t), allowed(with), scene, with);
+  expect("what passes zero", fabs(baum_simulation_q(run)[0] - value), 1e-12, scene, with);
+  expect("the distance from the manifold", off_manifold(scene, baum_simulation_q(run)), 1e-15,
+         scene, with);
+  baum_simulation_destroy(run);
+}
+
+static void events_are_found(void **state)
+{
+  (void)state;
+  static const char *const names[] = {"angle", "slider-crank", "heavy top with its Jacobian"};
+  for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+    const manifold_scene *scene = manifold_scene_find(names[k]);
+    passing at = {.t = 0.21};
+    double q[SIZE];
+    manifold_scene_solve(scene, at.t, q);
+    at.value = q[0];
+    (void)for_each_method(scene, try_event, &at);
+  }
+}
+
+/* ---- energy ---- */
+
+static double residual_of(const baum_mechanism *mechanism, const baum_simulation_options *options)
+{
+  baum_energy_account account;
+  baum_simulation *run = NULL;
+  check(baum_simulation_create(mechanism, options, &run));
+  check(baum_simulation_advance_to(run, END));
+  check(baum_simulation_energy_account(run, &account, sizeof account));
+  baum_simulation_destroy(run);
+  return fabs(account.residual);
+}
+
+/* The residual is the error of the method: as large as that of the twin, up to
+ * what other components of q make of the steps. */
+static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
+{
+  (void)state;
+  static const struct {
+    const baum_integrator *(*integrator)(void);
+    double step;
+    double most; /* [J] of tops, whose energies are about 10 J */
+  } WAYS[] = {{baum_rk4, 1e-3, 1e-7}, {baum_rk8, 5e-3, 1e-7}, {baum_dp5, (double)NAN, 1e-5}};
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    for (size_t i = 0; i < sizeof WAYS / sizeof *WAYS; i++) {
+      const manifold_scene *scene = &manifold_scenes[k];
+      baum_mechanism *mechanism = manifold_scene_make(scene);
+      baum_mechanism *twin = scene->solve ? NULL : manifold_scene_make_twin(scene);
+      baum_simulation_options options = baum_simulation_options_default();
+      options.integrator = WAYS[i].integrator();
+      options.formulation = BAUM_FORMULATION_PROJECTION;
+      options.step = WAYS[i].step;
+      options.rtol = isnan(WAYS[i].step) ? 1e-8 : (double)NAN;
+      options.energy_account = true;
+      double got = residual_of(mechanism, &options);
+      double most = twin ? 30.0 * residual_of(twin, &options) + 1e-10 : WAYS[i].most;
+      if (!(got <= most)) {
+        fail_msg("%s by %s: residual %.3g J, allowed %.3g", scene->name,
+                 baum_integrator_name(options.integrator), got, most);
+      }
+      baum_mechanism_destroy(mechanism);
+      baum_mechanism_destroy(twin);
+    }
+  }
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(scenes_move_far),
+    cmocka_unit_test(every_method_carries_every_scene),
+    cmocka_unit_test(runs_are_saved_and_restored),
+    cmocka_unit_test(events_are_found),
+    cmocka_unit_test(the_account_of_energy_is_as_of_ordinary_bodies),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}

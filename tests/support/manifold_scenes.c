@@ -1,0 +1,608 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "manifold_scenes.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "manifold_bodies.h"
+#include "rotation.h"
+
+enum { SIZE = MANIFOLD_SIZE };
+
+/* ---- pins between turned bodies ---- */
+
+/* Point b of the last body on point a of the first, or of the ground. */
+typedef struct pin {
+  bool to_ground;
+  bool to_ordinary; /* the last body has an angle */
+  double a[2];
+  double b[2];
+} pin;
+
+static void add_arm(const double *c, const double s[2], double sign, double *out)
+{
+  out[0] += sign * (c[0] * s[0] - c[1] * s[1]);
+  out[1] += sign * (c[1] * s[0] + c[0] * s[1]);
+}
+
+static int pin_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const pin *p = user;
+  const double *last = p->to_ground ? q : q + 4;
+  const double angle[2] = {cos(last[2]), sin(last[2])};
+  out[0] = last[0];
+  out[1] = last[1];
+  add_arm(p->to_ordinary ? angle : last + 2, p->b, 1.0, out);
+  if (p->to_ground) {
+    out[0] -= p->a[0];
+    out[1] -= p->a[1];
+  } else {
+    out[0] -= q[0];
+    out[1] -= q[1];
+    add_arm(q + 2, p->a, -1.0, out);
+  }
+  return 0;
+}
+
+static void put_side(const double *c, const double s[2], double sign, int first, int columns,
+                     double *out)
+{
+  double arm[2] = {0.0, 0.0};
+  add_arm(c, s, 1.0, arm);
+  out[first] = sign;
+  out[columns + first + 1] = sign;
+  out[first + 2] = -sign * arm[1];
+  out[columns + first + 2] = sign * arm[0];
+}
+
+/* Of the turned bodies alone, by velocities. */
+static int pin_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const pin *p = user;
+  if (p->to_ground) {
+    put_side(q + 2, p->b, 1.0, 0, 3, out);
+  } else {
+    put_side(q + 2, p->a, -1.0, 0, 6, out);
+    put_side(q + 6, p->b, 1.0, 3, 6, out);
+  }
+  return 0;
+}
+
+static void add_pin(baum_mechanism *mechanism, pin *p, const baum_body_id *bodies, bool jacobian)
+{
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.bodies = bodies;
+  def.body_count = p->to_ground ? 1 : 2;
+  def.row_count = 2;
+  def.phi = pin_phi;
+  def.jacobian = jacobian ? pin_jacobian : NULL;
+  def.user = p;
+  check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
+}
+
+static baum_body_id add_ordinary(baum_mechanism *mechanism, const manifold_body *body, double x,
+                                 double y, double angle, const double *v)
+{
+  baum_body_id id;
+  baum_planar_body_def def = baum_planar_body_def_default();
+  def.mass = body->mass;
+  def.inertia = body->inertia[0];
+  def.position[0] = x;
+  def.position[1] = y;
+  def.angle = angle;
+  if (v) {
+    def.velocity[0] = v[0];
+    def.velocity[1] = v[1];
+    def.angular_velocity = v[2];
+  }
+  check(baum_mechanism_add_planar_body(mechanism, &def, &id));
+  return id;
+}
+
+static void add_revolute(baum_mechanism *mechanism, baum_body_id a, baum_body_id b, double x,
+                         double y)
+{
+  baum_planar_revolute_def def = baum_planar_revolute_def_default();
+  def.body_a = a;
+  def.body_b = b;
+  def.point[0] = x;
+  def.point[1] = y;
+  check(baum_mechanism_add_planar_revolute(mechanism, &def, NULL));
+}
+
+static void translate_bodies(const double *twin_q, double *q, int count)
+{
+  for (int k = 0; k < count; k++) {
+    q[4 * k] = twin_q[3 * k];
+    q[4 * k + 1] = twin_q[3 * k + 1];
+    q[4 * k + 2] = cos(twin_q[3 * k + 2]);
+    q[4 * k + 3] = sin(twin_q[3 * k + 2]);
+  }
+}
+
+/* ---- angle: a pendulum of one coordinate ---- */
+
+static manifold_body bob = {.mass = 2.0, .inertia = {2.5}};
+static const double BOB_V[1] = {-4.0};
+
+static void build_angle(baum_mechanism *mechanism)
+{
+  (void)manifold_add_angle(mechanism, &bob, 0.3, BOB_V);
+}
+
+static int swing_mass(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)user;
+  out[0] = bob.inertia[0];
+  return 0;
+}
+
+static int swing_force(double t, const double *q, const double *v, const double *inputs,
+                       double *out, void *user)
+{
+  (void)t;
+  (void)v;
+  (void)inputs;
+  (void)user;
+  out[0] = -bob.mass * 9.81 * cos(q[0]);
+  return 0;
+}
+
+static void build_angle_twin(baum_mechanism *mechanism)
+{
+  static const double q[1] = {0.3};
+  baum_coordinates_def def = baum_coordinates_def_default();
+  def.size = 1;
+  def.q = q;
+  def.v = BOB_V;
+  def.mass = swing_mass;
+  def.force = swing_force;
+  def.constant_mass = true;
+  check(baum_mechanism_add_coordinates(mechanism, &def, NULL));
+}
+
+static void translate_angle(const double *twin_q, double *q)
+{
+  q[0] = cos(twin_q[0]);
+  q[1] = sin(twin_q[0]);
+}
+
+/* ---- pendulum ---- */
+
+static manifold_body rod = {.mass = 1.5, .inertia = {0.2}};
+static pin hinge = {.to_ground = true, .b = {-0.5, 0.1}};
+/* Of the rod at angle 0.4, so that its point b is at the origin; v as of -4 rad/s. */
+static void place_rod(double *x, double *y, double v[3])
+{
+  double arm[2] = {0.0, 0.0};
+  const double c[2] = {cos(0.4), sin(0.4)};
+  add_arm(c, hinge.b, 1.0, arm);
+  *x = -arm[0];
+  *y = -arm[1];
+  v[0] = -4.0 * arm[1];
+  v[1] = 4.0 * arm[0];
+  v[2] = -4.0;
+}
+
+static void build_pendulum(baum_mechanism *mechanism)
+{
+  double x;
+  double y;
+  double v[3];
+  place_rod(&x, &y, v);
+  baum_body_id id = manifold_add_turned(mechanism, &rod, x, y, 0.4, v);
+  add_pin(mechanism, &hinge, &id, false);
+}
+
+static void build_pendulum_twin(baum_mechanism *mechanism)
+{
+  double x;
+  double y;
+  double v[3];
+  place_rod(&x, &y, v);
+  baum_body_id id = add_ordinary(mechanism, &rod, x, y, 0.4, v);
+  add_revolute(mechanism, BAUM_GROUND, id, 0.0, 0.0);
+}
+
+static void translate_one(const double *twin_q, double *q)
+{
+  translate_bodies(twin_q, q, 1);
+}
+
+/* ---- slider-crank ---- */
+
+static manifold_body crank = {.mass = 1.0, .inertia = {0.1}};
+static manifold_body coupler = {.mass = 2.0, .inertia = {0.5}};
+static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
+static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
+static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
+static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
+/* Crank at 1 rad with 4 rad/s. */
+static const double CRANK = 1.0;
+static const double CRANK_V[3] = {(double)NAN, (double)NAN, 4.0};
+
+typedef struct crank_place {
+  double crank[2];
+  double coupler[3];
+  double slider;
+} crank_place;
+
+static crank_place place_crank(void)
+{
+  crank_place p = {.crank = {0.5 * cos(CRANK), 0.5 * sin(CRANK)}};
+  p.coupler[2] = -asin(0.5 * sin(CRANK));
+  p.coupler[0] = cos(CRANK) + cos(p.coupler[2]);
+  p.coupler[1] = sin(CRANK) + sin(p.coupler[2]);
+  p.slider = cos(CRANK) + 2.0 * cos(p.coupler[2]);
+  return p;
+}
+
+/* y = 0 and sin = 0. */
+static int rail_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  (void)user;
+  out[0] = q[1];
+  out[1] = q[3];
+  return 0;
+}
+
+static void add_rail(baum_mechanism *mechanism, const baum_body_id *body)
+{
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.bodies = body;
+  def.body_count = 1;
+  def.row_count = 2;
+  def.phi = rail_phi;
+  check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
+}
+
+static void build_crank(baum_mechanism *mechanism)
+{
+  crank_place p = place_crank();
+  baum_body_id ids[3] = {
+    manifold_add_turned(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V),
+    manifold_add_turned(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL),
+    manifold_add_turned(mechanism, &slider, p.slider, 0.0, 0.0, NULL)};
+  add_pin(mechanism, &main_pin, ids, true);
+  add_pin(mechanism, &crank_pin, ids, true);
+  add_pin(mechanism, &slider_pin, ids + 1, false);
+  add_rail(mechanism, ids + 2);
+}
+
+static void build_crank_twin(baum_mechanism *mechanism)
+{
+  crank_place p = place_crank();
+  baum_body_id ids[3] = {
+    add_ordinary(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V),
+    add_ordinary(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL),
+    add_ordinary(mechanism, &slider, p.slider, 0.0, 0.0, NULL)};
+  add_revolute(mechanism, BAUM_GROUND, ids[0], 0.0, 0.0);
+  add_revolute(mechanism, ids[0], ids[1], cos(CRANK), sin(CRANK));
+  add_revolute(mechanism, ids[1], ids[2], p.slider, 0.0);
+  baum_planar_translational_def def = baum_planar_translational_def_default();
+  def.body_a = BAUM_GROUND;
+  def.body_b = ids[2];
+  def.axis[0] = 1.0;
+  def.point[0] = p.slider;
+  def.point[1] = 0.0;
+  check(baum_mechanism_add_planar_translational(mechanism, &def, NULL));
+}
+
+static void translate_crank(const double *twin_q, double *q)
+{
+  translate_bodies(twin_q, q, 3);
+}
+
+/* ---- a turned body and behind it an ordinary one: columns of q and of v part ---- */
+
+static manifold_body lower_rod = {.mass = 0.7, .inertia = {0.05}};
+static pin joint_pin = {.to_ordinary = true, .a = {0.5, 0.0}, .b = {-0.4, 0.0}};
+
+static void place_lower(double x, double y, double lower[3])
+{
+  lower[0] = x + 0.5 * cos(0.4) + 0.4 * cos(-0.8);
+  lower[1] = y + 0.5 * sin(0.4) + 0.4 * sin(-0.8);
+  lower[2] = -0.8;
+}
+
+static void build_mixed(baum_mechanism *mechanism)
+{
+  double at[3];
+  double x;
+  double y;
+  double v[3];
+  place_rod(&x, &y, v);
+  place_lower(x, y, at);
+  baum_body_id ids[2] = {manifold_add_turned(mechanism, &rod, x, y, 0.4, v)};
+  ids[1] = add_ordinary(mechanism, &lower_rod, at[0], at[1], at[2], NULL);
+  add_pin(mechanism, &hinge, ids, true);
+  add_pin(mechanism, &joint_pin, ids, false);
+}
+
+static void build_mixed_twin(baum_mechanism *mechanism)
+{
+  double at[3];
+  double x;
+  double y;
+  double v[3];
+  place_rod(&x, &y, v);
+  place_lower(x, y, at);
+  baum_body_id upper = add_ordinary(mechanism, &rod, x, y, 0.4, v);
+  baum_body_id lower = add_ordinary(mechanism, &lower_rod, at[0], at[1], at[2], NULL);
+  add_revolute(mechanism, BAUM_GROUND, upper, 0.0, 0.0);
+  add_revolute(mechanism, upper, lower, x + 0.5 * cos(0.4), y + 0.5 * sin(0.4));
+}
+
+static void translate_mixed(const double *twin_q, double *q)
+{
+  translate_bodies(twin_q, q, 1);
+  memcpy(q + 4, twin_q + 3, 3 * sizeof *q);
+}
+
+/* ---- tops ---- */
+
+/* A body that turns about a fixed point of its own at the origin. */
+typedef struct top {
+  manifold_body body;
+  double point[3]; /* the fixed one, from the centre of mass, in body axes */
+  double p[4];
+  double w[3];
+} top;
+
+static top free_top = {.body = {.mass = 0.0, .inertia = {1.0, 2.0, 2.7}},
+                       .p = {0.5, 0.5, -0.5, 0.5},
+                       .w = {3.0, 0.4, 2.0}};
+static top heavy_top = {.body = {.mass = 1.2, .inertia = {0.3, 0.5, 0.4}},
+                        .point = {0.1, -0.2, -0.6},
+                        .p = {0.6, 0.0, 0.8, 0.0},
+                        .w = {2.0, -1.0, 6.0}};
+static top ball = {.body = {.mass = 1.2, .inertia = {0.4, 0.4, 0.4}},
+                   .point = {0.1, -0.2, -0.6},
+                   .p = {0.6, 0.0, 0.8, 0.0},
+                   .w = {2.0, -1.0, 3.0}};
+
+static int point_phi(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const top *of = user;
+  rotate(q + 3, of->point, out);
+  for (int i = 0; i < 3; i++) {
+    out[i] += q[i];
+  }
+  return 0;
+}
+
+/* A w x s = -A [s]x w */
+static int point_jacobian(double t, const double *q, double *out, void *user)
+{
+  (void)t;
+  const top *of = user;
+  for (int j = 0; j < 3; j++) {
+    const double axis[3] = {j == 0, j == 1, j == 2};
+    double arm[3];
+    double column[3];
+    cross(axis, of->point, arm);
+    rotate(q + 3, arm, column);
+    out[6 * j + j] = 1.0;
+    for (int i = 0; i < 3; i++) {
+      out[6 * i + 3 + j] = column[i];
+    }
+  }
+  return 0;
+}
+
+static void build_top(baum_mechanism *mechanism, top *of, bool jacobian)
+{
+  double q[7];
+  double v[6] = {(double)NAN, (double)NAN, (double)NAN, of->w[0], of->w[1], of->w[2]};
+  rotate(of->p, of->point, q);
+  for (int i = 0; i < 7; i++) {
+    q[i] = i < 3 ? -q[i] : of->p[i - 3];
+  }
+  baum_body_id id = manifold_add_top(mechanism, &of->body, q, v);
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  def.bodies = &id;
+  def.body_count = 1;
+  def.row_count = 3;
+  def.phi = point_phi;
+  def.jacobian = jacobian ? point_jacobian : NULL;
+  def.user = of;
+  check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
+  check(baum_mechanism_set_gravity(mechanism, 0.0, 0.0, -9.81));
+}
+
+static void build_free_top(baum_mechanism *mechanism)
+{
+  (void)manifold_add_free_top(mechanism, &free_top.body, free_top.p, free_top.w);
+}
+
+static void build_heavy_top(baum_mechanism *mechanism)
+{
+  build_top(mechanism, &heavy_top, false);
+}
+
+static void build_given_top(baum_mechanism *mechanism)
+{
+  build_top(mechanism, &heavy_top, true);
+}
+
+static void build_ball(baum_mechanism *mechanism)
+{
+  build_top(mechanism, &ball, true);
+}
+
+/* (J0 w)' = (J0 w) x w + moment of the weight about the fixed point, J0 = I + m (s.s - s s^T). */
+static void top_rates(const top *of, const double y[7], double dy[7])
+{
+  const double *s = of->point;
+  const double *w = y + 4;
+  double mass = of->body.mass;
+  double down[3] = {0.0, 0.0, mass * 9.81};
+  const double back[4] = {y[0], -y[1], -y[2], -y[3]};
+  double weight[3];
+  double moment[3];
+  double spin[3];
+  double momentum[3];
+  double matrix[9];
+  double square = s[0] * s[0] + s[1] * s[1] + s[2] * s[2];
+  for (int i = 0; i < 3; i++) {
+    momentum[i] = 0.0;
+    for (int j = 0; j < 3; j++) {
+      double inertia = i == j ? of->body.inertia[i] + mass * square : 0.0;
+      matrix[3 * i + j] = inertia - mass * s[i] * s[j];
+      momentum[i] += matrix[3 * i + j] * w[j];
+    }
+  }
+  rotate(back, down, weight);
+  cross(s, weight, moment);
+  cross(momentum, w, spin);
+  for (int i = 0; i < 3; i++) {
+    moment[i] += spin[i];
+  }
+  double determinant = 0.0;
+  double columns[3][3];
+  for (int i = 0; i < 3; i++) {
+    cross(matrix + 3 * ((i + 1) % 3), matrix + 3 * ((i + 2) % 3), columns[i]);
+  }
+  for (int j = 0; j < 3; j++) {
+    determinant += matrix[j] * columns[0][j];
+  }
+  for (int j = 0; j < 3; j++) {
+    dy[4 + j] =
+      (columns[0][j] * moment[0] + columns[1][j] * moment[1] + columns[2][j] * moment[2]) /
+      determinant;
+  }
+  const double z[4] = {0.0, 0.5 * w[0], 0.5 * w[1], 0.5 * w[2]};
+  quaternion_product(y, z, dy);
+}
+
+/* The classical method with steps of 1/20000 s. */
+static void solve_top(const top *of, double t, double y[7])
+{
+  static const double SHARE[4] = {1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0};
+  static const double AT[4] = {0.0, 0.5, 0.5, 1.0};
+  int steps = (int)ceil(fabs(t) * 20000.0);
+  memcpy(y, of->p, 4 * sizeof *y);
+  memcpy(y + 4, of->w, 3 * sizeof *y);
+  quaternion_normalize(y);
+  for (int n = 0; n < steps; n++) {
+    double h = t / steps;
+    double next[7];
+    double rate[7] = {0.0};
+    memcpy(next, y, sizeof next);
+    for (int k = 0; k < 4; k++) {
+      double at[7];
+      for (int i = 0; i < 7; i++) {
+        at[i] = y[i] + AT[k] * h * rate[i];
+      }
+      top_rates(of, at, rate);
+      for (int i = 0; i < 7; i++) {
+        next[i] += SHARE[k] * h * rate[i];
+      }
+    }
+    memcpy(y, next, sizeof next);
+    quaternion_normalize(y);
+  }
+}
+
+static void solve_free_top(double t, double *q)
+{
+  double y[7];
+  solve_top(&free_top, t, y);
+  memcpy(q, y, 4 * sizeof *q);
+}
+
+static void solve_fixed(const top *of, double t, double *q)
+{
+  double y[7];
+  solve_top(of, t, y);
+  rotate(y, of->point, q);
+  for (int i = 0; i < 3; i++) {
+    q[i] = -q[i];
+  }
+  memcpy(q + 3, y, 4 * sizeof *q);
+}
+
+static void solve_heavy_top(double t, double *q)
+{
+  solve_fixed(&heavy_top, t, q);
+}
+
+static void solve_ball(double t, double *q)
+{
+  solve_fixed(&ball, t, q);
+}
+
+/* ---- all ---- */
+
+const manifold_scene manifold_scenes[MANIFOLD_SCENES] = {
+  {"angle", build_angle, build_angle_twin, translate_angle, NULL, 1, false},
+  {"pendulum", build_pendulum, build_pendulum_twin, translate_one, NULL, 1, false},
+  {"slider-crank", build_crank, build_crank_twin, translate_crank, NULL, 1, false},
+  {"mixed double pendulum", build_mixed, build_mixed_twin, translate_mixed, NULL, 2, false},
+  {"free top", build_free_top, NULL, NULL, solve_free_top, 3, true},
+  {"heavy top", build_heavy_top, NULL, NULL, solve_heavy_top, 3, true},
+  {"heavy top with its Jacobian", build_given_top, NULL, NULL, solve_heavy_top, 3, true},
+  {"ball", build_ball, NULL, NULL, solve_ball, 3, false},
+};
+
+const manifold_scene *manifold_scene_find(const char *name)
+{
+  for (int k = 0; k < MANIFOLD_SCENES; k++) {
+    if (strcmp(manifold_scenes[k].name, name) == 0) {
+      return &manifold_scenes[k];
+    }
+  }
+  fail_msg("there is no scene %s", name);
+  return NULL;
+}
+
+static baum_mechanism *make(void (*build)(baum_mechanism *))
+{
+  baum_mechanism *mechanism = NULL;
+  check(baum_mechanism_create(&mechanism));
+  build(mechanism);
+  check(baum_mechanism_freeze(mechanism));
+  return mechanism;
+}
+
+baum_mechanism *manifold_scene_make(const manifold_scene *scene)
+{
+  return make(scene->build);
+}
+
+baum_mechanism *manifold_scene_make_twin(const manifold_scene *scene)
+{
+  return make(scene->build_twin);
+}
+
+void manifold_scene_solve(const manifold_scene *scene, double t, double *q)
+{
+  if (scene->solve) {
+    scene->solve(t, q);
+    return;
+  }
+  baum_mechanism *twin = manifold_scene_make_twin(scene);
+  baum_simulation *run = NULL;
+  baum_simulation_options options = baum_simulation_options_default();
+  options.integrator = baum_rk8();
+  options.formulation = BAUM_FORMULATION_PROJECTION;
+  options.step = 1e-3;
+  check(baum_simulation_create(twin, &options, &run));
+  check(baum_simulation_advance_to(run, t));
+  scene->translate(baum_simulation_q(run), q);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(twin);
+}
