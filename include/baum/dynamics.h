@@ -54,6 +54,26 @@ BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_in
 /** Present value of an input; NaN for NULL and for ids of others. */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
+/** Rates of positions q' = N(q) v; v where q is a vector, as in the plane.
+ *  @param[in]  q,v  (nq), (nv)
+ *  @param[out] dq   (nq)
+ */
+BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
+                                         const double *v, double *dq);
+
+/** Move positions by a displacement of velocity size: q + dx where q is a vector.
+ *  @param[in]     dx  (nv)
+ *  @param[in,out] q   (nq)
+ */
+BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double *dx, double *q);
+
+/** The displacement by which baum_workspace_move() leads from one configuration to another.
+ *  @param[in]  from,to  (nq) each
+ *  @param[out] dx       (nv)
+ */
+BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
+                                               const double *to, double *dx);
+
 /** Constraint residual Phi(q, t) (1).
  *  @param[in]  q    (nq)
  *  @param[out] phi  (nc) [m], [rad] or the unit of a user constraint
@@ -61,7 +81,7 @@ BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Velocity Jacobian J = dPhi/dq (3).
+/** Velocity Jacobian J = dPhi/dq N (3), N the identity where q is a vector.
  *  @param[out] jacobian  (nc x nv)
  */
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
@@ -121,8 +141,8 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates: q' - v, M v' + J^T lambda - g, and
- *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - v + W^-1 J^T mu instead of the first,
+/** Which equations baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and
+ *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - N (v - W^-1 J^T mu) instead of the first,
  *  and with mu as many unknowns more; mu is zero but for the errors of a method. W is constant and
  *  diagonal: the diagonal of M in the design configuration at t = 0, for coordinates of scale s with less than
  *  a millionth of the largest M_kk s_k^2 that millionth over s^2. */

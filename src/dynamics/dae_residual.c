@@ -44,8 +44,7 @@ static void constraint_rows(const baum_workspace *w, const baum_dae *dae, const 
   }
 }
 
-/* v - W^-1 J^T mu. */
-static const double *correct_velocities(baum_workspace *w, const double *v, const double *mu)
+const double *baum_i_corrected_velocities(baum_workspace *w, const double *v, const double *mu)
 {
   double *out = w->work_v;
   memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
@@ -103,7 +102,7 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   constraint_rows(w, dae, dv, rows);
   hold_omitted(w, lambda, rows);
   if (dae->index == BAUM_RESIDUAL_GGL) {
-    v = correct_velocities(w, v, lambda + nc);
+    v = baum_i_corrected_velocities(w, v, lambda + nc);
     memcpy(rows + nc, w->phi, (size_t)nc * sizeof *rows);
     hold_omitted(w, lambda + nc, rows + nc);
   }

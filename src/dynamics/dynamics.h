@@ -211,6 +211,10 @@ int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
 baum_status baum_i_residual(baum_workspace *workspace, const baum_dae *dae, double t,
                             const double *y, const double *dy, double *residual);
 
+/* v - W^-1 J^T mu at the last J, until workspace->work_v is used again. */
+const double *baum_i_corrected_velocities(baum_workspace *workspace, const double *v,
+                                          const double *mu);
+
 /* Fixed sparsity of the Jacobian: compressed columns, sorted rows;
  * made once, filled without allocation. */
 typedef struct baum_i_residual_matrix baum_i_residual_matrix;
@@ -225,6 +229,10 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         baum_workspace *workspace, const baum_dae *dae, double c,
                                         double t, const double *y, const double *dy,
                                         double *values);
+
+/* dae_positions.c: with dq itself, made anew. As baum_workspace_residual_jacobian(). */
+baum_status baum_i_residual_jacobian(baum_workspace *workspace, const baum_dae *dae, double c,
+                                     double t, const double *y, const double *dy, baum_sparse *out);
 
 /* ---- finite.c ---- */
 

@@ -101,6 +101,35 @@ baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *
   return BAUM_OK;
 }
 
+/* ---- configuration manifold ---- */
+
+baum_status baum_workspace_rate(baum_workspace *workspace, const double *q, const double *v,
+                                double *dq)
+{
+  BAUM_I_TRY(check_state("baum_workspace_rate", workspace, 0.0, q, v, dq));
+  baum_i_rate(workspace->mechanism, q, v, dq);
+  return BAUM_OK;
+}
+
+baum_status baum_workspace_move(baum_workspace *workspace, const double *dx, double *q)
+{
+  const char *call = "baum_workspace_move";
+  BAUM_I_TRY(check_point(call, workspace, 0.0, q, q));
+  BAUM_I_TRY(check_finite(call, "dx", dx, workspace->mechanism->nv));
+  baum_i_move(workspace->mechanism, 1.0, dx, q);
+  return BAUM_OK;
+}
+
+baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
+                                      const double *to, double *dx)
+{
+  const char *call = "baum_workspace_difference";
+  BAUM_I_TRY(check_point(call, workspace, 0.0, from, dx));
+  BAUM_I_TRY(check_finite(call, "to", to, workspace->mechanism->nq));
+  baum_i_difference(workspace->mechanism, from, to, dx);
+  return BAUM_OK;
+}
+
 /* ---- position level ---- */
 
 baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q, double *phi)
@@ -361,19 +390,6 @@ baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *d
   return status == BAUM_OK ? baum_i_residual(workspace, dae, t, y, dy, residual) : status;
 }
 
-static void copy_pattern(const baum_i_residual_matrix *matrix, int size, baum_sparse *out)
-{
-  out->nonzeros = baum_i_residual_matrix_nonzeros(matrix);
-  if (out->columns) {
-    memcpy(out->columns, baum_i_residual_matrix_columns(matrix),
-           ((size_t)size + 1) * sizeof *out->columns);
-  }
-  if (out->rows) {
-    memcpy(out->rows, baum_i_residual_matrix_rows(matrix),
-           (size_t)out->nonzeros * sizeof *out->rows);
-  }
-}
-
 baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const baum_dae *dae,
                                              double c, double t, const double *y, const double *dy,
                                              baum_sparse *out)
@@ -392,16 +408,7 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
   if (status != BAUM_OK) {
     return status;
   }
-  baum_i_residual_matrix *matrix = NULL;
-  status = baum_i_residual_matrix_create(workspace, dae->index, &matrix);
-  if (status == BAUM_OK && out->values) {
-    status = baum_i_residual_matrix_fill(matrix, workspace, dae, c, t, y, dy, out->values);
-  }
-  if (status == BAUM_OK) {
-    copy_pattern(matrix, baum_i_residual_size(workspace->mechanism, dae->index), out);
-  }
-  baum_i_residual_matrix_destroy(matrix);
-  return status;
+  return baum_i_residual_jacobian(workspace, dae, c, t, y, dy, out);
 }
 
 /* ---- assembly and projection ---- */

@@ -100,14 +100,17 @@ static void normalize(const baum_study *study, const baum_i_layout *l, int first
 baum_status baum_i_study_weigh(baum_study *study)
 {
   baum_i_layout l = baum_i_study_layout(study);
-  const double *scale = study->mechanism->scale;
+  const baum_mechanism *m = study->mechanism;
   baum_i_free(study->reference.weight);
   double *weight = study->reference.weight = baum_i_alloc((size_t)l.width, sizeof *weight);
   if (!weight) {
     return baum_i_fail_memory();
   }
+  for (int i = 0; i < l.nq; i++) {
+    weight[i] = 1.0 / m->position_scale[i];
+  }
   for (int i = 0; i < l.nv; i++) {
-    weight[i] = weight[l.v + i] = 1.0 / scale[i];
+    weight[l.v + i] = 1.0 / m->scale[i];
   }
   baum_status status = l.nc > 0 ? measure_rows(study, weight + l.lambda) : BAUM_OK;
   weight[l.energy] = weight[l.energy + 1] = 1.0;

@@ -1,0 +1,290 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The Jacobian dF/dy + c dF/dy' with dq itself, from the matrix T of dae_matrix.c, which has
+ * displacements dx of velocity size. Where q is no vector dx = N^+ dq, and off the manifold nothing
+ * changes but the rows of q themselves, so that
+ *
+ *   L T R + B,   L = diag(N, I),   R = diag(N^+, I),
+ *   B = c I - (N u)_q - N (c I - N^+ (N v)_q N) N^+   in the rows and columns of q
+ *
+ * with u = v, for GGL v - W^-1 J^T mu. N and B consist of blocks of bodies.
+ */
+#include <string.h>
+
+#include "base/alloc.h"
+#include "base/message.h"
+#include "dynamics/dynamics.h"
+#include "linear/compress.h"
+
+/* Of a body's q, in relevant changes. N is mostly linear in q: then the step does not matter. */
+static const double STEP = 1e-5;
+
+/* One matrix while it is made. */
+typedef struct widening {
+  baum_workspace *w;
+  const double *q;
+  const double *u; /* (nv) */
+  double c;
+  int widest;            /* nq of a body, at most */
+  double *memory;        /* behind all below */
+  double *rate;          /* (nv x widest) N: row j is column j of its body's */
+  double *inverse;       /* (nv x widest) N^+: row j is row j of its body's */
+  double *bend;          /* (nq x widest) (N u)_q likewise, by rows */
+  double *unit;          /* (nq) */
+  double *room;          /* (4 nq) */
+  baum_i_places *places; /* learning, else NULL */
+  const int32_t *slot;   /* filling: of the next entry */
+  double *values;
+  size_t count; /* entries so far */
+} widening;
+
+static void emit(widening *x, int row, int column, double value)
+{
+  x->count++;
+  if (x->places) {
+    baum_i_places_add(x->places, row, column);
+  } else if (x->slot) {
+    x->values[*x->slot++] += value;
+  }
+}
+
+/* ---- N, N^+ and (N u)_q ---- */
+
+static const baum_i_body *body_of_position(const baum_mechanism *m, int i)
+{
+  int k = m->body_count;
+  while (m->bodies[k]->q > i) {
+    k--;
+  }
+  return m->bodies[k];
+}
+
+static void put_rates(const widening *x)
+{
+  const baum_mechanism *m = x->w->mechanism;
+  for (int j = 0; j < m->nv; j++) {
+    const baum_i_body *body = baum_i_velocity_body(m, j);
+    memset(x->unit, 0, (size_t)m->nv * sizeof *x->unit);
+    x->unit[j] = 1.0;
+    baum_i_rate(m, x->q, x->unit, x->room);
+    memcpy(x->rate + (ptrdiff_t)j * x->widest, x->room + body->q,
+           (size_t)body->nq * sizeof *x->room);
+  }
+}
+
+static void put_inverse(const widening *x)
+{
+  const baum_mechanism *m = x->w->mechanism;
+  for (int i = 0; i < m->nq; i++) {
+    const baum_i_body *body = body_of_position(m, i);
+    memset(x->unit, 0, (size_t)m->nq * sizeof *x->unit);
+    x->unit[i] = 1.0;
+    const double *dx = baum_i_tangent(m, x->q, x->unit, x->room);
+    for (int j = body->v; j < body->v + body->nv; j++) {
+      x->inverse[j * x->widest + i - body->q] = dx[j];
+    }
+  }
+}
+
+static void put_bends(const widening *x)
+{
+  const baum_mechanism *m = x->w->mechanism;
+  double *ahead = x->room;
+  double *behind = x->room + m->nq;
+  memcpy(x->unit, x->q, (size_t)m->nq * sizeof *x->q);
+  for (int i = 0; i < m->nq; i++) {
+    const baum_i_body *body = body_of_position(m, i);
+    double h = STEP * m->position_scale[i];
+    x->unit[i] = x->q[i] + h;
+    baum_i_rate(m, x->unit, x->u, ahead);
+    x->unit[i] = x->q[i] - h;
+    baum_i_rate(m, x->unit, x->u, behind);
+    x->unit[i] = x->q[i];
+    for (int k = body->q; k < body->q + body->nq; k++) {
+      x->bend[k * x->widest + i - body->q] = (ahead[k] - behind[k]) / (2.0 * h);
+    }
+  }
+}
+
+/* ---- the walk ---- */
+
+/* Rows, or columns, that a row or column of T comes to: the first, how many, and their factors. */
+typedef struct image {
+  int first;
+  int count;
+  const double *factor;
+} image;
+
+static image image_of(const widening *x, const double *factors, int i)
+{
+  static const double ONE = 1.0;
+  const baum_mechanism *m = x->w->mechanism;
+  if (i >= m->nv) {
+    return (image){i - m->nv + m->nq, 1, &ONE};
+  }
+  const baum_i_body *body = baum_i_velocity_body(m, i);
+  if (!body->manifold) {
+    return (image){body->q + i - body->v, 1, &ONE};
+  }
+  return (image){body->q, body->nq, factors + (ptrdiff_t)i * x->widest};
+}
+
+static void walk_entry(widening *x, int i, int j, double value)
+{
+  image rows = image_of(x, x->rate, i);
+  image columns = image_of(x, x->inverse, j);
+  for (int r = 0; r < rows.count; r++) {
+    for (int s = 0; s < columns.count; s++) {
+      emit(x, rows.first + r, columns.first + s, rows.factor[r] * value * columns.factor[s]);
+    }
+  }
+}
+
+/* Of B, at row r and column s of a body. */
+static double own_entry(const widening *x, const baum_i_body *body, int r, int s)
+{
+  double value = (r == s ? x->c : 0.0) - x->bend[(body->q + r) * x->widest + s];
+  for (int i = 0; i < body->nv; i++) {
+    for (int j = 0; j < body->nv; j++) {
+      double inner = (i == j ? x->c : 0.0) - x->w->rate_q[body->mass + i * body->nv + j];
+      value -=
+        x->rate[(body->v + i) * x->widest + r] * inner * x->inverse[(body->v + j) * x->widest + s];
+    }
+  }
+  return value;
+}
+
+static void walk(widening *x, const baum_i_residual_matrix *narrow, const double *values)
+{
+  const baum_mechanism *m = x->w->mechanism;
+  const int32_t *columns = baum_i_residual_matrix_columns(narrow);
+  const int32_t *rows = baum_i_residual_matrix_rows(narrow);
+  x->count = 0;
+  for (int j = 0; j < baum_i_residual_matrix_size(narrow); j++) {
+    for (int32_t k = columns[j]; k < columns[j + 1]; k++) {
+      walk_entry(x, rows[k], j, values[k]);
+    }
+  }
+  for (int k = 1; k <= m->body_count; k++) {
+    const baum_i_body *body = m->bodies[k];
+    for (int i = 0; body->manifold && i < body->nq * body->nq; i++) {
+      int r = i / body->nq;
+      int s = i % body->nq;
+      emit(x, body->q + r, body->q + s, own_entry(x, body, r, s));
+    }
+  }
+}
+
+/* ---- the whole ---- */
+
+static bool make(widening *x, const baum_dae *dae, const double *y)
+{
+  const baum_mechanism *m = x->w->mechanism;
+  for (int k = 1; k <= m->body_count; k++) {
+    x->widest = m->bodies[k]->nq > x->widest ? m->bodies[k]->nq : x->widest;
+  }
+  size_t nq = (size_t)m->nq;
+  size_t wide = (size_t)x->widest;
+  x->memory = baum_i_alloc(wide * (2 * (size_t)m->nv + nq) + 5 * nq, sizeof *x->memory);
+  if (!x->memory) {
+    return false;
+  }
+  x->rate = x->memory;
+  x->inverse = x->rate + wide * (size_t)m->nv;
+  x->bend = x->inverse + wide * (size_t)m->nv;
+  x->unit = x->bend + wide * nq;
+  x->room = x->unit + nq;
+  x->q = y;
+  x->u = y + nq;
+  if (dae->index == BAUM_RESIDUAL_GGL) {
+    x->u = baum_i_corrected_velocities(x->w, y + nq, y + nq + m->nv + m->nc);
+  }
+  if (!m->flat) {
+    put_rates(x);
+    put_inverse(x);
+    put_bends(x);
+  }
+  return true;
+}
+
+/* The pattern of a walk's places, in arrays of the caller's. */
+static baum_status learn(widening *x, const baum_i_residual_matrix *narrow, const double *values,
+                         int n, baum_sparse *pattern, int32_t *slot)
+{
+  baum_i_places places;
+  BAUM_I_TRY(baum_i_places_create(x->count, &places));
+  x->places = &places;
+  walk(x, narrow, values);
+  x->places = NULL;
+  baum_status status = baum_i_compress(&places, n, pattern->columns, pattern->rows, slot);
+  pattern->nonzeros = status == BAUM_OK ? pattern->columns[n] : 0;
+  baum_i_places_clear(&places);
+  return status;
+}
+
+static void give(const baum_sparse *pattern, int n, baum_sparse *out)
+{
+  out->nonzeros = pattern->nonzeros;
+  if (out->columns) {
+    memcpy(out->columns, pattern->columns, ((size_t)n + 1) * sizeof *out->columns);
+  }
+  if (out->rows) {
+    memcpy(out->rows, pattern->rows, (size_t)pattern->nonzeros * sizeof *out->rows);
+  }
+}
+
+static baum_status widen(widening *x, const baum_i_residual_matrix *narrow, const double *values,
+                         int n, baum_sparse *out)
+{
+  walk(x, narrow, values);
+  baum_sparse pattern = {.columns = baum_i_alloc((size_t)n + 1, sizeof *pattern.columns),
+                         .rows = baum_i_alloc(x->count, sizeof *pattern.rows)};
+  int32_t *slot = baum_i_alloc(x->count, sizeof *slot);
+  baum_status status = BAUM_ERR_MEMORY;
+  if (pattern.columns && pattern.rows && slot) {
+    status = learn(x, narrow, values, n, &pattern, slot);
+  }
+  if (status == BAUM_OK) {
+    give(&pattern, n, out);
+  }
+  if (status == BAUM_OK && out->values) {
+    memset(out->values, 0, (size_t)pattern.nonzeros * sizeof *out->values);
+    x->values = out->values;
+    x->slot = slot;
+    walk(x, narrow, values);
+  }
+  baum_i_free(pattern.columns);
+  baum_i_free(pattern.rows);
+  baum_i_free(slot);
+  return status == BAUM_OK ? BAUM_OK : baum_i_fail_memory();
+}
+
+static baum_status make_wide(baum_workspace *w, const baum_dae *dae, double c, const double *y,
+                             const baum_i_residual_matrix *narrow, const double *values,
+                             baum_sparse *out)
+{
+  widening x = {.w = w, .c = c};
+  baum_status status = make(&x, dae, y) ? BAUM_OK : baum_i_fail_memory();
+  if (status == BAUM_OK) {
+    status = widen(&x, narrow, values, baum_i_residual_size(w->mechanism, dae->index), out);
+  }
+  baum_i_free(x.memory);
+  return status;
+}
+
+baum_status baum_i_residual_jacobian(baum_workspace *w, const baum_dae *dae, double c, double t,
+                                     const double *y, const double *dy, baum_sparse *out)
+{
+  baum_i_residual_matrix *matrix = NULL;
+  BAUM_I_TRY(baum_i_residual_matrix_create(w, dae->index, &matrix));
+  double *values = baum_i_alloc((size_t)baum_i_residual_matrix_nonzeros(matrix), sizeof *values);
+  baum_status status = values ? BAUM_OK : baum_i_fail_memory();
+  if (status == BAUM_OK && out->values) {
+    status = baum_i_residual_matrix_fill(matrix, w, dae, c, t, y, dy, values);
+  }
+  if (status == BAUM_OK) {
+    status = make_wide(w, dae, c, y, matrix, values, out);
+  }
+  baum_i_free(values);
+  baum_i_residual_matrix_destroy(matrix);
+  return status;
+}
