@@ -53,17 +53,16 @@ static const char *const NUMBERS[BAUM_I_SAVED_NUMBERS] = {"step",
                                                           "the first number of the gains",
                                                           "the second number of the gains"};
 
-static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {
-  "the rule of the gains",
-  "row_gain_count",
-  "the sum over row_gains",
-  "solver",
-  "energy_account",
-  "error_check",
-  "the rank of the constraints",
-  "whether blocks suit",
-  "the number of events",
-  "the sum over what the events are"};
+static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {"the rule of the gains",
+                                                            "row_gain_count",
+                                                            "the sum over row_gains",
+                                                            "solver",
+                                                            "energy_account",
+                                                            "error_check",
+                                                            "the rank of the constraints",
+                                                            "whether blocks suit",
+                                                            "the number of events",
+                                                            "the sum over what the events are"};
 
 static int64_t sum_of(const void *bytes, size_t size)
 {
