@@ -344,6 +344,7 @@ static baum_status prepare(baum_simulation *run, double t, const double *q, cons
 {
   if (is_of_this_run(run, t, q, v)) {
     start_as_given(run, t, q, v);
+    place_fixed_bodies(run);
   } else {
     BAUM_I_TRY(baum_i_run_start(run, t, q, v));
     BAUM_I_TRY(baum_i_run_check_velocities(run));
@@ -377,6 +378,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
   } else {
     simulation->counters.start_change = start_change;
     baum_i_schedule_move(simulation, t, before);
+    baum_i_clear_fixed_rows(simulation->workspace);
   }
   return baum_i_run_end_call(simulation, status, &kept);
 }
