@@ -191,7 +191,8 @@ static baum_status add_potentials(baum_i_account *account, double factor, double
   return BAUM_OK;
 }
 
-static baum_status integrate(baum_simulation *run, const stretch *s, double works[BAUM_I_WORKS])
+static baum_status integrate_powers(baum_simulation *run, const stretch *s,
+                                    double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
   const baum_i_state *from = &account->from;
@@ -290,12 +291,12 @@ static baum_status work_to(baum_simulation *run, const baum_i_state *state,
     s.v = raw + run->workspace->mechanism->nq;
   }
   BAUM_I_TRY(choose_nodes(run, &s));
-  BAUM_I_TRY(integrate(run, &s, works));
+  BAUM_I_TRY(integrate_powers(run, &s, works));
   return projected ? add_projection(account, state->t, raw, state->q, state->v, works) : BAUM_OK;
 }
 
 /* Equations as the run has them now. */
-static void follow(baum_simulation *run)
+static void use_present_equations(baum_simulation *run)
 {
   baum_i_account *account = run->account;
   account->problem.direction = run->problem.direction;
@@ -320,7 +321,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
   if (account->broken) {
     return;
   }
-  follow(run);
+  use_present_equations(run);
   baum_status status = starts_elsewhere(run) ? move_start(run, account->before) : BAUM_OK;
   if (status == BAUM_OK) {
     status = work_to(run, state, works);
@@ -335,7 +336,7 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
 
 /* ---- in the course of a run ---- */
 
-static void add(const double *what, double *to)
+static void add_works(const double *what, double *to)
 {
   for (int i = 0; i < BAUM_I_WORKS; i++) {
     to[i] += what[i];
@@ -375,7 +376,7 @@ void baum_i_account_step(baum_simulation *run)
 
 void baum_i_account_accept(baum_simulation *run)
 {
-  add(run->account->last, run->account->before);
+  add_works(run->account->last, run->account->before);
   memset(run->account->last, 0, sizeof run->account->last);
 }
 
@@ -385,7 +386,7 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   baum_i_account *account = run->account;
   const baum_mechanism *m = run->workspace->mechanism;
   stretch s = {.t = t};
-  follow(run);
+  use_present_equations(run);
   BAUM_I_TRY(choose_nodes(run, &s));
   BAUM_I_TRY(find_node(run, &s, 1.0));
   memcpy(account->unprojected, account->node.q, (size_t)m->nq * sizeof(double));
@@ -401,7 +402,7 @@ void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
   bool fixed = baum_i_problem_has_fixed_step(&run->problem);
   memcpy(account->read, account->before, sizeof account->read);
   if (fixed ? state == &run->trial : state->t == run->ahead.t) {
-    add(account->last, account->read);
+    add_works(account->last, account->read);
   } else if (!fixed && state->t != account->from.t) {
     bool projected = run->problem.formulation == BAUM_FORMULATION_PROJECTION;
     if (projected && find_unprojected(run, state->t) != BAUM_OK) {

@@ -255,7 +255,7 @@ typedef struct public_call {
   int64_t taken; /* steps */
 } public_call;
 
-static void begin(baum_simulation *run, public_call *c)
+static void begin_call(baum_simulation *run, public_call *c)
 {
   (void)clock_gettime(CLOCK_MONOTONIC, &c->start);
   run->last_progress = c->start;
@@ -264,7 +264,7 @@ static void begin(baum_simulation *run, public_call *c)
 }
 
 /* Look at the state where the call ends, which no later step has looked at yet. */
-static baum_status finish(baum_simulation *run, baum_status status, const public_call *c)
+static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
   baum_i_sentence reason;
@@ -298,8 +298,8 @@ baum_status baum_simulation_advance_to(baum_simulation *simulation, double t)
 {
   BAUM_I_TRY(check_time(simulation, "baum_simulation_advance_to", t));
   public_call c;
-  begin(simulation, &c);
-  return finish(simulation, advance(simulation, t, &c.taken), &c);
+  begin_call(simulation, &c);
+  return finish_call(simulation, advance(simulation, t, &c.taken), &c);
 }
 
 /* Of the method's own length, from the end of the last one. */
@@ -325,7 +325,7 @@ static baum_status one_step(baum_simulation *run)
   return status;
 }
 
-static baum_status steps(baum_simulation *run, int64_t count)
+static baum_status take_steps(baum_simulation *run, int64_t count)
 {
   BAUM_I_TRY(turn(run, INFINITY));
   for (int64_t k = 0; k < count; k++) {
@@ -343,8 +343,8 @@ baum_status baum_simulation_step(baum_simulation *simulation, int64_t count)
                        (long long)count);
   }
   public_call c;
-  begin(simulation, &c);
-  return finish(simulation, steps(simulation, count), &c);
+  begin_call(simulation, &c);
+  return finish_call(simulation, take_steps(simulation, count), &c);
 }
 
 /* ---- sampling ---- */
@@ -433,7 +433,7 @@ baum_status baum_simulation_sample(baum_simulation *simulation, const double *ti
   *done = 0;
   BAUM_I_TRY(check_sample(simulation, times, n, channels, count, rows));
   public_call c;
-  begin(simulation, &c);
-  return finish(simulation, sample_all(simulation, times, n, channels, count, rows, done, &c.taken),
-                &c);
+  begin_call(simulation, &c);
+  return finish_call(simulation,
+                     sample_all(simulation, times, n, channels, count, rows, done, &c.taken), &c);
 }

@@ -155,7 +155,7 @@ void baum_i_companion_destroy(baum_i_companion *c)
 
 /* ---- compare ---- */
 
-static void warn(baum_simulation *run, double t)
+static void warn_of_error(baum_simulation *run, double t)
 {
   double error = run->counters.error_estimate;
   char advice[64] = "take a smaller rtol";
@@ -191,7 +191,7 @@ static void judge(baum_simulation *run, double t, bool ends)
   const baum_i_companion *c = run->companion;
   bool lasts = fabs(t - c->apart) * run->problem.rate > LASTING;
   if ((lasts || (ends && !isnan(c->apart))) && !baum_i_run_has_warned(run, BAUM_WARNING_ACCURACY)) {
-    warn(run, t);
+    warn_of_error(run, t);
   }
 }
 
@@ -274,17 +274,17 @@ static void start_from(baum_simulation *run, const baum_i_state *state)
   c->method->forget(c->self);
 }
 
-static void keep(baum_simulation *run, const baum_i_state *state)
+static void keep_state(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
   baum_i_run_copy(run, &c->kept[1], &c->kept[0]);
   baum_i_run_copy(run, state, &c->kept[1]);
 }
 
-static void keep_twice(baum_simulation *run)
+static void keep_present_twice(baum_simulation *run)
 {
-  keep(run, &run->state);
-  keep(run, &run->state);
+  keep_state(run, &run->state);
+  keep_state(run, &run->state);
   run->companion->local.known = 0;
 }
 
@@ -311,7 +311,7 @@ void baum_i_companion_begin(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
   if (c) {
-    keep_twice(run);
+    keep_present_twice(run);
     c->sum = 0.0;
     c->unseen = 0;
     c->doing = WAITS;
@@ -337,13 +337,13 @@ static bool may_matter(baum_simulation *run)
   return !(c->sum <= NEGLIGIBLE);
 }
 
-static void wait(baum_simulation *run, const baum_i_state *state)
+static void wait_or_set_out(baum_simulation *run, const baum_i_state *state)
 {
   bool is_clear = !run->crossings || !run->crossings->open;
   if (may_matter(run)) {
     set_out(run, &run->companion->kept[0]);
   } else if (is_clear && run->counters.steps % STRIDE == 0) {
-    keep(run, state);
+    keep_state(run, state);
   }
 }
 
@@ -351,7 +351,7 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_companion *c = run->companion;
   if (c && c->doing == WAITS) {
-    wait(run, state);
+    wait_or_set_out(run, state);
   }
   if (goes_along(run) && c->problem.direction * (state->t - c->state.t) >= 0.0 &&
       reach(run, state)) {
@@ -383,7 +383,7 @@ void baum_i_companion_restart(baum_simulation *run)
     c->state.t = run->state.t;
     c->method->forget(c->self);
   } else if (c) {
-    keep_twice(run);
+    keep_present_twice(run);
   }
 }
 

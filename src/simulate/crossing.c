@@ -106,7 +106,7 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
 
 /* ---- states ---- */
 
-static void note(baum_simulation *run, const baum_i_state *state, double pivot, int joint)
+static void note_state(baum_simulation *run, const baum_i_state *state, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
   double since = p->recent_count > 0 ? state->t - p->recent[p->recent_count - 1].t : 0.0;
@@ -132,7 +132,7 @@ void baum_i_crossings_note(baum_simulation *run, const baum_i_state *state)
   if (run->crossings) {
     int joint = -1;
     double pivot = baum_i_smallest_pivot(run->workspace, &joint);
-    note(run, state, pivot, joint);
+    note_state(run, state, pivot, joint);
   }
 }
 
@@ -174,7 +174,7 @@ static void see_turn(baum_simulation *run)
   p->present.largest_turn = fmax(p->present.largest_turn, size > 0.0 ? change / size : 0.0);
 }
 
-static void begin(baum_i_crossings *p, double from)
+static void open_crossing(baum_i_crossings *p, double from)
 {
   p->open = true;
   p->lowest.t = from;
@@ -210,7 +210,7 @@ static bool is_lowest(baum_simulation *run, double t, const double *q, double pi
 }
 
 /* Between the last three states. */
-static void search(baum_simulation *run)
+static void search_least_pivot(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   double at = 0.0;
@@ -243,7 +243,7 @@ static const char *const BRANCHES[] = {
                           "compare with projection and another step",
 };
 
-static void record(baum_simulation *run, double to)
+static void record_crossing(baum_simulation *run, double to)
 {
   baum_i_crossings *p = run->crossings;
   baum_near_singular entry = {.struct_size = sizeof entry, .begin = p->present.from, .end = to};
@@ -275,7 +275,7 @@ static void close_crossing(baum_simulation *run)
   baum_i_crossings *p = run->crossings;
   double pivot = p->lowest.pivot;
   if (is_singular(run, pivot) && !keeps_its_rank(run, p->lowest.t, p->lowest.q, pivot)) {
-    record(run, p->recent[p->recent_count - 1].t);
+    record_crossing(run, p->recent[p->recent_count - 1].t);
   }
   p->open = false;
 }
@@ -285,7 +285,7 @@ static void look_inside(baum_simulation *run)
   baum_i_crossings *p = run->crossings;
   see_turn(run);
   if (may_have_jumped(p)) {
-    search(run);
+    search_least_pivot(run);
   }
   if (is_near(&p->recent[p->recent_count - 1])) {
     see_last(run);
@@ -301,8 +301,8 @@ static bool has_jumped(baum_simulation *run)
   if (is_near(&p->recent[p->recent_count - 1]) || !may_have_jumped(p)) {
     return false;
   }
-  begin(p, p->recent[0].t);
-  search(run);
+  open_crossing(p, p->recent[0].t);
+  search_least_pivot(run);
   p->open = is_singular(run, p->lowest.pivot);
   return p->open;
 }
@@ -328,13 +328,13 @@ static void look_outside(baum_simulation *run)
   }
   keep_last_but_one(run);
   if (is_near(last)) {
-    begin(p, p->recent_count >= 2 ? last[-1].t : last->t);
+    open_crossing(p, p->recent_count >= 2 ? last[-1].t : last->t);
     see_turn(run);
     see_last(run);
   }
 }
 
-static void look(baum_simulation *run)
+static void look_by_probe(baum_simulation *run)
 {
   baum_i_probe probe;
   baum_i_probe_begin(&probe, run->workspace);
@@ -355,7 +355,7 @@ void baum_i_crossings_look(baum_simulation *run)
   }
   p->unseen = false;
   if (p->open || is_near(&p->recent[p->recent_count - 1]) || may_have_jumped(p)) {
-    look(run);
+    look_by_probe(run);
   } else {
     keep_last_but_one(run);
   }
@@ -431,7 +431,7 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
     look_between(run, start + (end->t - start) * k / pieces);
   }
   if (status == BAUM_OK) {
-    note(run, end, pivot, joint);
+    note_state(run, end, pivot, joint);
   }
   (void)baum_i_probe_end(&probe, BAUM_OK);
 }

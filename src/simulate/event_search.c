@@ -130,7 +130,7 @@ static double tolerance_of(const baum_i_event *event, double t)
 }
 
 /* The next time to look at. */
-static double choose(const bracket *is, double tolerance, int try)
+static double choose_time(const bracket *is, double tolerance, int try)
 {
   double width = is->b - is->a;
   double x = is->a + width * is->fa / (is->fa - is->fb);
@@ -146,7 +146,7 @@ static double choose(const bracket *is, double tolerance, int try)
 
 /* Take x as one of the ends, a when it is before the event. An end that stays is given half its value, or it would stay
  * for long (Illinois). */
-static void narrow(bracket *is, double x, double value, bool before)
+static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
   double *stays = before ? &is->fb : &is->fa;
@@ -182,7 +182,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
   bracket is = bracket_of(run, k, t);
   double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
   for (int try = 0; try < MOST_TRIES && !is_narrow(&is, tolerance); try++) {
-    double x = choose(&is, tolerance, try);
+    double x = choose_time(&is, tolerance, try);
     if (x == is.a || x == is.b) {
       break;
     }
@@ -190,7 +190,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
     if (status != BAUM_OK) {
       return status;
     }
-    narrow(&is, x, event->next, baum_i_sign(event->next) == side);
+    narrow_bracket(&is, x, event->next, baum_i_sign(event->next) == side);
   }
   event->found = is.b;
   return BAUM_OK;
@@ -198,7 +198,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
 
 /* ---- what has been found ---- */
 
-static void record(baum_simulation *run, int k, double t)
+static void record_event(baum_simulation *run, int k, double t)
 {
   baum_i_events *events = run->events;
   events->marks[k].last = t;
@@ -247,7 +247,7 @@ static double end_of_group(const baum_simulation *run, int first)
 }
 
 /* The events up to `end`, all at that time. Is one of them terminal? */
-static int happen(baum_simulation *run, double end)
+static int record_group(baum_simulation *run, double end)
 {
   baum_i_events *events = run->events;
   int terminal = -1;
@@ -257,7 +257,7 @@ static int happen(baum_simulation *run, double end)
       continue;
     }
     if (!leaves_zero(run, k)) {
-      record(run, k, end);
+      record_event(run, k, end);
       terminal = event->def.terminal && terminal < 0 ? k : terminal;
     }
     events->marks[k].side = -events->marks[k].side;
@@ -269,7 +269,7 @@ static int happen(baum_simulation *run, double end)
 
 /* ---- a stretch ---- */
 
-static baum_status stop(baum_simulation *run, int terminal, double t)
+static baum_status stop_at(baum_simulation *run, int terminal, double t)
 {
   baum_i_events *events = run->events;
   BAUM_I_TRY(value_at(run, t));
@@ -286,13 +286,13 @@ static baum_status stop(baum_simulation *run, int terminal, double t)
 }
 
 /* In order of time, up to the first that is terminal. */
-static baum_status deliver(baum_simulation *run)
+static baum_status deliver_events(baum_simulation *run)
 {
   for (int first = first_found(run); first >= 0; first = first_found(run)) {
     double end = end_of_group(run, first);
-    int terminal = happen(run, end);
+    int terminal = record_group(run, end);
     if (terminal >= 0) {
-      return stop(run, terminal, end);
+      return stop_at(run, terminal, end);
     }
   }
   return BAUM_OK;
@@ -351,7 +351,7 @@ static bool is_end(const baum_simulation *run, double t)
 }
 
 /* From events->t to t, without looks between. */
-static baum_status look(baum_simulation *run, double t, bool exact)
+static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;
   exact = exact || is_end(run, t);
@@ -362,7 +362,7 @@ static baum_status look(baum_simulation *run, double t, bool exact)
   }
   if (any_has_passed(events)) {
     BAUM_I_TRY(locate_all(run, t));
-    BAUM_I_TRY(deliver(run));
+    BAUM_I_TRY(deliver_events(run));
   }
   keep_values(events, t);
   return BAUM_OK;
@@ -382,11 +382,11 @@ baum_status baum_i_events_watch(baum_simulation *run, double to)
   for (int k = 1; k < QUARTERS; k++) {
     double t = from + k * (end - from) / QUARTERS;
     if (is_before(run, events->t, t) && is_before(run, t, to)) {
-      BAUM_I_TRY(look(run, t, false));
+      BAUM_I_TRY(search_until(run, t, false));
     }
   }
   if (is_before(run, events->t, to)) {
-    BAUM_I_TRY(look(run, to, true));
+    BAUM_I_TRY(search_until(run, to, true));
   }
   return fixed ? find_state(run, to) : BAUM_OK;
 }

@@ -44,7 +44,8 @@ static baum_status check_source(const baum_mechanism *m, const baum_event_def *d
                   : BAUM_OK;
 }
 
-static baum_status check(const baum_mechanism *m, const baum_event_def *def, const char *label)
+static baum_status check_definition(const baum_mechanism *m, const baum_event_def *def,
+                                    const char *label)
 {
   BAUM_I_TRY(check_source(m, def, label));
   BAUM_I_TRY(baum_i_check_finite(label, "value", "rad or m", def->value));
@@ -63,7 +64,7 @@ static void label_of(int number, const char *name, char text[BAUM_I_LABEL_SIZE])
 
 /* ---- life ---- */
 
-static baum_status create(baum_simulation *run)
+static baum_status create_events(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   baum_i_events *events = baum_i_alloc(1, sizeof *events);
@@ -277,9 +278,9 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   char label[BAUM_I_LABEL_SIZE];
   label_of(number, given.name, label);
   BAUM_I_TRY(baum_i_check_name("event", number, given.name));
-  BAUM_I_TRY(check(simulation->workspace->mechanism, &given, label));
+  BAUM_I_TRY(check_definition(simulation->workspace->mechanism, &given, label));
   if (!simulation->events) {
-    BAUM_I_TRY(create(simulation));
+    BAUM_I_TRY(create_events(simulation));
   }
   baum_status status = make_room(simulation->events, &given);
   if (status == BAUM_OK) {

@@ -58,8 +58,8 @@ typedef struct given {
 } given;
 
 /* Jumps of other inputs that are not after t, from the k-th on. Returns the next. */
-static int take_others(const baum_i_schedule *old, int k, double t, int64_t input,
-                       baum_i_schedule *out)
+static int append_others(const baum_i_schedule *old, int k, double t, int64_t input,
+                         baum_i_schedule *out)
 {
   assert(out->jumps);
   for (; k < old->count && old->jumps[k].t <= t; k++) {
@@ -71,24 +71,24 @@ static int take_others(const baum_i_schedule *old, int k, double t, int64_t inpu
 }
 
 /* Both in order of time. A value that is the one before is no jump. */
-static void merge(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
+static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_schedule *out)
 {
   assert(out->jumps && g->times && g->values);
   double before = g->before;
   int next = 0;
   for (int k = 0; k < g->count; k++) {
-    next = take_others(old, next, g->times[k], g->input, out);
+    next = append_others(old, next, g->times[k], g->input, out);
     if (g->values[k] != before) {
       out->jumps[out->count++] =
         (baum_i_jump){.t = g->times[k], .before = before, .after = g->values[k], .input = g->input};
       before = g->values[k];
     }
   }
-  (void)take_others(old, next, (double)INFINITY, g->input, out);
+  (void)append_others(old, next, (double)INFINITY, g->input, out);
 }
 
 /* The run takes a list that is made, and begins anew: the end of its last step may be behind a jump. */
-static baum_status begin_with(baum_simulation *run, const baum_i_schedule *made, int64_t input)
+static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *made, int64_t input)
 {
   double *present = &run->workspace->inputs[input];
   double before = *present;
@@ -105,17 +105,17 @@ static baum_status begin_with(baum_simulation *run, const baum_i_schedule *made,
   return status;
 }
 
-static baum_status replace(baum_simulation *run, const given *g)
+static baum_status replace_schedule(baum_simulation *run, const given *g)
 {
   baum_i_schedule made = {.jumps = NULL};
   BAUM_I_TRY(baum_i_schedule_reserve(&made, run->schedule.count + g->count));
-  merge(&run->schedule, g, &made);
-  return begin_with(run, &made, g->input);
+  merge_jumps(&run->schedule, g, &made);
+  return use_schedule(run, &made, g->input);
 }
 
 static const char *const CALL = "baum_simulation_schedule_input";
 
-static baum_status check_entry(const baum_mechanism *m, const given *g, int k)
+static baum_status check_schedule_entry(const baum_mechanism *m, const given *g, int k)
 {
   assert(g->times && g->values);
   const char *name = m->input_names[g->input];
@@ -135,8 +135,8 @@ static baum_status check_entry(const baum_mechanism *m, const given *g, int k)
   return BAUM_OK;
 }
 
-static baum_status check(const baum_simulation *run, baum_input_id input, const double *times,
-                         const double *values, int32_t count)
+static baum_status check_schedule(const baum_simulation *run, baum_input_id input,
+                                  const double *times, const double *values, int32_t count)
 {
   if (!run) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", CALL);
@@ -152,7 +152,7 @@ static baum_status check(const baum_simulation *run, baum_input_id input, const 
 baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,
                                            const double *times, const double *values, int32_t count)
 {
-  BAUM_I_TRY(check(simulation, input, times, values, count));
+  BAUM_I_TRY(check_schedule(simulation, input, times, values, count));
   int index = baum_i_input_index(simulation->workspace->mechanism, input);
   given g = {.input = index,
              .times = times,
@@ -160,7 +160,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
              .count = count,
              .before = simulation->workspace->inputs[index]};
   for (int k = 0; k < count; k++) {
-    BAUM_I_TRY(check_entry(simulation->workspace->mechanism, &g, k));
+    BAUM_I_TRY(check_schedule_entry(simulation->workspace->mechanism, &g, k));
   }
   if (count == 0) {
     baum_i_schedule_end(simulation, index);
@@ -168,7 +168,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  return baum_i_run_end_call(simulation, replace(simulation, &g), &kept);
+  return baum_i_run_end_call(simulation, replace_schedule(simulation, &g), &kept);
 }
 
 /* ---- drivers ---- */

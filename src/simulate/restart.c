@@ -45,7 +45,7 @@ void baum_i_run_end_before_change(baum_simulation *run)
 }
 
 /* Kinematics have solved for the pose on the far side, whose velocities may be others. */
-static baum_status take_pose(baum_simulation *run)
+static baum_status read_pose_behind(baum_simulation *run)
 {
   baum_i_state *state = &run->state;
   return run->integrator->interpolate(run->self, &run->problem, state->t, state->q, state->v);
@@ -64,5 +64,5 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  return run->integrator->without_freedom ? take_pose(run) : BAUM_OK;
+  return run->integrator->without_freedom ? read_pose_behind(run) : BAUM_OK;
 }

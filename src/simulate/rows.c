@@ -20,7 +20,7 @@ static void tell_others(baum_simulation *run)
 
 /* Rows that were left out are off by more than those that were kept, the more the nearer these came to dependent: from
  * choice to choice a violation would grow by ten. One that was given stays all the same. */
-static void settle(baum_simulation *run)
+static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
   if (run->options.start == BAUM_START_AS_GIVEN) {
@@ -66,7 +66,7 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   }
   baum_i_run_end_before_change(run);
   tell_others(run);
-  settle(run);
+  project_present(run);
   baum_i_crossings_end(run);
   baum_status status = baum_i_run_restart(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {

@@ -75,7 +75,7 @@ bool baum_i_doubts_motion(baum_warning_code code)
 
 /* ---- keep ---- */
 
-static baum_warning *find(baum_simulation *run, baum_warning_code code)
+static baum_warning *find_warning(baum_simulation *run, baum_warning_code code)
 {
   for (int64_t k = 0; k < run->counters.warnings; k++) {
     if (run->warnings[k].code == code) {
@@ -87,13 +87,13 @@ static baum_warning *find(baum_simulation *run, baum_warning_code code)
 
 bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code)
 {
-  return find(baum_i_mutable(run), code) != NULL;
+  return find_warning(baum_i_mutable(run), code) != NULL;
 }
 
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...)
 {
-  baum_warning *warning = find(run, code);
+  baum_warning *warning = find_warning(run, code);
   if (warning) {
     warning->last = t;
     warning->count++;

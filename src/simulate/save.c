@@ -186,7 +186,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
 /* ---- forget ---- */
 
 /* What no buffer holds. */
-static void forget(baum_simulation *run)
+static void forget_unsaved(baum_simulation *run)
 {
   baum_i_workspace_forget(run->workspace);
   baum_i_companion_forget(run);
@@ -207,7 +207,7 @@ static void go_on_with_events(baum_simulation *run)
 }
 
 /* The state that is reported becomes the one from which the next step goes. */
-static void begin_anew(baum_simulation *run)
+static void restart_for_save(baum_simulation *run)
 {
   baum_i_run_end_before_change(run);
   if (baum_i_integrator_remembers(run->integrator, &run->problem)) {
@@ -221,7 +221,7 @@ static void begin_anew(baum_simulation *run)
     }
     run->counters.restarts++;
   }
-  forget(run);
+  forget_unsaved(run);
 }
 
 /* ---- save ---- */
@@ -266,7 +266,7 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
   }
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  begin_anew(simulation);
+  restart_for_save(simulation);
   baum_i_run_count(simulation);
   baum_i_saved_list(simulation, &list); /* there may be more of them now */
   *size = write_all(simulation, &list, buffer);
@@ -475,7 +475,7 @@ static baum_status check_parts(reader *r, const baum_simulation *run, const baum
   return check_crossings(r, m->joint_count);
 }
 
-static baum_status check(reader *r, const baum_simulation *run, const baum_i_saved *list)
+static baum_status check_buffer(reader *r, const baum_simulation *run, const baum_i_saved *list)
 {
   BAUM_I_TRY(check_header(r));
   BAUM_I_TRY(check_sum(r));
@@ -549,7 +549,7 @@ static void own_entries(baum_simulation *run)
   }
 }
 
-static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *list)
+static void restore_parts(baum_simulation *run, const reader *r, const baum_i_saved *list)
 {
   put_inputs_back(run, r);
   for (int k = BAUM_I_SAVED_PROGRESS; k < list->count; k++) {
@@ -561,7 +561,7 @@ static void put_back(baum_simulation *run, const reader *r, const baum_i_saved *
   own_entries(run);
   baum_i_run_count_from_here(run);
   baum_i_run_copy(run, &run->state, &run->ahead);
-  forget(run);
+  forget_unsaved(run);
 }
 
 baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer, size_t size)
@@ -576,12 +576,12 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   reader r = {.bytes = buffer, .size = size};
-  baum_status status = check(&r, simulation, &list);
+  baum_status status = check_buffer(&r, simulation, &list);
   if (status == BAUM_OK) {
     status = make_room(simulation, &r);
   }
   if (status == BAUM_OK) {
-    put_back(simulation, &r, &list);
+    restore_parts(simulation, &r, &list);
   }
   return baum_i_run_end_call(simulation, status, &kept);
 }
