@@ -32,23 +32,11 @@ class Adding:
         """Add a rigid body in the plane: mass [kg], inertia [kg m^2] about the centre of mass,
         drawn position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
         held: assembly keeps the design configuration."""
-        return self._add(
-            "planar_body",
-            name,
-            mass=mass,
-            inertia=inertia,
-            position=position,
-            angle=angle,
-            velocity=velocity,
-            angular_velocity=angular_velocity,
-            held=held,
-        )
+        return self._add("planar_body", locals())
 
     def planar_particle(self, name=None, *, mass=None, position=None, velocity=None, held=None):
         """Add a point mass [kg] at a drawn position [m], with a velocity at start [m/s]."""
-        return self._add(
-            "planar_particle", name, mass=mass, position=position, velocity=velocity, held=held
-        )
+        return self._add("planar_particle", locals())
 
     def coordinates(
         self,
@@ -86,104 +74,37 @@ class Adding:
         difference(a, b) the v by which move(1, v, a) is b; normalize(q) the nearest q on the
         manifold; position_scale a relevant change of each. Derivatives by q are then along
         displacements of velocity size."""
-        return self._add(
-            "coordinates",
-            name,
-            size=size,
-            mass=mass,
-            force=force,
-            q=q,
-            v=v,
-            scale=scale,
-            force_q=force_q,
-            force_v=force_v,
-            potential=potential,
-            constant_mass=constant_mass,
-            held=held,
-            position_count=position_count,
-            position_scale=position_scale,
-            rate=rate,
-            move=move,
-            difference=difference,
-            normalize=normalize,
-            inputs=inputs,
-            depends_on_velocity=depends_on_velocity,
-            user=user,
-        )
+        return self._add("coordinates", locals())
 
     # ---- joints ----------------------------------------------------------------------------------
 
     def revolute(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None):
         """Add a pin: two points coincide. Two rows [m]."""
-        return self._add(
-            "planar_revolute",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-        )
+        return self._add("planar_revolute", locals())
 
     def translational(
         self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None, angle=None
     ):
         """Add a slider: body_b moves along an axis of body_a without turning. Two rows [m], [rad].
         angle: angle_b - angle_a that is kept [rad], default that of the drawing."""
-        return self._add(
-            "planar_translational",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            axis=axis,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-            angle=angle,
-        )
+        return self._add("planar_translational", locals())
 
     def distance(self, name, body_a, body_b, *, point_a=None, point_b=None, length=None):
         """Add a rod without mass between two points. One row [m]. length [m], default that of the
         drawing."""
-        return self._add(
-            "planar_distance",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            point_a=point_a,
-            point_b=point_b,
-            length=length,
-        )
+        return self._add("planar_distance", locals())
 
     def fixed(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None, angle=None):
         """Add a weld. Three rows [m], [m], [rad]. angle: angle_b - angle_a [rad], default that of
         the drawing."""
-        return self._add(
-            "planar_fixed",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-            angle=angle,
-        )
+        return self._add("planar_fixed", locals())
 
     def pin_in_slot(
         self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None
     ):
         """Add a pin of body_b in a straight slot of body_a, where it may turn. One row [m]. Its
         coordinate is the displacement of body_b's point along the axis [m]."""
-        return self._add(
-            "planar_pin_in_slot",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            axis=axis,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-        )
+        return self._add("planar_pin_in_slot", locals())
 
     def rack_and_pinion(
         self,
@@ -202,33 +123,13 @@ class Adding:
         displacement - radius (angle_b - angle_a) = offset. One row [m]. radius [m] > 0: the rack is
         on the left of the axis; < 0: on the right, which is below for the axis (1, 0). offset [m],
         default that of the drawing."""
-        return self._add(
-            "planar_rack_and_pinion",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            radius=radius,
-            axis=axis,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-            offset=offset,
-        )
+        return self._add("planar_rack_and_pinion", locals())
 
     def gear(self, name, body_a, body_b, radius_a, radius_b, *, carrier=None, offset=None):
         """Add a gear of two wheels on a carrier (default: ground): radius_a (angle_a - angle_c) +
         radius_b (angle_b - angle_c) = offset. One row [m]. A negative radius [m] is a ring with
         internal teeth. offset [m], default that of the drawing."""
-        return self._add(
-            "planar_gear",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            radius_a=radius_a,
-            radius_b=radius_b,
-            carrier=carrier,
-            offset=offset,
-        )
+        return self._add("planar_gear", locals())
 
     def curve(
         self,
@@ -245,54 +146,24 @@ class Adding:
         """Keep a point of body_b on a curve F(x, y) = 0 that is fixed in body_a, x and y from its
         point: curve(xy) returns F [m], F_x, F_y, F_xx, F_xy, F_yy. One row. F with a gradient of
         about 1 near the curve behaves best."""
-        return self._add(
-            "planar_curve",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            curve=curve,
-            point=point,
-            point_a=point_a,
-            point_b=point_b,
-            user=user,
-        )
+        return self._add("planar_curve", locals())
 
     def coupling(self, name, joint_a, joint_b, *, ratio=None, offset=None, law=None, user=None):
         """Tie the coordinates of two joints: b = ratio a + offset (default offset: that of the
         drawing), or b = f(a), a cam: law(a) returns f, its slope and its curvature. One row."""
-        return self._add(
-            "coupling",
-            name,
-            joint_a=joint_a,
-            joint_b=joint_b,
-            ratio=ratio,
-            offset=offset,
-            law=law,
-            user=user,
-        )
+        return self._add("coupling", locals())
 
     def driver(self, name, joint, *, value=None, rate=None, acceleration=None, law=None, user=None):
         """Prescribe the coordinate of a revolute [rad] or translational [m] joint or of a pin in a
         slot [m]: value + rate t + acceleration t^2 / 2, or law(t) that returns value, rate and
         acceleration. One row."""
-        return self._add(
-            "driver",
-            name,
-            joint=joint,
-            value=value,
-            rate=rate,
-            acceleration=acceleration,
-            law=law,
-            user=user,
-        )
+        return self._add("driver", locals())
 
     def spline_driver(self, name, joint, times, values, *, periodic=None):
         """Prescribe a coordinate as driver() does, by a cubic spline through `values` [rad] or [m]
         at rising `times` [s], at least 3. It goes on straight before the first and after the last
         time; periodic: it repeats itself, and first and last value are the same. One row."""
-        return self._add(
-            "spline_driver", name, joint=joint, times=times, values=values, periodic=periodic
-        )
+        return self._add("spline_driver", locals())
 
     def constraint(self, name, bodies, rows, phi, *, jacobian=None, nu=None, gamma=None, user=None):
         """Add constraints Phi(t, q) = 0 over the coordinates of `bodies`, one or several:
@@ -302,17 +173,9 @@ class Adding:
         coordinates, against 50 calls in all with jacobian and gamma. A call takes one to two
         microseconds even for a short Python function. Where that matters give the derivatives, or
         compiled functions: addresses, ctypes function pointers, Numba's cfunc."""
-        return self._add(
-            "user_constraint",
-            name,
-            bodies=bodies,
-            row_count=rows,
-            phi=phi,
-            jacobian=jacobian,
-            nu=nu,
-            gamma=gamma,
-            user=user,
-        )
+        fields = locals()
+        fields["row_count"] = fields.pop("rows")
+        return self._add("user_constraint", fields)
 
     # ---- forces ----------------------------------------------------------------------------------
 
@@ -335,20 +198,7 @@ class Adding:
         of the drawing. Or law(length, rate), which returns the tension [N] and its derivatives by
         length and by rate, and has no potential energy; depends_on_velocity: False where it does not
         read the rate (rattle needs that)."""
-        return self._add(
-            "planar_spring",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            point_a=point_a,
-            point_b=point_b,
-            stiffness=stiffness,
-            damping=damping,
-            free_length=free_length,
-            law=law,
-            depends_on_velocity=depends_on_velocity,
-            user=user,
-        )
+        return self._add("planar_spring", locals())
 
     def torsion_spring(
         self,
@@ -367,18 +217,7 @@ class Adding:
         turns; free_angle [rad], default that of the drawing. Or law(angle, rate), which returns the
         torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
         potential energy; depends_on_velocity as of springs."""
-        return self._add(
-            "planar_torsion_spring",
-            name,
-            body_a=body_a,
-            body_b=body_b,
-            stiffness=stiffness,
-            damping=damping,
-            free_angle=free_angle,
-            law=law,
-            depends_on_velocity=depends_on_velocity,
-            user=user,
-        )
+        return self._add("planar_torsion_spring", locals())
 
     def load(
         self, name, body, *, force=None, point=None, torque=None, follows_body=None, input=None
@@ -386,16 +225,7 @@ class Adding:
         """Add a force [N] at a point of a body (body axes [m]) and a torque [N m]. follows_body:
         the force turns with the body, else it keeps to ground axes. input: its value multiplies
         both."""
-        return self._add(
-            "planar_load",
-            name,
-            body=body,
-            force=force,
-            point=point,
-            torque=torque,
-            follows_body=follows_body,
-            input=input,
-        )
+        return self._add("planar_load", locals())
 
     def force(
         self,
@@ -414,18 +244,7 @@ class Adding:
         its derivatives (nv x nv), potential(t, q) an energy [J]. inputs: those that force, force_q
         and force_v are given after v: with inputs=["torque"] they are called as force(t, q, v,
         torque). depends_on_velocity: False where force() does not read v (rattle needs that)."""
-        return self._add(
-            "user_force",
-            name,
-            bodies=bodies,
-            force=force,
-            force_q=force_q,
-            force_v=force_v,
-            potential=potential,
-            inputs=inputs,
-            depends_on_velocity=depends_on_velocity,
-            user=user,
-        )
+        return self._add("user_force", locals())
 
     # ---- inputs ----------------------------------------------------------------------------------
 
@@ -442,11 +261,13 @@ class Adding:
 
     # ---- how -------------------------------------------------------------------------------------
 
-    def _add(self, kind, name, **fields):
+    def _add(self, kind, given):
+        """Add an element; given: the arguments of a method above, by name."""
         kind = KINDS[kind]
-        name = self._new_name(name, kind.family)
+        fields = {field: value for field, value in given.items() if field != "self"}
+        name = fields["name"] = self._new_name(fields["name"], kind.family)
         definition = Definition(kind, f'{kind.family} "{name}"', self.find)
-        definition.fill({"name": name, **fields})
+        definition.fill(fields)
         id = kind.id_type()
         self._hold(definition)
         self._owner.call(kind.function("add"), ctypes.byref(definition.struct), ctypes.byref(id))
