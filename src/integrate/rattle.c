@@ -151,7 +151,7 @@ static baum_status check_body(const baum_i_body *body)
 {
   const void *def = body->element.def;
   char label[BAUM_I_LABEL_SIZE];
-  if (!body->type->constant_mass(def)) {
+  if (body->type->constant_mass && !body->type->constant_mass(def)) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "simulation options: rattle is for masses that are constant, but %s does "
                        "not say constant_mass = true",

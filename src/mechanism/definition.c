@@ -7,7 +7,6 @@
 #include "mechanism/definition.h"
 
 #include <assert.h>
-#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <string.h>
@@ -16,58 +15,6 @@
 #include "base/message.h"
 #include "base/sized.h"
 #include "base/text.h"
-
-/* ---- checks ---- */
-
-baum_status baum_i_check_finite(const char *label, const char *field, const char *unit,
-                                double value)
-{
-  if (isfinite(value)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite", label, field, value,
-                     unit);
-}
-
-baum_status baum_i_check_positive(const char *label, const char *field, const char *unit,
-                                  double value)
-{
-  if (isfinite(value) && value > 0.0) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and > 0", label, field,
-                     value, unit);
-}
-
-baum_status baum_i_check_not_negative(const char *label, const char *field, const char *unit,
-                                      double value)
-{
-  if (isfinite(value) && value >= 0.0) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and >= 0", label, field,
-                     value, unit);
-}
-
-baum_status baum_i_check_not_zero(const char *label, const char *field, const char *unit,
-                                  double value)
-{
-  if (isfinite(value) && value != 0.0) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite and not 0", label, field,
-                     value, unit);
-}
-
-baum_status baum_i_check_optional(const char *label, const char *field, const char *unit,
-                                  double value)
-{
-  if (isfinite(value) || isnan(value)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g %s, must be finite, or NaN for not given",
-                     label, field, value, unit);
-}
 
 /* ---- a caller's struct, which may be of an older version ---- */
 
@@ -105,18 +52,27 @@ static baum_status complete(const baum_i_definition *definition, const void *def
                        definition->kind, size, definition->size);
   }
   assert(definition->size <= sizeof *out);
-  memcpy(out, definition->defaults, definition->size);
+  baum_i_fields_set(definition, out);
   memcpy(out, def, fields_of(definition, size));
   out->head.struct_size = definition->size;
   return BAUM_OK;
 }
 
-/* ---- the element's own copy ---- */
+void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
+{
+  if (baum_i_takes_sized(def, caller_size)) {
+    whole_def whole;
+    baum_i_fields_set(definition, &whole);
+    baum_i_give_sized(def, caller_size, &whole, definition->size);
+  }
+}
+
+/* ---- an element's own copy ---- */
 
 static void release(baum_i_element *element)
 {
-  if (element->def && element->definition->release) {
-    element->definition->release(element->def);
+  if (element->def) {
+    baum_i_fields_release(element->definition, element->def);
   }
   baum_i_free(element->def);
   baum_i_free(element->name);
@@ -134,8 +90,8 @@ static baum_status fill(baum_i_element *element, const char *family, const void 
   (void)snprintf(default_name, sizeof default_name, "%s%d", family, element->index);
   element->name = baum_i_copy_text(given ? given : default_name);
   element->def = baum_i_copy(def, 1, definition->size);
-  if (element->def && definition->own && definition->own(element->def) != BAUM_OK) {
-    baum_i_free(element->def); /* what it points to is still the caller's */
+  if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
+    baum_i_free(element->def); /* which owns nothing */
     element->def = NULL;
   }
   if (!element->name || !element->def) {
@@ -146,415 +102,155 @@ static baum_status fill(baum_i_element *element, const char *family, const void 
   return BAUM_OK;
 }
 
-/* ---- one element of any family ---- */
-
-/* What the three families differ in, drawn from a type. */
-typedef struct kind {
-  const char *family; /* "body", "joint", "force" */
-  size_t size;        /* of the element's struct, which begins with its baum_i_element */
-  size_t span;        /* offset of its baum_i_span */
-  const baum_i_definition *definition;
-  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span); /* or NULL */
-  int (*count)(const void *def); /* velocities or rows; NULL: all of the type have as many */
-} kind;
-
-static kind body_kind(const baum_i_body_type *type)
+/* Bodies of an element; a body alone acts on itself. On failure there is nothing. */
+static baum_status make_span(const baum_mechanism *mechanism, const baum_i_definition *definition,
+                             const void *def, int number, baum_i_span *span)
 {
-  return (kind){"body", sizeof(baum_i_body), offsetof(baum_i_body, span), &type->definition,
-                NULL,   type->size};
-}
-
-static kind joint_kind(const baum_i_joint_type *type)
-{
-  return (kind){"joint",           sizeof(baum_i_joint), offsetof(baum_i_joint, span),
-                &type->definition, type->bodies,         type->rows};
-}
-
-static kind force_kind(const baum_i_force_type *type)
-{
-  return (kind){"force",           sizeof(baum_i_force), offsetof(baum_i_force, span),
-                &type->definition, type->bodies,         NULL};
-}
-
-static baum_i_span *span_of(const kind *k, void *item)
-{
-  return (baum_i_span *)(void *)((char *)item + k->span);
-}
-
-static baum_status fail_no_mechanism(const kind *k)
-{
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", k->definition->kind);
-}
-
-/* Complete a definition and check it for the number-th element of its family. */
-static baum_status check(const baum_mechanism *mechanism, const kind *k, const void *def,
-                         int number, whole_def *out)
-{
-  const baum_i_definition *definition = k->definition;
-  if (mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
-                       definition->kind);
-  }
-  baum_status status = complete(definition, def, out);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  const char *name = out->head.name;
-  status = baum_i_check_name(k->family, number, name);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  char label[BAUM_I_LABEL_SIZE];
-  if (name) {
-    (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", k->family, number, name);
-  } else {
-    (void)snprintf(label, sizeof label, "%s %d \"%s%d\"", k->family, number, k->family, number);
-  }
-  return definition->check(mechanism, out, label);
-}
-
-static void free_span(baum_i_span *span)
-{
-  baum_i_free(span->bodies);
-  baum_i_free(span->columns);
-}
-
-static baum_status make_span(const baum_mechanism *mechanism, const kind *k, const void *def,
-                             baum_i_span *span)
-{
-  *span = (baum_i_span){0};
-  if (!k->bodies) {
-    return BAUM_OK;
-  }
-  k->bodies(mechanism, def, span);
-  span->bodies = baum_i_alloc((size_t)span->body_count, sizeof *span->bodies);
+  int most = baum_i_fields_bodies(definition, mechanism, def, NULL);
+  *span = (baum_i_span){.bodies = baum_i_alloc((size_t)most + 1, sizeof *span->bodies)};
   if (!span->bodies) {
     return baum_i_fail_memory();
   }
-  k->bodies(mechanism, def, span);
+  span->bodies[0] = number;
+  span->body_count = most > 0 ? baum_i_fields_bodies(definition, mechanism, def, span->bodies) : 1;
   return BAUM_OK;
 }
 
-static void item_free(void *item, size_t span)
+void baum_i_free_element(const baum_i_family *family, baum_i_element *element)
 {
-  if (item) {
-    free_span((baum_i_span *)(void *)((char *)item + span));
-    release(item);
-    baum_i_free(item);
-  }
+  baum_i_free(baum_i_family_span(family, element)->bodies);
+  baum_i_free(baum_i_family_span(family, element)->columns);
+  release(element);
+  baum_i_free(element);
 }
 
-/* A new element from a checked definition; NULL when out of memory, with the sentence. */
-static void *item_new(const baum_mechanism *mechanism, const kind *k, const void *def, int number)
+baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family *family,
+                                  const baum_i_definition *definition, const void *def)
 {
-  baum_i_element *element = baum_i_alloc(1, k->size);
+  baum_i_element *element = baum_i_alloc(1, family->size);
   if (!element) {
-    (void)baum_i_fail_memory();
-    return NULL;
+    return baum_i_fail_memory();
   }
-  element->definition = k->definition;
-  element->index = number;
-  if (fill(element, k->family, def) != BAUM_OK ||
-      make_span(mechanism, k, element->def, span_of(k, element)) != BAUM_OK) {
-    item_free(element, k->span);
-    return NULL;
-  }
-  return element;
-}
-
-/* Grow an array of pointers to hold one more, count; NULL when out of memory, with the sentence. */
-static void *grow(void *list, int count)
-{
-  void *grown = baum_i_grow_by_one(list, (size_t)count, sizeof(void *));
-  if (!grown) {
-    (void)baum_i_fail_memory();
-  }
-  return grown;
-}
-
-/* Whether a new definition keeps what the element is tied to:
- * kind, number of velocities or rows, bodies. */
-static baum_status check_ties(const baum_mechanism *mechanism, const kind *k, const void *def,
-                              baum_i_element *element)
-{
-  if (element->definition != k->definition) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", k->family,
-                       element->index, element->name, element->definition->kind,
-                       k->definition->kind);
-  }
-  if (k->count && k->count(def) != k->count(element->def)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its size is %d and must stay", k->family,
-                       element->index, element->name, k->count(element->def));
-  }
-  const char *tied = k->definition->tied ? k->definition->tied(element->def, def) : NULL;
-  if (tied) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its %s must stay", k->family,
-                       element->index, element->name, tied);
-  }
-  baum_i_span next;
-  baum_i_span *span = span_of(k, element);
-  if (make_span(mechanism, k, def, &next) != BAUM_OK) {
-    return BAUM_ERR_MEMORY;
-  }
-  bool same = next.body_count == span->body_count;
-  for (int i = 0; same && i < span->body_count; i++) {
-    same = next.bodies[i] == span->bodies[i];
-  }
-  free_span(&next);
-  return same ? BAUM_OK
-              : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\": its bodies must stay", k->family,
-                            element->index, element->name);
-}
-
-static baum_status set(baum_mechanism *mechanism, const kind *k, baum_i_element *element,
-                       const void *def)
-{
-  whole_def whole = {.head = {0}};
-  baum_status status = check(mechanism, k, def, element->index, &whole);
+  element->definition = definition;
+  element->index = baum_i_family_count(family, mechanism) + 1;
+  baum_i_span *span = baum_i_family_span(family, element);
+  baum_status status = fill(element, family->name, def);
   if (status == BAUM_OK) {
-    status = check_ties(mechanism, k, &whole, element);
+    status = make_span(mechanism, definition, element->def, element->index, span);
+  }
+  if (status == BAUM_OK) {
+    family->prepare(element);
+    status = family->append(mechanism, element);
   }
   if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_element next = *element;
-  status = fill(&next, k->family, &whole);
-  if (status == BAUM_OK) {
-    release(element);
-    *element = next;
+    baum_i_free_element(family, element);
   }
   return status;
 }
 
-static baum_status get(const kind *k, const baum_i_element *element, void *out, size_t caller_size)
+/* ---- add ---- */
+
+/* Complete a definition and check it for the number-th element of its family. */
+static baum_status check(const baum_mechanism *mechanism, const baum_i_family *family,
+                         const baum_i_definition *definition, const void *def, int number,
+                         whole_def *out)
 {
-  const baum_i_definition *definition = k->definition;
-  baum_status status = baum_i_check_sized(out, caller_size, definition->kind);
-  if (status != BAUM_OK) {
-    return status;
+  if (mechanism->frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
+                       definition->kind);
   }
-  if (element->definition != definition) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", k->family,
-                       element->index, element->name, element->definition->kind, definition->kind);
+  BAUM_I_TRY(complete(definition, def, out));
+  const char *name = out->head.name;
+  BAUM_I_TRY(baum_i_check_name(family->name, number, name));
+  char label[BAUM_I_LABEL_SIZE];
+  if (name) {
+    (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", family->name, number, name);
+  } else {
+    (void)snprintf(label, sizeof label, "%s %d \"%s%d\"", family->name, number, family->name,
+                   number);
   }
+  return baum_i_fields_check(definition, mechanism, out, label);
+}
+
+baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *family,
+                               const baum_i_definition *definition, const void *def)
+{
+  if (!mechanism) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", definition->kind);
+  }
+  whole_def whole = {.head = {0}};
+  int number = baum_i_family_count(family, mechanism) + 1;
+  BAUM_I_TRY(check(mechanism, family, definition, def, number, &whole));
+  return baum_i_append_element(mechanism, family, definition, &whole);
+}
+
+/* ---- get and set ---- */
+
+/* The element of an id, which must be of that kind. */
+static baum_status find(const baum_mechanism *mechanism, const baum_i_family *family,
+                        const baum_i_definition *definition, baum_i_id id, baum_i_element **out)
+{
+  BAUM_I_TRY(baum_i_check_id(mechanism, family, id, definition->kind, "id"));
+  int k = baum_i_index(mechanism, family, id);
+  if (k < 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: ground has no definition", definition->kind);
+  }
+  *out = family->at(mechanism, k);
+  return BAUM_OK;
+}
+
+static baum_status check_kind(const baum_i_element *element, const baum_i_family *family,
+                              const baum_i_definition *definition)
+{
+  return element->definition == definition
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", family->name,
+                         element->index, element->name, element->definition->kind,
+                         definition->kind);
+}
+
+baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_family *family,
+                               const baum_i_definition *definition, baum_i_id id, void *out,
+                               size_t caller_size)
+{
+  baum_i_element *element = NULL;
+  BAUM_I_TRY(find(mechanism, family, definition, id, &element));
+  BAUM_I_TRY(baum_i_check_sized(out, caller_size, definition->kind));
+  BAUM_I_TRY(check_kind(element, family, definition));
   baum_i_give_sized(out, caller_size, element->def, definition->size);
   return BAUM_OK;
 }
 
-void baum_i_definition_init(const baum_i_definition *definition, void *def, size_t caller_size)
+/* Whether a new definition keeps what the element is tied to: counts, joints, bodies. */
+static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_family *family,
+                              const void *def, baum_i_element *element)
 {
-  if (baum_i_takes_sized(def, caller_size)) {
-    baum_i_give_sized(def, caller_size, definition->defaults, definition->size);
+  char label[BAUM_I_LABEL_SIZE];
+  baum_i_label(element, family->name, label);
+  BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label));
+  const baum_i_span *span = baum_i_family_span(family, element);
+  baum_i_span next;
+  BAUM_I_TRY(make_span(mechanism, element->definition, def, element->index, &next));
+  bool same = next.body_count == span->body_count;
+  for (int i = 0; same && i < span->body_count; i++) {
+    same = next.bodies[i] == span->bodies[i];
   }
+  baum_i_free(next.bodies);
+  return same ? BAUM_OK : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: its bodies must stay", label);
 }
 
-/* ---- bodies ---- */
-
-void *baum_i_body_new(const baum_mechanism *mechanism, const baum_i_body_type *type,
-                      const void *def, int number)
+baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *family,
+                               const baum_i_definition *definition, baum_i_id id, const void *def)
 {
-  kind k = body_kind(type);
-  baum_i_body *body = item_new(mechanism, &k, def, number);
-  if (body) {
-    body->type = type;
-    body->nq = type->positions ? type->positions(body->element.def) : type->nq;
-    body->nv = type->size ? type->size(body->element.def) : type->nv;
-    body->manifold = type->manifold ? type->manifold(body->element.def) : NULL;
-  }
-  return body;
-}
-
-void baum_i_body_free(baum_i_body *body)
-{
-  item_free(body, offsetof(baum_i_body, span));
-}
-
-baum_status baum_i_add_body(baum_mechanism *mechanism, const baum_i_body_type *type,
-                            const void *def, baum_body_id *id)
-{
-  kind k = body_kind(type);
-  if (!mechanism) {
-    return fail_no_mechanism(&k);
-  }
-  int number = mechanism->body_count + 1;
+  baum_i_element *element = NULL;
   whole_def whole = {.head = {0}};
-  baum_status status = check(mechanism, &k, def, number, &whole);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_body **list = grow(mechanism->bodies, number + 1);
-  if (!list) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->bodies = list;
-  list[number] = baum_i_body_new(mechanism, type, &whole, number);
-  if (!list[number]) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->body_count = number;
-  if (id) {
-    *id = (baum_body_id){number, mechanism->tag};
-  }
+  BAUM_I_TRY(find(mechanism, family, definition, id, &element));
+  BAUM_I_TRY(check(mechanism, family, definition, def, element->index, &whole));
+  BAUM_I_TRY(check_kind(element, family, definition));
+  BAUM_I_TRY(check_ties(mechanism, family, &whole, element));
+  baum_i_element next = *element;
+  BAUM_I_TRY(fill(&next, family->name, &whole));
+  release(element);
+  *element = next;
   return BAUM_OK;
-}
-
-/* The element of an id, or NULL with the sentence. */
-static baum_i_element *body_element(const baum_mechanism *mechanism, const char *what,
-                                    baum_body_id id)
-{
-  if (baum_i_check_body(mechanism, id, what, "id") != BAUM_OK) {
-    return NULL;
-  }
-  if (id.index1 == BAUM_GROUND.index1) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "%s: ground has no definition", what);
-    return NULL;
-  }
-  return &mechanism->bodies[id.index1]->element;
-}
-
-baum_status baum_i_get_body(const baum_mechanism *mechanism, const baum_i_body_type *type,
-                            baum_body_id id, void *out, size_t caller_size)
-{
-  kind k = body_kind(type);
-  baum_i_element *element = body_element(mechanism, type->definition.kind, id);
-  return element ? get(&k, element, out, caller_size) : BAUM_ERR_ARGUMENT;
-}
-
-baum_status baum_i_set_body(baum_mechanism *mechanism, const baum_i_body_type *type,
-                            baum_body_id id, const void *def)
-{
-  kind k = body_kind(type);
-  baum_i_element *element = body_element(mechanism, type->definition.kind, id);
-  return element ? set(mechanism, &k, element, def) : BAUM_ERR_ARGUMENT;
-}
-
-/* ---- joints ---- */
-
-void *baum_i_joint_new(const baum_mechanism *mechanism, const baum_i_joint_type *type,
-                       const void *def, int number)
-{
-  kind k = joint_kind(type);
-  baum_i_joint *joint = item_new(mechanism, &k, def, number);
-  if (joint) {
-    joint->type = type;
-    joint->rows = type->rows ? type->rows(joint->element.def) : type->row_count;
-  }
-  return joint;
-}
-
-void baum_i_joint_free(baum_i_joint *joint)
-{
-  item_free(joint, offsetof(baum_i_joint, span));
-}
-
-baum_status baum_i_add_joint(baum_mechanism *mechanism, const baum_i_joint_type *type,
-                             const void *def, baum_joint_id *id)
-{
-  kind k = joint_kind(type);
-  if (!mechanism) {
-    return fail_no_mechanism(&k);
-  }
-  int number = mechanism->joint_count + 1;
-  whole_def whole = {.head = {0}};
-  baum_status status = check(mechanism, &k, def, number, &whole);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_joint **list = grow(mechanism->joints, number);
-  if (!list) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->joints = list;
-  list[number - 1] = baum_i_joint_new(mechanism, type, &whole, number);
-  if (!list[number - 1]) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->joint_count = number;
-  if (id) {
-    *id = (baum_joint_id){number, mechanism->tag};
-  }
-  return BAUM_OK;
-}
-
-baum_status baum_i_get_joint(const baum_mechanism *mechanism, const baum_i_joint_type *type,
-                             baum_joint_id id, void *out, size_t caller_size)
-{
-  kind k = joint_kind(type);
-  baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK ? get(&k, &mechanism->joints[id.index1 - 1]->element, out, caller_size)
-                           : status;
-}
-
-baum_status baum_i_set_joint(baum_mechanism *mechanism, const baum_i_joint_type *type,
-                             baum_joint_id id, const void *def)
-{
-  kind k = joint_kind(type);
-  baum_status status = baum_i_check_joint(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK ? set(mechanism, &k, &mechanism->joints[id.index1 - 1]->element, def)
-                           : status;
-}
-
-/* ---- forces ---- */
-
-void *baum_i_force_new(const baum_mechanism *mechanism, const baum_i_force_type *type,
-                       const void *def, int number)
-{
-  kind k = force_kind(type);
-  baum_i_force *force = item_new(mechanism, &k, def, number);
-  if (force) {
-    force->type = type;
-  }
-  return force;
-}
-
-void baum_i_force_free(baum_i_force *force)
-{
-  item_free(force, offsetof(baum_i_force, span));
-}
-
-baum_status baum_i_add_force(baum_mechanism *mechanism, const baum_i_force_type *type,
-                             const void *def, baum_force_id *id)
-{
-  kind k = force_kind(type);
-  if (!mechanism) {
-    return fail_no_mechanism(&k);
-  }
-  int number = mechanism->force_count + 1;
-  whole_def whole = {.head = {0}};
-  baum_status status = check(mechanism, &k, def, number, &whole);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_force **list = grow(mechanism->forces, number);
-  if (!list) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->forces = list;
-  list[number - 1] = baum_i_force_new(mechanism, type, &whole, number);
-  if (!list[number - 1]) {
-    return BAUM_ERR_MEMORY;
-  }
-  mechanism->force_count = number;
-  if (id) {
-    *id = (baum_force_id){number, mechanism->tag};
-  }
-  return BAUM_OK;
-}
-
-baum_status baum_i_get_force(const baum_mechanism *mechanism, const baum_i_force_type *type,
-                             baum_force_id id, void *out, size_t caller_size)
-{
-  kind k = force_kind(type);
-  baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK ? get(&k, &mechanism->forces[id.index1 - 1]->element, out, caller_size)
-                           : status;
-}
-
-baum_status baum_i_set_force(baum_mechanism *mechanism, const baum_i_force_type *type,
-                             baum_force_id id, const void *def)
-{
-  kind k = force_kind(type);
-  baum_status status = baum_i_check_force(mechanism, id, type->definition.kind, "id");
-  return status == BAUM_OK ? set(mechanism, &k, &mechanism->forces[id.index1 - 1]->element, def)
-                           : status;
 }

@@ -6,106 +6,72 @@
 
 #include "mechanism/identify.h"
 
-static bool is_one(int32_t k, int32_t count)
-{
-  return k >= 0 && k < count;
-}
+/* Number k, from 0, of a family, or none. */
+#define ID_AT(FAMILY, MECHANISM, K)                             \
+  ((K) >= 0 && (K) < baum_mechanism_##FAMILY##_count(MECHANISM) \
+     ? (baum_##FAMILY##_id){(K) + 1, (MECHANISM)->tag}          \
+     : (baum_##FAMILY##_id){0})
 
-static bool same(const char *name, const char *wanted)
-{
-  return name && wanted && strcmp(name, wanted) == 0;
-}
+#define COUNT_AND_AT(FAMILY)                                                                  \
+  int32_t baum_mechanism_##FAMILY##_count(const baum_mechanism *mechanism)                    \
+  {                                                                                           \
+    return mechanism ? mechanism->FAMILY##_count : 0;                                         \
+  }                                                                                           \
+  baum_##FAMILY##_id baum_mechanism_##FAMILY##_at(const baum_mechanism *mechanism, int32_t k) \
+  {                                                                                           \
+    return ID_AT(FAMILY, mechanism, k);                                                       \
+  }
 
-/* ---- bodies ---- */
+#define FIND_AND_NAME(FAMILY)                                                                   \
+  baum_##FAMILY##_id baum_mechanism_find_##FAMILY(const baum_mechanism *mechanism,              \
+                                                  const char *name)                             \
+  {                                                                                             \
+    int k = baum_i_index_of_name(mechanism, &baum_i_##FAMILY##_family, name);                   \
+    return ID_AT(FAMILY, mechanism, k);                                                         \
+  }                                                                                             \
+  const char *baum_mechanism_##FAMILY##_name(const baum_mechanism *mechanism,                   \
+                                             baum_##FAMILY##_id id)                             \
+  {                                                                                             \
+    int k = baum_i_index(mechanism, &baum_i_##FAMILY##_family, (baum_i_id){id.index1, id.tag}); \
+    return k < 0 ? NULL : baum_i_##FAMILY##_family.at(mechanism, k)->name;                      \
+  }
 
-int32_t baum_mechanism_body_count(const baum_mechanism *mechanism)
-{
-  return mechanism ? mechanism->body_count : 0;
-}
+/* ---- bodies, with ground beside them ---- */
 
-baum_body_id baum_mechanism_body_at(const baum_mechanism *mechanism, int32_t k)
-{
-  bool there = is_one(k, baum_mechanism_body_count(mechanism));
-  return there ? (baum_body_id){k + 1, mechanism->tag} : (baum_body_id){0};
-}
+COUNT_AND_AT(body)
 
 baum_body_id baum_mechanism_find_body(const baum_mechanism *mechanism, const char *name)
 {
-  for (int32_t k = 0; k < baum_mechanism_body_count(mechanism); k++) {
-    if (same(mechanism->bodies[k + 1]->element.name, name)) {
-      return baum_mechanism_body_at(mechanism, k);
-    }
-  }
-  return mechanism && same("ground", name) ? BAUM_GROUND : (baum_body_id){0};
+  int k = baum_i_index_of_name(mechanism, &baum_i_body_family, name);
+  bool ground = k < 0 && mechanism && name && strcmp(name, "ground") == 0;
+  return ground ? BAUM_GROUND : ID_AT(body, mechanism, k);
 }
 
-/* ---- joints ---- */
-
-int32_t baum_mechanism_joint_count(const baum_mechanism *mechanism)
+const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body)
 {
-  return mechanism ? mechanism->joint_count : 0;
+  int index = baum_i_body_index(mechanism, body);
+  return index < 0 ? NULL : mechanism->bodies[index]->element.name;
 }
 
-baum_joint_id baum_mechanism_joint_at(const baum_mechanism *mechanism, int32_t k)
-{
-  bool there = is_one(k, baum_mechanism_joint_count(mechanism));
-  return there ? baum_i_joint_id(mechanism, k) : (baum_joint_id){0};
-}
+/* ---- joints, forces, inputs ---- */
 
-baum_joint_id baum_mechanism_find_joint(const baum_mechanism *mechanism, const char *name)
-{
-  for (int32_t k = 0; k < baum_mechanism_joint_count(mechanism); k++) {
-    if (same(mechanism->joints[k]->element.name, name)) {
-      return baum_mechanism_joint_at(mechanism, k);
-    }
-  }
-  return (baum_joint_id){0};
-}
+COUNT_AND_AT(joint)
+FIND_AND_NAME(joint)
 
-/* ---- forces ---- */
-
-int32_t baum_mechanism_force_count(const baum_mechanism *mechanism)
-{
-  return mechanism ? mechanism->force_count : 0;
-}
-
-baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, int32_t k)
-{
-  bool there = is_one(k, baum_mechanism_force_count(mechanism));
-  return there ? (baum_force_id){k + 1, mechanism->tag} : (baum_force_id){0};
-}
-
-baum_force_id baum_mechanism_find_force(const baum_mechanism *mechanism, const char *name)
-{
-  for (int32_t k = 0; k < baum_mechanism_force_count(mechanism); k++) {
-    if (same(mechanism->forces[k]->element.name, name)) {
-      return baum_mechanism_force_at(mechanism, k);
-    }
-  }
-  return (baum_force_id){0};
-}
-
-const char *baum_mechanism_force_name(const baum_mechanism *mechanism, baum_force_id force)
-{
-  int index = baum_i_force_index(mechanism, force);
-  return index < 0 ? NULL : mechanism->forces[index]->element.name;
-}
-
-/* ---- inputs ---- */
+COUNT_AND_AT(force)
+FIND_AND_NAME(force)
 
 baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k)
 {
-  bool there = is_one(k, baum_mechanism_input_count(mechanism));
-  return there ? (baum_input_id){k + 1, mechanism->tag} : (baum_input_id){0};
+  return ID_AT(input, mechanism, k);
 }
 
 baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism, const char *name)
 {
-  for (int32_t k = 0; k < baum_mechanism_input_count(mechanism); k++) {
-    baum_input_id id = baum_mechanism_input_at(mechanism, k);
-    if (same(baum_mechanism_input_name(mechanism, id), name)) {
-      return id;
-    }
+  int k = 0;
+  while (name && k < baum_mechanism_input_count(mechanism) &&
+         strcmp(mechanism->input_names[k], name) != 0) {
+    k++;
   }
-  return (baum_input_id){0};
+  return ID_AT(input, mechanism, name ? k : -1);
 }

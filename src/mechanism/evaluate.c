@@ -2,6 +2,7 @@
 /* Evaluation of a whole mechanism: one call per group. */
 #include <string.h>
 
+#include "base/message.h"
 #include "mechanism/mechanism.h"
 
 /* ---- joints ---- */
@@ -9,12 +10,11 @@
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->joint_group_count; k++) {
     const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    status = group->type->evaluate(group, point, rows);
+    BAUM_I_TRY(group->type->evaluate(group, point, rows));
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi)
@@ -55,14 +55,13 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
   clear(blocks->gamma_v, mechanism->jacobian_size);
   clear(blocks->nu_q, mechanism->jacobian_size);
   clear(blocks->jtl_q, mechanism->joint_square_size);
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->joint_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->joint_group_count; k++) {
     const baum_i_joint_group *group = &mechanism->joint_groups[k];
-    for (int i = 0; group->type->linearize && i < group->count && status == BAUM_OK; i++) {
-      status = group->type->linearize(group->joints[i], point, w, lambda, blocks);
+    for (int i = 0; group->type->linearize && i < group->count; i++) {
+      BAUM_I_TRY(group->type->linearize(group->joints[i], point, w, lambda, blocks));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- bodies and forces ---- */
@@ -70,63 +69,60 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->body_group_count; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
-    status = group->type->mass(group, point, mass);
+    BAUM_I_TRY(group->type->mass(group, point, mass));
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->body_group_count; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
     if (group->type->constant_force == constant) {
-      status = group->type->force(group, point, force);
+      BAUM_I_TRY(group->type->force(group, point, force));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force)
 {
   const baum_mechanism *mechanism = point->mechanism;
-  baum_status status = baum_i_mechanism_add_body_forces(point, false, force);
-  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+  BAUM_I_TRY(baum_i_mechanism_add_body_forces(point, false, force));
+  for (int k = 0; k < mechanism->force_group_count; k++) {
     const baum_i_force_group *group = &mechanism->force_groups[k];
-    status = group->type->force(group, point, force);
+    BAUM_I_TRY(group->type->force(group, point, force));
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_force(baum_i_point *point, double *force)
 {
   clear(force, point->mechanism->nv);
-  baum_status status = baum_i_mechanism_add_body_forces(point, true, force);
-  return status == BAUM_OK ? baum_i_mechanism_add_varying_forces(point, force) : status;
+  BAUM_I_TRY(baum_i_mechanism_add_body_forces(point, true, force));
+  return baum_i_mechanism_add_varying_forces(point, force);
 }
 
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)
 {
   const baum_mechanism *mechanism = point->mechanism;
   *potential = 0.0;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->body_group_count; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
     if (group->type->potential) {
-      status = group->type->potential(group, point, potential);
+      BAUM_I_TRY(group->type->potential(group, point, potential));
     }
   }
-  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->force_group_count; k++) {
     const baum_i_force_group *group = &mechanism->force_groups[k];
     if (group->type->potential) {
-      status = group->type->potential(group, point, potential);
+      BAUM_I_TRY(group->type->potential(group, point, potential));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
@@ -136,14 +132,13 @@ baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double 
   clear(blocks->ma_q, mechanism->mass_size);
   clear(blocks->force_q, mechanism->mass_size);
   clear(blocks->force_v, mechanism->mass_size);
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->body_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->body_group_count; k++) {
     const baum_i_body_group *group = &mechanism->body_groups[k];
-    for (int i = 0; group->type->linearize && i < group->count && status == BAUM_OK; i++) {
-      status = group->type->linearize(group->bodies[i], point, a, blocks);
+    for (int i = 0; group->type->linearize && i < group->count; i++) {
+      BAUM_I_TRY(group->type->linearize(group->bodies[i], point, a, blocks));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
@@ -152,12 +147,11 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
   const baum_mechanism *mechanism = point->mechanism;
   clear(blocks->force_q, mechanism->force_square_size);
   clear(blocks->force_v, mechanism->force_square_size);
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < mechanism->force_group_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < mechanism->force_group_count; k++) {
     const baum_i_force_group *group = &mechanism->force_groups[k];
-    for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-      status = group->type->linearize(group->forces[i], point, blocks);
+    for (int i = 0; i < group->count; i++) {
+      BAUM_I_TRY(group->type->linearize(group->forces[i], point, blocks));
     }
   }
-  return status;
+  return BAUM_OK;
 }

@@ -6,16 +6,18 @@ static void add_numbers(baum_i_digest *sum, const double *numbers, int count)
   baum_i_digest_add(sum, numbers, (size_t)count * sizeof *numbers);
 }
 
-static void add_element(const baum_i_element *element, const baum_i_span *span,
-                        baum_i_digest *structure, baum_i_digest *numbers)
+static void add_elements(const baum_mechanism *m, const baum_i_family *family,
+                         baum_i_digest *structure, baum_i_digest *numbers)
 {
-  baum_i_digest_add_text(structure, element->definition->kind);
-  baum_i_digest_add_integer(structure, span->nl);
-  for (int i = 0; i < span->body_count; i++) {
-    baum_i_digest_add_integer(structure, span->bodies[i]);
-  }
-  if (element->definition->digest) {
-    element->definition->digest(element->def, numbers);
+  for (int k = 0; k < baum_i_family_count(family, m); k++) {
+    baum_i_element *element = family->at(m, k);
+    const baum_i_span *span = baum_i_family_span(family, element);
+    baum_i_digest_add_text(structure, element->definition->kind);
+    baum_i_digest_add_integer(structure, family->rows(element));
+    for (int i = 0; i < span->body_count; i++) {
+      baum_i_digest_add_integer(structure, span->bodies[i]);
+    }
+    baum_i_fields_digest(element->definition, element->def, numbers);
   }
 }
 
@@ -35,15 +37,8 @@ baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *m)
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
     baum_i_digest_add_integer(&structure, sizes[k]);
   }
-  for (int i = 1; i <= m->body_count; i++) {
-    add_element(&m->bodies[i]->element, &m->bodies[i]->span, &structure, &numbers);
-  }
-  for (int i = 0; i < m->joint_count; i++) {
-    add_element(&m->joints[i]->element, &m->joints[i]->span, &structure, &numbers);
-    baum_i_digest_add_integer(&structure, m->joints[i]->rows);
-  }
-  for (int i = 0; i < m->force_count; i++) {
-    add_element(&m->forces[i]->element, &m->forces[i]->span, &structure, &numbers);
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    add_elements(m, baum_i_families[i], &structure, &numbers);
   }
   add_inputs(m, &structure);
   add_numbers(&numbers, m->breaks, m->break_count);

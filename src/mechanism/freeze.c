@@ -27,27 +27,13 @@ static void drop_columns(baum_i_span *span)
 
 void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 {
-  for (int i = 1; mechanism->bodies && i <= mechanism->body_count; i++) {
-    drop_columns(&mechanism->bodies[i]->span);
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    const baum_i_family *family = baum_i_families[i];
+    for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
+      drop_columns(baum_i_family_span(family, family->at(mechanism, k)));
+    }
+    family->free_groups(mechanism);
   }
-  for (int i = 0; i < mechanism->joint_count; i++) {
-    drop_columns(&mechanism->joints[i]->span);
-  }
-  for (int i = 0; i < mechanism->force_count; i++) {
-    drop_columns(&mechanism->forces[i]->span);
-  }
-  for (int k = 0; k < mechanism->body_group_count; k++) {
-    baum_i_free(mechanism->body_groups[k].bodies);
-  }
-  for (int k = 0; k < mechanism->joint_group_count; k++) {
-    baum_i_free(mechanism->joint_groups[k].joints);
-  }
-  for (int k = 0; k < mechanism->force_group_count; k++) {
-    baum_i_free(mechanism->force_groups[k].forces);
-  }
-  baum_i_free(mechanism->body_groups);
-  baum_i_free(mechanism->joint_groups);
-  baum_i_free(mechanism->force_groups);
   baum_i_free(mechanism->parameters);
   baum_i_free(mechanism->design_q);
   baum_i_free(mechanism->design_v);
@@ -56,12 +42,6 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
   baum_i_free(mechanism->position_scale);
   baum_i_free(mechanism->fixed_q);
   baum_i_free(mechanism->places);
-  mechanism->body_groups = NULL;
-  mechanism->joint_groups = NULL;
-  mechanism->force_groups = NULL;
-  mechanism->body_group_count = 0;
-  mechanism->joint_group_count = 0;
-  mechanism->force_group_count = 0;
   mechanism->parameters = NULL;
   mechanism->design_q = NULL;
   mechanism->design_v = NULL;
@@ -75,63 +55,18 @@ void baum_i_mechanism_thaw(baum_mechanism *mechanism)
 
 /* ---- numbering ---- */
 
-/* Every index of the frozen structure is an int; what would not fit is refused here. */
-static bool fits(int present, int64_t more)
-{
-  return more <= INT_MAX - present;
-}
-
-static baum_status fail_too_large(const baum_i_element *element, const char *family)
-{
-  char label[BAUM_I_LABEL_SIZE];
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism has more than %d matrix entries here",
-                     baum_i_label(element, family, label), INT_MAX);
-}
-
 /* Scratch memory for the largest element: that many local columns and rows. False when it is too
  * large. */
 static bool widen_scratch(baum_mechanism *mechanism, int columns, int rows)
 {
   int64_t size = baum_i_scratch_size(columns, rows);
-  if (!fits(0, size)) {
+  if (size > INT_MAX) {
     return false;
   }
   if (size > mechanism->scratch_size) {
     mechanism->scratch_size = (int)size;
   }
   return true;
-}
-
-static int larger(int a, int b)
-{
-  return a > b ? a : b;
-}
-
-static baum_status number_bodies(baum_mechanism *mechanism, int *parameters)
-{
-  mechanism->nq = 0;
-  mechanism->nv = 0;
-  mechanism->mass_size = 0;
-  mechanism->constant_mass = true;
-  mechanism->flat = true;
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    baum_i_body *body = mechanism->bodies[i];
-    if (!fits(mechanism->mass_size, (int64_t)body->nv * body->nv) ||
-        !widen_scratch(mechanism, larger(body->nq, body->nv), body->nv)) {
-      return fail_too_large(&body->element, "body");
-    }
-    body->q = mechanism->nq;
-    body->v = mechanism->nv;
-    body->mass = mechanism->mass_size;
-    body->element.parameter = *parameters;
-    *parameters += body->type->parameter_count;
-    mechanism->nq += body->nq;
-    mechanism->nv += body->nv;
-    mechanism->mass_size += body->nv * body->nv;
-    mechanism->constant_mass &= body->type->constant_mass(body->element.def);
-    mechanism->flat &= !body->manifold;
-  }
-  return BAUM_OK;
 }
 
 /* Columns of a body behind those that the span has. */
@@ -146,9 +81,15 @@ static void add_columns(const baum_i_body *body, baum_i_span *span)
   span->flat &= !body->manifold;
 }
 
-static baum_status make_columns(baum_i_span *span, int ql, int nl)
+static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *span)
 {
-  span->columns = baum_i_alloc((size_t)nl + (size_t)ql, sizeof *span->columns);
+  size_t ql = 0;
+  size_t nl = 0;
+  for (int i = 0; i < span->body_count; i++) {
+    ql += (size_t)mechanism->bodies[span->bodies[i]]->nq;
+    nl += (size_t)mechanism->bodies[span->bodies[i]]->nv;
+  }
+  span->columns = baum_i_alloc(nl + ql, sizeof *span->columns);
   if (!span->columns) {
     return baum_i_fail_memory();
   }
@@ -156,164 +97,45 @@ static baum_status make_columns(baum_i_span *span, int ql, int nl)
   span->nl = 0;
   span->ql = 0;
   span->flat = true;
-  return BAUM_OK;
-}
-
-static baum_status number_span(const baum_mechanism *mechanism, baum_i_span *span)
-{
-  int ql = 0;
-  int nl = 0;
-  for (int i = 0; i < span->body_count; i++) {
-    ql += mechanism->bodies[span->bodies[i]]->nq;
-    nl += mechanism->bodies[span->bodies[i]]->nv;
-  }
-  BAUM_I_TRY(make_columns(span, ql, nl));
   for (int i = 0; i < span->body_count; i++) {
     add_columns(mechanism->bodies[span->bodies[i]], span);
   }
   return BAUM_OK;
 }
 
-static baum_status number_body_spans(baum_mechanism *mechanism)
+/* Every index of the frozen structure is an int; what would not fit is refused here. */
+static baum_status number_element(baum_mechanism *mechanism, const baum_i_family *family,
+                                  baum_i_element *element, baum_i_totals *totals)
 {
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    baum_i_body *body = mechanism->bodies[i];
-    BAUM_I_TRY(make_columns(&body->span, body->nq, body->nv));
-    add_columns(body, &body->span);
+  baum_i_span *span = baum_i_family_span(family, element);
+  family->place(element, totals);
+  BAUM_I_TRY(number_span(mechanism, span));
+  const int rows = family->rows(element);
+  totals->positions += span->ql;
+  totals->rows += rows;
+  totals->blocks += (int64_t)rows * span->nl;
+  totals->squares += (int64_t)span->nl * span->nl;
+  if (totals->blocks > INT_MAX || totals->squares > INT_MAX ||
+      !widen_scratch(mechanism, span->ql > span->nl ? span->ql : span->nl, rows)) {
+    char label[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism has more than %d matrix entries here",
+                       baum_i_label(element, family->name, label), INT_MAX);
   }
+  element->parameter = mechanism->parameter_count;
+  mechanism->parameter_count += element->definition->parameter_count;
   return BAUM_OK;
 }
 
-static baum_status number_joints(baum_mechanism *mechanism, int *parameters)
+static baum_status number(baum_mechanism *mechanism, const baum_i_family *family)
 {
-  mechanism->nc = 0;
-  mechanism->jacobian_size = 0;
-  mechanism->joint_square_size = 0;
-  for (int i = 0; i < mechanism->joint_count; i++) {
-    baum_i_joint *joint = mechanism->joints[i];
-    baum_status status = number_span(mechanism, &joint->span);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    int nl = joint->span.nl;
-    if (!fits(mechanism->jacobian_size, (int64_t)joint->rows * nl) ||
-        !fits(mechanism->joint_square_size, (int64_t)nl * nl) ||
-        !widen_scratch(mechanism, larger(joint->span.ql, nl), joint->rows)) {
-      return fail_too_large(&joint->element, "joint");
-    }
-    joint->row = mechanism->nc;
-    joint->jacobian = mechanism->jacobian_size;
-    joint->square = mechanism->joint_square_size;
-    joint->element.parameter = *parameters;
-    *parameters += joint->type->parameter_count;
-    mechanism->nc += joint->rows;
-    mechanism->jacobian_size += joint->rows * nl;
-    mechanism->joint_square_size += nl * nl;
+  baum_i_totals totals = {0};
+  BAUM_I_TRY(family->open_groups(mechanism));
+  for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
+    baum_i_element *element = family->at(mechanism, k);
+    BAUM_I_TRY(number_element(mechanism, family, element, &totals));
+    BAUM_I_TRY(family->join_group(mechanism, element));
   }
-  return BAUM_OK;
-}
-
-static baum_status number_forces(baum_mechanism *mechanism, int *parameters)
-{
-  mechanism->force_square_size = 0;
-  for (int i = 0; i < mechanism->force_count; i++) {
-    baum_i_force *force = mechanism->forces[i];
-    baum_status status = number_span(mechanism, &force->span);
-    if (status != BAUM_OK) {
-      return status;
-    }
-    int nl = force->span.nl;
-    if (!fits(mechanism->force_square_size, (int64_t)nl * nl) ||
-        !widen_scratch(mechanism, larger(force->span.ql, nl), nl)) {
-      return fail_too_large(&force->element, "force");
-    }
-    force->square = mechanism->force_square_size;
-    force->element.parameter = *parameters;
-    *parameters += force->type->parameter_count;
-    mechanism->force_square_size += nl * nl;
-  }
-  return BAUM_OK;
-}
-
-/* ---- groups ---- */
-
-static baum_i_body_group *body_group(baum_mechanism *mechanism, const baum_i_body_type *type)
-{
-  int k = 0;
-  while (k < mechanism->body_group_count && mechanism->body_groups[k].type != type) {
-    k++;
-  }
-  if (k == mechanism->body_group_count) {
-    mechanism->body_groups[k].type = type;
-    mechanism->body_groups[k].bodies =
-      baum_i_alloc((size_t)mechanism->body_count, sizeof(baum_i_body *));
-    mechanism->body_group_count += mechanism->body_groups[k].bodies ? 1 : 0;
-  }
-  return mechanism->body_groups[k].bodies ? &mechanism->body_groups[k] : NULL;
-}
-
-static baum_i_joint_group *joint_group(baum_mechanism *mechanism, const baum_i_joint_type *type)
-{
-  int k = 0;
-  while (k < mechanism->joint_group_count && mechanism->joint_groups[k].type != type) {
-    k++;
-  }
-  if (k == mechanism->joint_group_count) {
-    mechanism->joint_groups[k].type = type;
-    mechanism->joint_groups[k].joints =
-      baum_i_alloc((size_t)mechanism->joint_count, sizeof(baum_i_joint *));
-    mechanism->joint_group_count += mechanism->joint_groups[k].joints ? 1 : 0;
-  }
-  return mechanism->joint_groups[k].joints ? &mechanism->joint_groups[k] : NULL;
-}
-
-static baum_i_force_group *force_group(baum_mechanism *mechanism, const baum_i_force_type *type)
-{
-  int k = 0;
-  while (k < mechanism->force_group_count && mechanism->force_groups[k].type != type) {
-    k++;
-  }
-  if (k == mechanism->force_group_count) {
-    mechanism->force_groups[k].type = type;
-    mechanism->force_groups[k].forces =
-      baum_i_alloc((size_t)mechanism->force_count, sizeof(baum_i_force *));
-    mechanism->force_group_count += mechanism->force_groups[k].forces ? 1 : 0;
-  }
-  return mechanism->force_groups[k].forces ? &mechanism->force_groups[k] : NULL;
-}
-
-static baum_status make_groups(baum_mechanism *mechanism)
-{
-  mechanism->body_groups =
-    baum_i_alloc((size_t)mechanism->body_count, sizeof *mechanism->body_groups);
-  mechanism->joint_groups =
-    baum_i_alloc((size_t)mechanism->joint_count, sizeof *mechanism->joint_groups);
-  mechanism->force_groups =
-    baum_i_alloc((size_t)mechanism->force_count, sizeof *mechanism->force_groups);
-  if (!mechanism->body_groups || !mechanism->joint_groups || !mechanism->force_groups) {
-    return baum_i_fail_memory();
-  }
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    baum_i_body_group *group = body_group(mechanism, mechanism->bodies[i]->type);
-    if (!group) {
-      return baum_i_fail_memory();
-    }
-    group->bodies[group->count++] = mechanism->bodies[i];
-  }
-  for (int i = 0; i < mechanism->joint_count; i++) {
-    baum_i_joint_group *group = joint_group(mechanism, mechanism->joints[i]->type);
-    if (!group) {
-      return baum_i_fail_memory();
-    }
-    group->joints[group->count++] = mechanism->joints[i];
-  }
-  for (int i = 0; i < mechanism->force_count; i++) {
-    baum_i_force_group *group = force_group(mechanism, mechanism->forces[i]->type);
-    if (!group) {
-      return baum_i_fail_memory();
-    }
-    group->forces[group->count++] = mechanism->forces[i];
-  }
+  family->close(mechanism, &totals);
   return BAUM_OK;
 }
 
@@ -354,12 +176,11 @@ static double design_size(const baum_mechanism *mechanism)
 
 /* ---- numbers ---- */
 
-static baum_status make_arrays(baum_mechanism *mechanism, int parameters)
+static baum_status make_arrays(baum_mechanism *mechanism)
 {
   size_t nq = (size_t)mechanism->nq;
   size_t nv = (size_t)mechanism->nv;
-  mechanism->parameter_count = parameters;
-  mechanism->parameters = baum_i_alloc((size_t)parameters, sizeof(double));
+  mechanism->parameters = baum_i_alloc((size_t)mechanism->parameter_count, sizeof(double));
   mechanism->design_q = baum_i_alloc(nq, sizeof(double));
   mechanism->design_v = baum_i_alloc(nv, sizeof(double));
   mechanism->held = baum_i_alloc(nv, sizeof(bool));
@@ -378,15 +199,20 @@ static void draw_bodies(baum_mechanism *mechanism)
   mechanism->length =
     isnan(mechanism->given_length) ? design_size(mechanism) : mechanism->given_length;
   mechanism->all_planar = true;
+  mechanism->constant_mass = true;
+  mechanism->flat = true;
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
     bool held = false;
     if (body->type->lower) {
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
+    mechanism->flat &= !body->manifold;
     mechanism->places[i] =
       (baum_i_body_place){.q = body->q, .v = body->v, .kind = body->type->frame};
     mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;
+    mechanism->constant_mass &=
+      !body->type->constant_mass || body->type->constant_mass(body->element.def);
     body->type->design(body->element.def, mechanism->design_q + body->q,
                        mechanism->design_v + body->v, &held);
     body->type->scale(body->element.def, mechanism->length, mechanism->scale + body->v);
@@ -398,56 +224,37 @@ static void draw_bodies(baum_mechanism *mechanism)
   }
 }
 
-static baum_status lower(baum_mechanism *mechanism)
+static baum_status lower(baum_mechanism *m)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
-    const baum_i_joint *joint = mechanism->joints[i];
+  for (int i = 0; i < m->joint_count; i++) {
+    const baum_i_joint *joint = m->joints[i];
     if (joint->type->lower) {
-      status =
-        joint->type->lower(mechanism, joint, mechanism->parameters + joint->element.parameter);
+      BAUM_I_TRY(joint->type->lower(m, joint, m->parameters + joint->element.parameter));
     }
   }
-  for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
-    const baum_i_force *force = mechanism->forces[i];
+  for (int i = 0; i < m->force_count; i++) {
+    const baum_i_force *force = m->forces[i];
     if (force->type->lower) {
-      status =
-        force->type->lower(mechanism, force, mechanism->parameters + force->element.parameter);
+      BAUM_I_TRY(force->type->lower(m, force, m->parameters + force->element.parameter));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- the whole ---- */
 
 static baum_status build(baum_mechanism *mechanism)
 {
-  int parameters = 0;
   mechanism->scratch_size = 0;
-  baum_status status = number_bodies(mechanism, &parameters);
-  if (status == BAUM_OK) {
-    status = number_body_spans(mechanism);
+  mechanism->parameter_count = 0;
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    BAUM_I_TRY(number(mechanism, baum_i_families[i]));
   }
-  if (status == BAUM_OK) {
-    status = number_joints(mechanism, &parameters);
-  }
-  if (status == BAUM_OK) {
-    status = number_forces(mechanism, &parameters);
-  }
-  if (status == BAUM_OK) {
-    status = make_groups(mechanism);
-  }
-  if (status == BAUM_OK) {
-    status = make_arrays(mechanism, parameters);
-  }
-  if (status == BAUM_OK) {
-    draw_bodies(mechanism);
-    status = lower(mechanism);
-  }
-  if (status == BAUM_OK) {
-    baum_i_find_fixed_bodies(mechanism);
-  }
-  return status;
+  BAUM_I_TRY(make_arrays(mechanism));
+  draw_bodies(mechanism);
+  BAUM_I_TRY(lower(mechanism));
+  baum_i_find_fixed_bodies(mechanism);
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_freeze(baum_mechanism *mechanism)

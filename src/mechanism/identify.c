@@ -3,66 +3,98 @@
 #include "mechanism/identify.h"
 
 #include <stdio.h>
+#include <string.h>
 
 #include "base/message.h"
 
 /* ---- ids ---- */
 
-static int index_of(const baum_mechanism *mechanism, int32_t index1, uint32_t tag, int count)
+static int index_of(const baum_mechanism *mechanism, baum_i_id id, int count)
 {
-  bool ours = mechanism && tag == mechanism->tag && index1 >= 1 && index1 <= count;
-  return ours ? index1 : -1;
+  bool ours = id.tag == mechanism->tag && id.index1 >= 1 && id.index1 <= count;
+  return ours ? id.index1 - 1 : -1;
+}
+
+int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id)
+{
+  return mechanism ? index_of(mechanism, id, baum_i_family_count(family, mechanism)) : -1;
+}
+
+static bool is_ground(const baum_i_family *family, baum_i_id id)
+{
+  return family == &baum_i_body_family && id.index1 == BAUM_GROUND.index1 &&
+         id.tag == BAUM_GROUND.tag;
 }
 
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id)
 {
-  if (mechanism && id.index1 == BAUM_GROUND.index1 && id.tag == BAUM_GROUND.tag) {
-    return 0;
-  }
-  return index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->body_count : 0);
+  baum_i_id any = {id.index1, id.tag};
+  int k = baum_i_index(mechanism, &baum_i_body_family, any);
+  return k >= 0 || (mechanism && is_ground(&baum_i_body_family, any)) ? k + 1 : -1;
 }
 
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id)
 {
-  int index1 = index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->joint_count : 0);
-  return index1 < 0 ? -1 : index1 - 1;
+  return baum_i_index(mechanism, &baum_i_joint_family, (baum_i_id){id.index1, id.tag});
 }
 
-int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id)
+int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id)
 {
-  int index1 = index_of(mechanism, id.index1, id.tag, mechanism ? mechanism->force_count : 0);
-  return index1 < 0 ? -1 : index1 - 1;
+  return mechanism ? index_of(mechanism, (baum_i_id){id.index1, id.tag}, mechanism->input_count)
+                   : -1;
 }
 
-static baum_status check_id(const baum_mechanism *mechanism, int32_t index1, int found,
-                            const char *label, const char *field)
+int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
+                         const char *name)
+{
+  const int count = mechanism && name ? baum_i_family_count(family, mechanism) : 0;
+  for (int k = 0; k < count; k++) {
+    if (strcmp(family->at(mechanism, k)->name, name) == 0) {
+      return k;
+    }
+  }
+  return -1;
+}
+
+static baum_status check_known(const baum_mechanism *mechanism, int32_t index1, bool known,
+                               const char *label, const char *field)
 {
   if (!mechanism) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", label);
   }
-  if (found >= 0) {
+  if (known) {
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s", label, field,
                      index1 == 0 ? "none, must be given" : "not of this mechanism");
 }
 
+baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
+                            baum_i_id id, const char *label, const char *field)
+{
+  bool known = baum_i_index(mechanism, family, id) >= 0 || is_ground(family, id);
+  return check_known(mechanism, id.index1, known, label, field);
+}
+
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
                               const char *field)
 {
-  return check_id(mechanism, id.index1, baum_i_body_index(mechanism, id), label, field);
+  return baum_i_check_id(mechanism, &baum_i_body_family, (baum_i_id){id.index1, id.tag}, label,
+                         field);
 }
 
 baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
                                const char *field)
 {
-  return check_id(mechanism, id.index1, baum_i_joint_index(mechanism, id), label, field);
+  return baum_i_check_id(mechanism, &baum_i_joint_family, (baum_i_id){id.index1, id.tag}, label,
+                         field);
 }
 
-baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
+baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
                                const char *field)
 {
-  return check_id(mechanism, id.index1, baum_i_force_index(mechanism, id), label, field);
+  bool known = baum_i_input_index(mechanism, id) >= 0;
+  return check_known(mechanism, id.index1, known, label, field);
 }
 
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint)

@@ -4,23 +4,34 @@
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
-#include "mechanism/model.h"
+#include "mechanism/family.h"
+
+/* The id of an element of any family. */
+typedef struct baum_i_id {
+  int32_t index1;
+  uint32_t tag;
+} baum_i_id;
+
+/* Number of an id's element in its family, from 0, or -1: ground, none, foreign or out of range. */
+int baum_i_index(const baum_mechanism *mechanism, const baum_i_family *family, baum_i_id id);
+
+/* Number of the element of that name, from 0, or -1. */
+int baum_i_index_of_name(const baum_mechanism *mechanism, const baum_i_family *family,
+                         const char *name);
 
 /* Index of an id's element, or -1: none, foreign or out of range. Ground gives 0 for bodies. */
 int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
-int baum_i_force_index(const baum_mechanism *mechanism, baum_force_id id); /* from 0 */
 int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
 
 /* Check an id used in a definition. The sentence says whether it is none, or of another
  * mechanism. */
+baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
+                            baum_i_id id, const char *label, const char *field);
 baum_status baum_i_check_body(const baum_mechanism *mechanism, baum_body_id id, const char *label,
                               const char *field);
 baum_status baum_i_check_joint(const baum_mechanism *mechanism, baum_joint_id id, const char *label,
                                const char *field);
-baum_status baum_i_check_force(const baum_mechanism *mechanism, baum_force_id id, const char *label,
-                               const char *field);
-
 baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
                                const char *field);
 /* An id and the value it shall have. */

@@ -8,28 +8,6 @@
 #include "base/text.h"
 #include "mechanism/mechanism.h"
 
-/* ---- ids ---- */
-
-int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id)
-{
-  bool ours =
-    mechanism && id.tag == mechanism->tag && id.index1 >= 1 && id.index1 <= mechanism->input_count;
-  return ours ? id.index1 - 1 : -1;
-}
-
-baum_status baum_i_check_input(const baum_mechanism *mechanism, baum_input_id id, const char *label,
-                               const char *field)
-{
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", label);
-  }
-  if (baum_i_input_index(mechanism, id) >= 0) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s", label, field,
-                     id.index1 == 0 ? "none, must be given" : "not of this mechanism");
-}
-
 static baum_status check_value(const char *call, int number, const char *name, double value)
 {
   return isfinite(value)
@@ -41,10 +19,8 @@ static baum_status check_value(const char *call, int number, const char *name, d
 baum_status baum_i_check_input_value(const baum_mechanism *mechanism, baum_input_id id,
                                      const char *call, double value)
 {
-  baum_status status = baum_i_check_input(mechanism, id, call, "input");
-  return status == BAUM_OK
-           ? check_value(call, id.index1, mechanism->input_names[id.index1 - 1], value)
-           : status;
+  BAUM_I_TRY(baum_i_check_input(mechanism, id, call, "input"));
+  return check_value(call, id.index1, mechanism->input_names[id.index1 - 1], value);
 }
 
 /* ---- the list ---- */
@@ -87,11 +63,10 @@ static baum_status append(baum_mechanism *mechanism, const char *name, double in
 
 baum_status baum_i_copy_inputs(baum_mechanism *to, const baum_mechanism *from)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < from->input_count && status == BAUM_OK; i++) {
-    status = append(to, from->input_names[i], from->inputs[i]);
+  for (int i = 0; i < from->input_count; i++) {
+    BAUM_I_TRY(append(to, from->input_names[i], from->inputs[i]));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- public ---- */
@@ -101,34 +76,24 @@ baum_status baum_mechanism_add_input(baum_mechanism *mechanism, const char *name
 {
   const char *call = "baum_mechanism_add_input";
   char default_name[BAUM_I_LABEL_SIZE];
-  baum_status status = baum_i_check_open(mechanism, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_open(mechanism, call));
   int number = mechanism->input_count + 1;
   (void)snprintf(default_name, sizeof default_name, "input%d", number);
   const char *given = name ? name : default_name;
-  status = baum_i_check_name("input", number, name);
-  if (status == BAUM_OK) {
-    status = check_value(call, number, given, initial);
-  }
-  if (status == BAUM_OK) {
-    status = append(mechanism, given, initial);
-  }
-  if (status == BAUM_OK && id) {
+  BAUM_I_TRY(baum_i_check_name("input", number, name));
+  BAUM_I_TRY(check_value(call, number, given, initial));
+  BAUM_I_TRY(append(mechanism, given, initial));
+  if (id) {
     *id = (baum_input_id){number, mechanism->tag};
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input_id id,
                                      double *initial)
 {
   const char *call = "baum_mechanism_get_input";
-  baum_status status = baum_i_check_input(mechanism, id, call, "input");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_input(mechanism, id, call, "input"));
   if (!initial) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: initial is NULL", call);
   }
@@ -139,14 +104,10 @@ baum_status baum_mechanism_get_input(const baum_mechanism *mechanism, baum_input
 baum_status baum_mechanism_set_input(baum_mechanism *mechanism, baum_input_id id, double initial)
 {
   const char *call = "baum_mechanism_set_input";
-  baum_status status = baum_i_check_open(mechanism, call);
-  if (status == BAUM_OK) {
-    status = baum_i_check_input_value(mechanism, id, call, initial);
-  }
-  if (status == BAUM_OK) {
-    mechanism->inputs[id.index1 - 1] = initial;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_check_open(mechanism, call));
+  BAUM_I_TRY(baum_i_check_input_value(mechanism, id, call, initial));
+  mechanism->inputs[id.index1 - 1] = initial;
+  return BAUM_OK;
 }
 
 int32_t baum_mechanism_input_count(const baum_mechanism *mechanism)

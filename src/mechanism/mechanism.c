@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism as an object: create, copy, share, destroy, names, what is set on the whole. */
+/* A mechanism as an object: create, copy, share, destroy, what is set on the whole. */
 #include "mechanism/mechanism.h"
 
 #include <math.h>
@@ -79,14 +79,14 @@ const baum_mechanism *baum_i_mechanism_share(const baum_mechanism *mechanism)
 
 static void free_elements(baum_mechanism *mechanism)
 {
-  for (int i = 0; mechanism->bodies && i <= mechanism->body_count; i++) {
-    baum_i_body_free(mechanism->bodies[i]);
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    const baum_i_family *family = baum_i_families[i];
+    for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
+      baum_i_free_element(family, family->at(mechanism, k));
+    }
   }
-  for (int i = 0; i < mechanism->joint_count; i++) {
-    baum_i_joint_free(mechanism->joints[i]);
-  }
-  for (int i = 0; i < mechanism->force_count; i++) {
-    baum_i_force_free(mechanism->forces[i]);
+  if (mechanism->bodies && mechanism->bodies[0]) {
+    baum_i_free_element(&baum_i_body_family, &mechanism->bodies[0]->element);
   }
   baum_i_free(mechanism->bodies);
   baum_i_free(mechanism->joints);
@@ -107,46 +107,14 @@ void baum_mechanism_destroy(baum_mechanism *mechanism)
 
 /* ---- copy ---- */
 
-static void *room(int count)
-{
-  return baum_i_grow(NULL, (size_t)count, sizeof(void *));
-}
-
 static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
 {
-  baum_i_body **bodies = baum_i_grow(to->bodies, (size_t)from->body_count + 1, sizeof(void *));
-  if (!bodies) {
-    return baum_i_fail_memory();
-  }
-  to->bodies = bodies;
-  to->joints = room(from->joint_count);
-  to->forces = room(from->force_count);
-  if (!to->joints || !to->forces) {
-    return baum_i_fail_memory();
-  }
-  for (int i = 1; i <= from->body_count; i++) {
-    const baum_i_body *body = from->bodies[i];
-    to->bodies[i] = baum_i_body_new(to, body->type, body->element.def, i);
-    if (!to->bodies[i]) {
-      return BAUM_ERR_MEMORY;
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    const baum_i_family *family = baum_i_families[i];
+    for (int k = 0; k < baum_i_family_count(family, from); k++) {
+      const baum_i_element *element = family->at(from, k);
+      BAUM_I_TRY(baum_i_append_element(to, family, element->definition, element->def));
     }
-    to->body_count = i;
-  }
-  for (int i = 0; i < from->joint_count; i++) {
-    const baum_i_joint *joint = from->joints[i];
-    to->joints[i] = baum_i_joint_new(to, joint->type, joint->element.def, i + 1);
-    if (!to->joints[i]) {
-      return BAUM_ERR_MEMORY;
-    }
-    to->joint_count = i + 1;
-  }
-  for (int i = 0; i < from->force_count; i++) {
-    const baum_i_force *force = from->forces[i];
-    to->forces[i] = baum_i_force_new(to, force->type, force->element.def, i + 1);
-    if (!to->forces[i]) {
-      return BAUM_ERR_MEMORY;
-    }
-    to->force_count = i + 1;
   }
   return BAUM_OK;
 }
@@ -183,28 +151,11 @@ baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism 
   return BAUM_OK;
 }
 
-/* ---- names ---- */
-
-const char *baum_mechanism_body_name(const baum_mechanism *mechanism, baum_body_id body)
-{
-  int index = baum_i_body_index(mechanism, body);
-  return index < 0 ? NULL : mechanism->bodies[index]->element.name;
-}
-
-const char *baum_mechanism_joint_name(const baum_mechanism *mechanism, baum_joint_id joint)
-{
-  int index = baum_i_joint_index(mechanism, joint);
-  return index < 0 ? NULL : mechanism->joints[index]->element.name;
-}
-
 /* ---- the whole ---- */
 
 baum_status baum_mechanism_set_gravity(baum_mechanism *mechanism, double x, double y, double z)
 {
-  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_gravity");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_open(mechanism, "baum_mechanism_set_gravity"));
   if (!isfinite(x) || !isfinite(y) || !isfinite(z)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "gravity is (%g, %g, %g) m/s^2, must be finite", x, y, z);
   }
@@ -226,14 +177,10 @@ baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism, double g
 
 baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism, double length)
 {
-  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_set_characteristic_length");
-  if (status == BAUM_OK) {
-    status = baum_i_check_positive("mechanism", "length scale", "m", length);
-  }
-  if (status == BAUM_OK) {
-    mechanism->given_length = length;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_check_open(mechanism, "baum_mechanism_set_characteristic_length"));
+  BAUM_I_TRY(baum_i_check_positive("mechanism", "length scale", "m", length));
+  mechanism->given_length = length;
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_get_characteristic_length(const baum_mechanism *mechanism,
@@ -262,40 +209,29 @@ static void put(int32_t *out, int value)
 baum_status baum_mechanism_sizes(const baum_mechanism *mechanism, int32_t *nq, int32_t *nv,
                                  int32_t *nc)
 {
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_sizes");
-  if (status == BAUM_OK) {
-    put(nq, mechanism->nq);
-    put(nv, mechanism->nv);
-    put(nc, mechanism->nc);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_sizes"));
+  put(nq, mechanism->nq);
+  put(nv, mechanism->nv);
+  put(nc, mechanism->nc);
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_rows(const baum_mechanism *mechanism, baum_joint_id joint,
                                 int32_t *first, int32_t *count)
 {
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_rows");
-  if (status == BAUM_OK) {
-    status = baum_i_check_joint(mechanism, joint, "baum_mechanism_rows", "joint");
-  }
-  if (status == BAUM_OK) {
-    const baum_i_joint *found = mechanism->joints[baum_i_joint_index(mechanism, joint)];
-    put(first, found->row);
-    put(count, found->rows);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_rows"));
+  BAUM_I_TRY(baum_i_check_joint(mechanism, joint, "baum_mechanism_rows", "joint"));
+  const baum_i_joint *found = mechanism->joints[baum_i_joint_index(mechanism, joint)];
+  put(first, found->row);
+  put(count, found->rows);
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_columns(const baum_mechanism *mechanism, baum_body_id body,
                                    int32_t *first_q, int32_t *first_v)
 {
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_columns");
-  if (status == BAUM_OK) {
-    status = baum_i_check_body(mechanism, body, "baum_mechanism_columns", "body");
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_columns"));
+  BAUM_I_TRY(baum_i_check_body(mechanism, body, "baum_mechanism_columns", "body"));
   int index = baum_i_body_index(mechanism, body);
   if (index == 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_columns: ground has no coordinates");

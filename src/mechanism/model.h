@@ -19,38 +19,9 @@
 
 #include <baum/mechanism.h>
 
-#include "base/digest.h"
+#include "mechanism/fields.h"
 
 /* ---- elements ---- */
-
-/* How a definition struct is filled, checked and owned. */
-typedef struct baum_i_definition {
-  const char *kind;     /* "planar body", for messages */
-  size_t size;          /* of the struct */
-  const void *defaults; /* one with the defaults; its struct_size is `size` */
-  /* Where the fields of former versions ended that had padding in which a later field lies;
-   * 0 ends the list. NULL: none. */
-  const size_t *former;
-  /* Check every field; the sentence starts with label, such as: joint 2 "B".
-   * NULL members and ids too. */
-  baum_status (*check)(const baum_mechanism *mechanism, const void *def, const char *label);
-  /* Replace what the copy points to (not its name) by own copies: BAUM_OK or BAUM_ERR_MEMORY, then
-   * nothing is owned. NULL when there is nothing. */
-  baum_status (*own)(void *def);
-  void (*release)(void *def); /* free what own() made. NULL likewise. */
-  /* The name of a field that a new definition may not change, but does, beside bodies and size; or
-   * NULL. NULL when there is none. */
-  const char *(*tied)(const void *present, const void *next);
-  /* What tells this one from others beside its bodies and the numbers of lower(): flags, arrays, inputs. NULL when
-   * there is nothing. */
-  void (*digest)(const void *def, baum_i_digest *sum);
-} baum_i_definition;
-
-/* Every definition struct begins with these two. */
-typedef struct baum_i_def_head {
-  size_t struct_size;
-  const char *name;
-} baum_i_def_head;
 
 /* What all elements have; first member of each. */
 typedef struct baum_i_element {
@@ -258,7 +229,6 @@ struct baum_i_manifold {
 struct baum_i_body_type {
   baum_i_definition definition;
   baum_i_frame_kind frame;
-  int parameter_count;
   bool scleronomic;                  /* mass and force of the type never depend on t */
   bool constant_force;               /* force of the type depends on parameters only */
   int nq, nv;                        /* of all of the type; 0: size() and positions() tell */
@@ -266,7 +236,7 @@ struct baum_i_body_type {
   int (*positions)(const void *def); /* nq of one; or NULL */
   /* Of one; NULL, and a NULL answer: q is a vector and v = q'. */
   const baum_i_manifold *(*manifold)(const void *def);
-  bool (*constant_mass)(const void *def);
+  bool (*constant_mass)(const void *def);       /* NULL: it is */
   bool (*depends_on_velocity)(const void *def); /* force() does; NULL: never */
   /* Numbers of this body; NULL: none. */
   void (*lower)(const baum_i_body *body, double *parameters);
@@ -311,7 +281,6 @@ typedef struct baum_i_coordinate_blocks {
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  int parameter_count;
   bool planar;      /* two planar bodies: reaction is force and moment */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
@@ -321,8 +290,6 @@ struct baum_i_joint_type {
   void (*replace_law)(double *parameters, double t0, const double s[3]);
   int row_count;                /* of all of the type; 0: rows() tells */
   int (*rows)(const void *def); /* of one; or NULL */
-  /* Fills body_count; and bodies if not NULL. */
-  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
   /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
    * sentence. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -354,8 +321,6 @@ struct baum_i_joint_type {
 
 struct baum_i_force_type {
   baum_i_definition definition;
-  int parameter_count;
-  void (*bodies)(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
   /* Adds to (nv). */

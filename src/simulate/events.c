@@ -23,12 +23,11 @@ static const baum_event_def defaults = {
   .tolerance = BAUM_I_NOT_GIVEN,
 };
 
-static const baum_i_definition definition = {
-  .kind = "event", .size = sizeof(baum_event_def), .defaults = &defaults};
-
 void baum_event_def_init(baum_event_def *def, size_t caller_size)
 {
-  baum_i_definition_init(&definition, def, caller_size);
+  if (baum_i_takes_sized(def, caller_size)) {
+    baum_i_give_sized(def, caller_size, &defaults, sizeof defaults);
+  }
 }
 
 static baum_status check_source(const baum_mechanism *m, const baum_event_def *def,

@@ -216,7 +216,7 @@ static baum_status set_driver(baum_simulation *run, const baum_i_joint *joint, c
 {
   double before[MOST_NUMBERS];
   double *numbers = run->parameters + joint->element.parameter;
-  size_t size = (size_t)joint->type->parameter_count * sizeof *numbers;
+  size_t size = (size_t)joint->element.definition->parameter_count * sizeof *numbers;
   assert(size <= sizeof before);
   memcpy(before, numbers, size);
   baum_i_run_end_before_change(run);

@@ -176,8 +176,9 @@ static bool may_be_nan(const char *name)
 
 static void check_not_finite(every_element *parts, const element_kind *kind)
 {
-  for (int k = 0; k < kind->field_count; k++) {
-    const element_field *field = &kind->fields[k];
+  const element_fields fields = element_fields_of(kind);
+  for (int k = 0; k < fields.count; k++) {
+    const element_field *field = &fields.list[k];
     bool nan_is_fine = may_be_nan(field->name) && kind != &element_kinds[0];
     nan_is_fine = nan_is_fine || begins(field->name, "velocity") ||
                   begins(field->name, "angular_velocity") || begins(field->name, "point");
@@ -223,11 +224,12 @@ static void masses_inertias_and_lengths_out_of_range_are_refused(void **state)
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     const element_kind *kind = &element_kinds[bad[k].kind];
+    const element_fields fields = element_fields_of(kind);
     any_def def;
     kind->good(&parts, &def);
-    for (int f = 0; f < kind->field_count; f++) {
-      if (strcmp(kind->fields[f].name, bad[k].field) == 0) {
-        memcpy(def.bytes + kind->fields[f].offset, &bad[k].value, sizeof(double));
+    for (int f = 0; f < fields.count; f++) {
+      if (strcmp(fields.list[f].name, bad[k].field) == 0) {
+        memcpy(def.bytes + fields.list[f].offset, &bad[k].value, sizeof(double));
       }
     }
     check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, bad[k].sentence);
@@ -239,8 +241,9 @@ static void masses_inertias_and_lengths_out_of_range_are_refused(void **state)
 
 static void check_ids(every_element *parts, const element_kind *kind)
 {
-  for (int k = 0; k < kind->field_count; k++) {
-    const element_field *field = &kind->fields[k];
+  const element_fields fields = element_fields_of(kind);
+  for (int k = 0; k < fields.count; k++) {
+    const element_field *field = &fields.list[k];
     if (field->type != FIELD_ID) {
       continue;
     }
@@ -322,17 +325,18 @@ static void a_joint_of_a_body_to_itself_is_refused(void **state)
   assert_int_equal(every_element_build(&parts), BAUM_OK);
   for (int k = 3; k < ELEMENT_KINDS; k++) {
     const element_kind *kind = &element_kinds[k];
-    const element_field *b = &kind->fields[3];
+    const element_fields fields = element_fields_of(kind);
+    const element_field *b = &fields.list[3];
     if (strcmp(b->name, "body_b") != 0) {
       continue;
     }
     any_def def;
     kind->good(&parts, &def);
-    memcpy(def.bytes + kind->fields[2].offset, &parts.crank, sizeof parts.crank);
+    memcpy(def.bytes + fields.list[2].offset, &parts.crank, sizeof parts.crank);
     memcpy(def.bytes + b->offset, &parts.crank, sizeof parts.crank);
     check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT,
                   "body_a and body_b are both body 1 \"crank\"");
-    memcpy(def.bytes + kind->fields[2].offset, &BAUM_GROUND, sizeof BAUM_GROUND);
+    memcpy(def.bytes + fields.list[2].offset, &BAUM_GROUND, sizeof BAUM_GROUND);
     memcpy(def.bytes + b->offset, &BAUM_GROUND, sizeof BAUM_GROUND);
     check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, "body_a and body_b are both ground");
   }

@@ -196,8 +196,7 @@ typedef struct defaults {
   char name[NAME_SIZE];
   size_t size;
   void (*init)(any_def *def, size_t caller_size);
-  const element_field *fields;
-  int field_count;
+  element_fields fields;
 } defaults;
 
 static void init_options(any_def *def, size_t caller_size)
@@ -209,15 +208,17 @@ enum { STRUCTS = ELEMENT_KINDS + 1 };
 
 static defaults defaults_of(int k)
 {
-  defaults d = {"baum_simulation_options", sizeof(baum_simulation_options), init_options,
-                option_fields, OPTION_FIELDS};
+  defaults d = {
+    "baum_simulation_options", sizeof(baum_simulation_options), init_options, {.count = 0}};
   if (k < ELEMENT_KINDS) {
     const element_kind *kind = &element_kinds[k];
     (void)snprintf(d.name, sizeof d.name, "baum_%s_def", kind->name);
     d.size = kind->size;
     d.init = kind->init;
-    d.fields = kind->fields;
-    d.field_count = kind->field_count;
+    d.fields = element_fields_of(kind);
+  } else {
+    d.fields.count = OPTION_FIELDS;
+    memcpy(d.fields.list, option_fields, sizeof option_fields);
   }
   return d;
 }
@@ -234,15 +235,15 @@ static void check_struct(const char *headers, const defaults *d)
   char text[TEXT_SIZE];
   int k = 0;
   while ((at = next_field(at, end, name, text)) != NULL) {
-    if (k >= d->field_count || strcmp(name, d->fields[k].name) != 0) {
-      fail_msg("%s: field %d is %s, which every_element.c does not have there", d->name, k, name);
+    if (k >= d->fields.count || strcmp(name, d->fields.list[k].name) != 0) {
+      fail_msg("%s: field %d is %s, which its table does not have there", d->name, k, name);
     }
-    if (!is_as_documented(&d->fields[k], text, &def)) {
+    if (!is_as_documented(&d->fields.list[k], text, &def)) {
       fail_msg("%s: default of %s is not \"%s\"", d->name, name, text);
     }
     k++;
   }
-  assert_int_equal(k, d->field_count);
+  assert_int_equal(k, d->fields.count);
 }
 
 static void documented_defaults_are_the_real_ones(void **state)
@@ -301,14 +302,15 @@ static void init_writes_at_most_the_callers_size(void **state)
 
 static size_t array_bytes(const element_kind *kind, const element_field *field, const any_def *def)
 {
+  const element_fields fields = element_fields_of(kind);
   bool ids = strcmp(field->name, "bodies") == 0;
   size_t bytes[2] = {sizeof(double), sizeof(baum_body_id)};
-  for (int k = 0; k < kind->field_count; k++) {
-    const char *name = kind->fields[k].name;
+  for (int k = 0; k < fields.count; k++) {
+    const char *name = fields.list[k].name;
     bool counts = ids ? strcmp(name, "body_count") == 0
                       : strcmp(name, "size") == 0 || strcmp(name, "count") == 0;
     if (counts) {
-      const element_field *count = &kind->fields[k];
+      const element_field *count = &fields.list[k];
       return (size_t)integer_of(def->bytes + count->offset, count->size) * bytes[ids ? 1 : 0];
     }
   }
@@ -339,8 +341,9 @@ static void check_same_copied(const element_kind *kind, const element_field *fie
 
 static void check_same(const element_kind *kind, const any_def *got, const any_def *want)
 {
-  for (int k = 0; k < kind->field_count; k++) {
-    const element_field *field = &kind->fields[k];
+  const element_fields fields = element_fields_of(kind);
+  for (int k = 0; k < fields.count; k++) {
+    const element_field *field = &fields.list[k];
     if (field->type == FIELD_NAME || field->type == FIELD_ARRAY) {
       check_same_copied(kind, field, got, want);
     } else {
@@ -360,10 +363,11 @@ static void check_is_in(const baum_mechanism *mechanism, const element_kind *kin
 /* Another definition with the same ties: other name, other numbers. */
 static any_def change(const element_kind *kind, const any_def *good, const char *name)
 {
+  const element_fields fields = element_fields_of(kind);
   any_def def = *good;
   def.head.name = name;
-  for (int k = 0; k < kind->field_count; k++) {
-    const element_field *field = &kind->fields[k];
+  for (int k = 0; k < fields.count; k++) {
+    const element_field *field = &fields.list[k];
     double value[2];
     if (field->type != FIELD_NUMBERS) {
       continue;

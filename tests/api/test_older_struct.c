@@ -55,8 +55,9 @@ static size_t older_size(const element_field *last)
 /* Names and arrays are copies of the element's own. */
 static void check_same_fields(const element_kind *kind, const any_def *a, const any_def *b)
 {
-  for (int k = 0; k < kind->field_count; k++) {
-    const element_field *field = &kind->fields[k];
+  const element_fields fields = element_fields_of(kind);
+  for (int k = 0; k < fields.count; k++) {
+    const element_field *field = &fields.list[k];
     if (field->type != FIELD_NAME && field->type != FIELD_ARRAY) {
       assert_memory_equal(a->bytes + field->offset, b->bytes + field->offset, field->size);
     }
@@ -84,12 +85,13 @@ static baum_status add_to_copy(const baum_mechanism *mechanism, const element_ki
 
 static bool check_cut(const every_element *parts, const element_kind *kind, size_t size)
 {
+  const element_fields fields = element_fields_of(kind);
   any_def good;
   any_def defaults;
   memset(&defaults, 0, sizeof defaults);
   kind->good(parts, &good);
   kind->init(&defaults, kind->size);
-  two_structs two = cut_at(&good, &defaults, size, kind->fields, kind->field_count);
+  two_structs two = cut_at(&good, &defaults, size, fields.list, fields.count);
   any_def got[2];
   char text[2][TEXT_SIZE];
   baum_status whole = add_to_copy(parts->mechanism, kind, &two.whole, &got[0], text[0]);
@@ -111,8 +113,9 @@ static void a_shorter_definition_has_defaults_where_it_ends(void **state)
   int accepted = 0;
   for (int k = 0; k < ELEMENT_KINDS; k++) {
     const element_kind *kind = &element_kinds[k];
-    for (int f = 1; f < kind->field_count; f++) {
-      accepted += check_cut(&parts, kind, older_size(&kind->fields[f]));
+    const element_fields fields = element_fields_of(kind);
+    for (int f = 1; f < fields.count; f++) {
+      accepted += check_cut(&parts, kind, older_size(&fields.list[f]));
     }
   }
   /* Each kind as a whole, and a good part of the others: not only refusals have been compared. */

@@ -16,6 +16,8 @@
 
 #include <baum/baum.h>
 
+#include "mechanism/kinds.h"
+
 /* Any id, for functions that serve all kinds. */
 typedef struct any_id {
   int32_t index1;
@@ -110,10 +112,18 @@ typedef struct element_kind {
   baum_status (*set)(baum_mechanism *mechanism, any_id id, const any_def *def);
   /* The definition that every_element_build() uses; its parts must be in `parts` already. */
   void (*good)(const every_element *parts, any_def *def);
-  size_t id;                   /* offset in every_element */
-  const element_field *fields; /* all of the struct, in its order */
-  int field_count;
+  size_t id; /* offset in every_element */
+  const baum_i_definition *const *definition;
 } element_kind;
+
+/* All of a definition, in its order. */
+enum { ELEMENT_FIELDS_MAX = 32 };
+typedef struct element_fields {
+  element_field list[ELEMENT_FIELDS_MAX];
+  int count;
+} element_fields;
+
+element_fields element_fields_of(const element_kind *kind);
 
 enum { ELEMENT_KINDS = 19 };
 extern const element_kind element_kinds[ELEMENT_KINDS];

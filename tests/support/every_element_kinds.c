@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields of all definitions and of the options, and the table of kinds. */
+/* Fields of the options, and the table of kinds with the fields of their definitions. */
+#include <setjmp.h>
+#include <stdarg.h>
 #include <stddef.h>
+#include <stdint.h>
 #include <string.h>
+
+#include <cmocka.h>
 
 #include "every_element_good.h"
 
@@ -11,213 +16,6 @@
   {                                                                          \
 #NAME, offsetof(STRUCT, NAME), sizeof(((STRUCT *)0)->NAME), FIELD_##TYPE \
   }
-
-static const element_field planar_body_fields[] = {
-  FIELD(baum_planar_body_def, struct_size, SIZE),
-  FIELD(baum_planar_body_def, name, NAME),
-  FIELD(baum_planar_body_def, mass, NUMBERS),
-  FIELD(baum_planar_body_def, inertia, NUMBERS),
-  FIELD(baum_planar_body_def, position, NUMBERS),
-  FIELD(baum_planar_body_def, angle, NUMBERS),
-  FIELD(baum_planar_body_def, velocity, NUMBERS),
-  FIELD(baum_planar_body_def, angular_velocity, NUMBERS),
-  FIELD(baum_planar_body_def, held, FLAG),
-};
-
-static const element_field planar_particle_fields[] = {
-  FIELD(baum_planar_particle_def, struct_size, SIZE),
-  FIELD(baum_planar_particle_def, name, NAME),
-  FIELD(baum_planar_particle_def, mass, NUMBERS),
-  FIELD(baum_planar_particle_def, position, NUMBERS),
-  FIELD(baum_planar_particle_def, velocity, NUMBERS),
-  FIELD(baum_planar_particle_def, held, FLAG),
-};
-
-static const element_field coordinates_fields[] = {
-  FIELD(baum_coordinates_def, struct_size, SIZE),
-  FIELD(baum_coordinates_def, name, NAME),
-  FIELD(baum_coordinates_def, size, INTEGER),
-  FIELD(baum_coordinates_def, q, ARRAY),
-  FIELD(baum_coordinates_def, v, ARRAY),
-  FIELD(baum_coordinates_def, scale, ARRAY),
-  FIELD(baum_coordinates_def, mass, FUNCTION),
-  FIELD(baum_coordinates_def, force, FUNCTION),
-  FIELD(baum_coordinates_def, force_q, FUNCTION),
-  FIELD(baum_coordinates_def, force_v, FUNCTION),
-  FIELD(baum_coordinates_def, potential, FUNCTION),
-  FIELD(baum_coordinates_def, constant_mass, FLAG),
-  FIELD(baum_coordinates_def, held, FLAG),
-  FIELD(baum_coordinates_def, user, FUNCTION),
-  FIELD(baum_coordinates_def, depends_on_velocity, FLAG),
-  FIELD(baum_coordinates_def, position_scale, ARRAY),
-  FIELD(baum_coordinates_def, rate, FUNCTION),
-  FIELD(baum_coordinates_def, move, FUNCTION),
-  FIELD(baum_coordinates_def, difference, FUNCTION),
-  FIELD(baum_coordinates_def, normalize, FUNCTION),
-  FIELD(baum_coordinates_def, position_count, INTEGER),
-};
-
-static const element_field planar_revolute_fields[] = {
-  FIELD(baum_planar_revolute_def, struct_size, SIZE),
-  FIELD(baum_planar_revolute_def, name, NAME),
-  FIELD(baum_planar_revolute_def, body_a, ID),
-  FIELD(baum_planar_revolute_def, body_b, ID),
-  FIELD(baum_planar_revolute_def, point, NUMBERS),
-  FIELD(baum_planar_revolute_def, point_a, NUMBERS),
-  FIELD(baum_planar_revolute_def, point_b, NUMBERS),
-};
-
-static const element_field planar_distance_fields[] = {
-  FIELD(baum_planar_distance_def, struct_size, SIZE),
-  FIELD(baum_planar_distance_def, name, NAME),
-  FIELD(baum_planar_distance_def, body_a, ID),
-  FIELD(baum_planar_distance_def, body_b, ID),
-  FIELD(baum_planar_distance_def, point, NUMBERS),
-  FIELD(baum_planar_distance_def, point_a, NUMBERS),
-  FIELD(baum_planar_distance_def, point_b, NUMBERS),
-  FIELD(baum_planar_distance_def, length, NUMBERS),
-};
-
-static const element_field planar_translational_fields[] = {
-  FIELD(baum_planar_translational_def, struct_size, SIZE),
-  FIELD(baum_planar_translational_def, name, NAME),
-  FIELD(baum_planar_translational_def, body_a, ID),
-  FIELD(baum_planar_translational_def, body_b, ID),
-  FIELD(baum_planar_translational_def, point, NUMBERS),
-  FIELD(baum_planar_translational_def, point_a, NUMBERS),
-  FIELD(baum_planar_translational_def, point_b, NUMBERS),
-  FIELD(baum_planar_translational_def, axis, NUMBERS),
-  FIELD(baum_planar_translational_def, angle, NUMBERS),
-};
-
-static const element_field planar_fixed_fields[] = {
-  FIELD(baum_planar_fixed_def, struct_size, SIZE), FIELD(baum_planar_fixed_def, name, NAME),
-  FIELD(baum_planar_fixed_def, body_a, ID),        FIELD(baum_planar_fixed_def, body_b, ID),
-  FIELD(baum_planar_fixed_def, point, NUMBERS),    FIELD(baum_planar_fixed_def, point_a, NUMBERS),
-  FIELD(baum_planar_fixed_def, point_b, NUMBERS),  FIELD(baum_planar_fixed_def, angle, NUMBERS),
-};
-
-static const element_field driver_fields[] = {
-  FIELD(baum_driver_def, struct_size, SIZE), FIELD(baum_driver_def, name, NAME),
-  FIELD(baum_driver_def, joint, ID),         FIELD(baum_driver_def, value, NUMBERS),
-  FIELD(baum_driver_def, rate, NUMBERS),     FIELD(baum_driver_def, acceleration, NUMBERS),
-  FIELD(baum_driver_def, law, FUNCTION),     FIELD(baum_driver_def, user, FUNCTION),
-};
-
-static const element_field user_constraint_fields[] = {
-  FIELD(baum_user_constraint_def, struct_size, SIZE),
-  FIELD(baum_user_constraint_def, name, NAME),
-  FIELD(baum_user_constraint_def, bodies, ARRAY),
-  FIELD(baum_user_constraint_def, body_count, INTEGER),
-  FIELD(baum_user_constraint_def, row_count, INTEGER),
-  FIELD(baum_user_constraint_def, phi, FUNCTION),
-  FIELD(baum_user_constraint_def, jacobian, FUNCTION),
-  FIELD(baum_user_constraint_def, nu, FUNCTION),
-  FIELD(baum_user_constraint_def, gamma, FUNCTION),
-  FIELD(baum_user_constraint_def, user, FUNCTION),
-};
-
-static const element_field planar_spring_fields[] = {
-  FIELD(baum_planar_spring_def, struct_size, SIZE),
-  FIELD(baum_planar_spring_def, name, NAME),
-  FIELD(baum_planar_spring_def, body_a, ID),
-  FIELD(baum_planar_spring_def, body_b, ID),
-  FIELD(baum_planar_spring_def, point, NUMBERS),
-  FIELD(baum_planar_spring_def, point_a, NUMBERS),
-  FIELD(baum_planar_spring_def, point_b, NUMBERS),
-  FIELD(baum_planar_spring_def, stiffness, NUMBERS),
-  FIELD(baum_planar_spring_def, damping, NUMBERS),
-  FIELD(baum_planar_spring_def, free_length, NUMBERS),
-  FIELD(baum_planar_spring_def, law, FUNCTION),
-  FIELD(baum_planar_spring_def, user, FUNCTION),
-  FIELD(baum_planar_spring_def, depends_on_velocity, FLAG),
-};
-
-static const element_field planar_load_fields[] = {
-  FIELD(baum_planar_load_def, struct_size, SIZE),  FIELD(baum_planar_load_def, name, NAME),
-  FIELD(baum_planar_load_def, body, ID),           FIELD(baum_planar_load_def, point, NUMBERS),
-  FIELD(baum_planar_load_def, force, NUMBERS),     FIELD(baum_planar_load_def, torque, NUMBERS),
-  FIELD(baum_planar_load_def, follows_body, FLAG), FIELD(baum_planar_load_def, input, ID),
-};
-
-static const element_field user_force_fields[] = {
-  FIELD(baum_user_force_def, struct_size, SIZE),
-  FIELD(baum_user_force_def, name, NAME),
-  FIELD(baum_user_force_def, bodies, ARRAY),
-  FIELD(baum_user_force_def, body_count, INTEGER),
-  FIELD(baum_user_force_def, force, FUNCTION),
-  FIELD(baum_user_force_def, force_q, FUNCTION),
-  FIELD(baum_user_force_def, force_v, FUNCTION),
-  FIELD(baum_user_force_def, potential, FUNCTION),
-  FIELD(baum_user_force_def, user, FUNCTION),
-  FIELD(baum_user_force_def, depends_on_velocity, FLAG),
-};
-
-static const element_field planar_torsion_spring_fields[] = {
-  FIELD(baum_planar_torsion_spring_def, struct_size, SIZE),
-  FIELD(baum_planar_torsion_spring_def, name, NAME),
-  FIELD(baum_planar_torsion_spring_def, body_a, ID),
-  FIELD(baum_planar_torsion_spring_def, body_b, ID),
-  FIELD(baum_planar_torsion_spring_def, stiffness, NUMBERS),
-  FIELD(baum_planar_torsion_spring_def, damping, NUMBERS),
-  FIELD(baum_planar_torsion_spring_def, free_angle, NUMBERS),
-  FIELD(baum_planar_torsion_spring_def, law, FUNCTION),
-  FIELD(baum_planar_torsion_spring_def, user, FUNCTION),
-  FIELD(baum_planar_torsion_spring_def, depends_on_velocity, FLAG),
-};
-
-static const element_field planar_pin_in_slot_fields[] = {
-  FIELD(baum_planar_pin_in_slot_def, struct_size, SIZE),
-  FIELD(baum_planar_pin_in_slot_def, name, NAME),
-  FIELD(baum_planar_pin_in_slot_def, body_a, ID),
-  FIELD(baum_planar_pin_in_slot_def, body_b, ID),
-  FIELD(baum_planar_pin_in_slot_def, point, NUMBERS),
-  FIELD(baum_planar_pin_in_slot_def, point_a, NUMBERS),
-  FIELD(baum_planar_pin_in_slot_def, point_b, NUMBERS),
-  FIELD(baum_planar_pin_in_slot_def, axis, NUMBERS),
-};
-
-static const element_field planar_rack_and_pinion_fields[] = {
-  FIELD(baum_planar_rack_and_pinion_def, struct_size, SIZE),
-  FIELD(baum_planar_rack_and_pinion_def, name, NAME),
-  FIELD(baum_planar_rack_and_pinion_def, body_a, ID),
-  FIELD(baum_planar_rack_and_pinion_def, body_b, ID),
-  FIELD(baum_planar_rack_and_pinion_def, point, NUMBERS),
-  FIELD(baum_planar_rack_and_pinion_def, point_a, NUMBERS),
-  FIELD(baum_planar_rack_and_pinion_def, point_b, NUMBERS),
-  FIELD(baum_planar_rack_and_pinion_def, axis, NUMBERS),
-  FIELD(baum_planar_rack_and_pinion_def, radius, NUMBERS),
-  FIELD(baum_planar_rack_and_pinion_def, offset, NUMBERS),
-};
-
-static const element_field planar_gear_fields[] = {
-  FIELD(baum_planar_gear_def, struct_size, SIZE), FIELD(baum_planar_gear_def, name, NAME),
-  FIELD(baum_planar_gear_def, body_a, ID),        FIELD(baum_planar_gear_def, body_b, ID),
-  FIELD(baum_planar_gear_def, carrier, ID),       FIELD(baum_planar_gear_def, radius_a, NUMBERS),
-  FIELD(baum_planar_gear_def, radius_b, NUMBERS), FIELD(baum_planar_gear_def, offset, NUMBERS),
-};
-
-static const element_field coupling_fields[] = {
-  FIELD(baum_coupling_def, struct_size, SIZE), FIELD(baum_coupling_def, name, NAME),
-  FIELD(baum_coupling_def, joint_a, ID),       FIELD(baum_coupling_def, joint_b, ID),
-  FIELD(baum_coupling_def, ratio, NUMBERS),    FIELD(baum_coupling_def, offset, NUMBERS),
-  FIELD(baum_coupling_def, law, FUNCTION),     FIELD(baum_coupling_def, user, FUNCTION),
-};
-
-static const element_field planar_curve_fields[] = {
-  FIELD(baum_planar_curve_def, struct_size, SIZE), FIELD(baum_planar_curve_def, name, NAME),
-  FIELD(baum_planar_curve_def, body_a, ID),        FIELD(baum_planar_curve_def, body_b, ID),
-  FIELD(baum_planar_curve_def, point, NUMBERS),    FIELD(baum_planar_curve_def, point_a, NUMBERS),
-  FIELD(baum_planar_curve_def, point_b, NUMBERS),  FIELD(baum_planar_curve_def, curve, FUNCTION),
-  FIELD(baum_planar_curve_def, user, FUNCTION),
-};
-
-static const element_field spline_driver_fields[] = {
-  FIELD(baum_spline_driver_def, struct_size, SIZE), FIELD(baum_spline_driver_def, name, NAME),
-  FIELD(baum_spline_driver_def, joint, ID),         FIELD(baum_spline_driver_def, times, ARRAY),
-  FIELD(baum_spline_driver_def, values, ARRAY),     FIELD(baum_spline_driver_def, count, INTEGER),
-  FIELD(baum_spline_driver_def, periodic, FLAG),
-};
 
 const element_field option_fields[OPTION_FIELDS] = {
   FIELD(baum_simulation_options, struct_size, SIZE),
@@ -278,29 +76,10 @@ const element_field option_fields[OPTION_FIELDS] = {
 #define KIND(FAMILY, NAME, TITLE, PART)                                                    \
   {                                                                                        \
 #NAME, TITLE, #FAMILY, sizeof(baum_##NAME##_def), init_##NAME, add_##NAME, get_##NAME, \
-      set_##NAME, good_##NAME, offsetof(every_element, PART), NAME##_fields,               \
-      sizeof NAME##_fields / sizeof *NAME##_fields                                         \
+      set_##NAME, good_##NAME, offsetof(every_element, PART), &baum_i_##NAME##_definition  \
   }
 
-KIND_FUNCTIONS(body, planar_body)
-KIND_FUNCTIONS(body, planar_particle)
-KIND_FUNCTIONS(body, coordinates)
-KIND_FUNCTIONS(joint, planar_revolute)
-KIND_FUNCTIONS(joint, planar_distance)
-KIND_FUNCTIONS(joint, planar_translational)
-KIND_FUNCTIONS(joint, planar_fixed)
-KIND_FUNCTIONS(joint, driver)
-KIND_FUNCTIONS(joint, user_constraint)
-KIND_FUNCTIONS(force, planar_spring)
-KIND_FUNCTIONS(force, planar_load)
-KIND_FUNCTIONS(force, user_force)
-KIND_FUNCTIONS(force, planar_torsion_spring)
-KIND_FUNCTIONS(joint, planar_pin_in_slot)
-KIND_FUNCTIONS(joint, planar_rack_and_pinion)
-KIND_FUNCTIONS(joint, planar_gear)
-KIND_FUNCTIONS(joint, coupling)
-KIND_FUNCTIONS(joint, planar_curve)
-KIND_FUNCTIONS(joint, spline_driver)
+BAUM_I_KINDS(KIND_FUNCTIONS)
 
 const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(body, planar_body, "planar body", crank),
@@ -323,6 +102,45 @@ const element_kind element_kinds[ELEMENT_KINDS] = {
   KIND(joint, planar_curve, "planar point on a curve", track),
   KIND(joint, spline_driver, "spline driver", cam),
 };
+
+/* ---- fields of a definition, as its own table has them ---- */
+
+static field_type type_of(const baum_i_def_field *field)
+{
+  static const field_type types[] = {
+    [BAUM_I_FIELD_NUMBERS] = FIELD_NUMBERS,
+    [BAUM_I_FIELD_ARRAY] = FIELD_ARRAY,
+    [BAUM_I_FIELD_OWN_ARRAY] = FIELD_ARRAY,
+    [BAUM_I_FIELD_COUNT] = FIELD_INTEGER,
+    [BAUM_I_FIELD_OPTIONAL_COUNT] = FIELD_INTEGER,
+    [BAUM_I_FIELD_OWN_COUNT] = FIELD_INTEGER,
+    [BAUM_I_FIELD_FLAG] = FIELD_FLAG,
+    [BAUM_I_FIELD_START_FLAG] = FIELD_FLAG,
+    [BAUM_I_FIELD_CLAIM] = FIELD_FLAG,
+    [BAUM_I_FIELD_BODY] = FIELD_ID,
+    [BAUM_I_FIELD_CARRIER] = FIELD_ID,
+    [BAUM_I_FIELD_BODIES] = FIELD_ARRAY,
+    [BAUM_I_FIELD_JOINT] = FIELD_ID,
+    [BAUM_I_FIELD_INPUT] = FIELD_ID,
+    [BAUM_I_FIELD_FUNCTION] = FIELD_FUNCTION,
+    [BAUM_I_FIELD_OPTIONAL_FUNCTION] = FIELD_FUNCTION,
+    [BAUM_I_FIELD_KEPT_FUNCTION] = FIELD_FUNCTION,
+    [BAUM_I_FIELD_USER] = FIELD_FUNCTION,
+  };
+  return types[field->kind];
+}
+
+element_fields element_fields_of(const element_kind *kind)
+{
+  element_fields fields = {
+    .list = {FIELD(baum_i_def_head, struct_size, SIZE), FIELD(baum_i_def_head, name, NAME)},
+    .count = 2};
+  for (const baum_i_def_field *f = (*kind->definition)->fields; f->name; f++) {
+    assert_in_range(fields.count, 2, ELEMENT_FIELDS_MAX - 1);
+    fields.list[fields.count++] = (element_field){f->name, f->offset, f->size, type_of(f)};
+  }
+  return fields;
+}
 
 any_id every_element_id(const every_element *parts, const element_kind *kind)
 {

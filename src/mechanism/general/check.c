@@ -206,8 +206,7 @@ baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field
   double *direction = baum_i_take(&here, at->nl);
   double *row_size = baum_i_take(&here, field->size);
   find_row_size(claim, at, variable, field->size, direction, row_size);
-  baum_status status = BAUM_OK;
-  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+  for (int j = 0; j < at->nl; j++) {
     baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
     column c = {.claim = claim,
                 .stencil = &baum_i_stencil_first,
@@ -216,9 +215,9 @@ baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field
                 .row_size = row_size,
                 .first = j,
                 .stride = at->nl};
-    status = compare(&c, &here);
+    BAUM_I_TRY(compare(&c, &here));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- the whole mechanism ---- */
@@ -240,10 +239,10 @@ static void release_place(place *p)
 static baum_status make_place(const baum_mechanism *mechanism, place *p)
 {
   *p = (place){.q = NULL};
-  baum_status status = baum_i_point_create(mechanism, &p->point);
+  BAUM_I_TRY(baum_i_point_create(mechanism, &p->point));
   p->q = baum_i_alloc((size_t)mechanism->nq, sizeof(double));
   p->v = baum_i_alloc((size_t)mechanism->nv, sizeof(double));
-  return status == BAUM_OK && p->q && p->v ? BAUM_OK : baum_i_fail_memory();
+  return p->q && p->v ? BAUM_OK : baum_i_fail_memory();
 }
 
 /* A number in (-1, 1) away from 0. */
@@ -348,23 +347,22 @@ static baum_status check_poses(check_fn *check, const void *element, place *p)
 
 static baum_status check_elements(const baum_mechanism *mechanism, place *p)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 1; i <= mechanism->body_count && status == BAUM_OK; i++) {
+  for (int i = 1; i <= mechanism->body_count; i++) {
     if (mechanism->bodies[i]->type->check) {
-      status = check_poses(check_body, mechanism->bodies[i], p);
+      BAUM_I_TRY(check_poses(check_body, mechanism->bodies[i], p));
     }
   }
-  for (int i = 0; i < mechanism->joint_count && status == BAUM_OK; i++) {
+  for (int i = 0; i < mechanism->joint_count; i++) {
     if (mechanism->joints[i]->type->check) {
-      status = check_poses(check_joint, mechanism->joints[i], p);
+      BAUM_I_TRY(check_poses(check_joint, mechanism->joints[i], p));
     }
   }
-  for (int i = 0; i < mechanism->force_count && status == BAUM_OK; i++) {
+  for (int i = 0; i < mechanism->force_count; i++) {
     if (mechanism->forces[i]->type->check) {
-      status = check_poses(check_force, mechanism->forces[i], p);
+      BAUM_I_TRY(check_poses(check_force, mechanism->forces[i], p));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)

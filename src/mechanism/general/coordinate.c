@@ -7,10 +7,7 @@
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     const char *label, const char *field, const char *purpose)
 {
-  baum_status status = baum_i_check_joint(mechanism, id, label, field);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_joint(mechanism, id, label, field));
   const baum_i_joint *joint = mechanism->joints[baum_i_joint_index(mechanism, id)];
   if (!joint->type->coordinate) {
     char text[BAUM_I_LABEL_SIZE];

@@ -13,98 +13,42 @@
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
 #include "mechanism/general/coordinates_manifold.h"
-#include "mechanism/general/difference.h"
-#include "mechanism/general/user_function.h"
+#include "mechanism/general/given_force.h"
 
-static const baum_coordinates_def defaults = {.struct_size = sizeof(baum_coordinates_def),
-                                              .depends_on_velocity = true};
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_coordinates_def, size, COUNT),
+  BAUM_I_ARRAY(baum_coordinates_def, q, ARRAY, FINITE, position_count, size),
+  BAUM_I_ARRAY(baum_coordinates_def, v, ARRAY, FREE, size, size),
+  BAUM_I_ARRAY(baum_coordinates_def, scale, ARRAY, POSITIVE, size, size),
+  BAUM_I_FIELD(baum_coordinates_def, mass, FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, force, FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, force_q, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, force_v, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, potential, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, constant_mass, FLAG),
+  BAUM_I_FIELD(baum_coordinates_def, held, START_FLAG),
+  BAUM_I_FIELD(baum_coordinates_def, user, USER),
+  BAUM_I_FIELD(baum_coordinates_def, depends_on_velocity, CLAIM),
+  BAUM_I_ARRAY(baum_coordinates_def, position_scale, ARRAY, POSITIVE, position_count, size),
+  BAUM_I_FIELD(baum_coordinates_def, rate, KEPT_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, move, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, difference, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, normalize, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coordinates_def, position_count, OPTIONAL_COUNT),
+  {0},
+};
 
 /* ---- definition ---- */
-
-/* Units are the user's own: sentences name none. */
-static baum_status check_scale(const char *label, const char *field, const double *scale, int count)
-{
-  for (int i = 0; scale && i < count; i++) {
-    if (!(isfinite(scale[i]) && scale[i] > 0.0)) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s[%d] is %g, must be finite and > 0", label,
-                         field, i, scale[i]);
-    }
-  }
-  return BAUM_OK;
-}
-
-static baum_status check_arrays(const baum_coordinates_def *def, const char *label)
-{
-  int positions = baum_i_coordinates_positions(def);
-  for (int i = 0; i < positions && def->q; i++) {
-    if (!isfinite(def->q[i])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: q[%d] is %g, must be finite", label, i, def->q[i]);
-    }
-  }
-  for (int i = 0; i < def->size; i++) {
-    if (def->v && isinf(def->v[i])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: v[%d] is %g, must be finite, or NaN for free",
-                         label, i, def->v[i]);
-    }
-  }
-  BAUM_I_TRY(check_scale(label, "position_scale", def->position_scale, positions));
-  return check_scale(label, "scale", def->scale, def->size);
-}
 
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   (void)mechanism;
   const baum_coordinates_def *def = given;
-  BAUM_I_TRY(baum_i_check_count(label, "size", def->size));
-  if (def->position_count != 0) {
-    BAUM_I_TRY(baum_i_check_count(label, "position_count", def->position_count));
-  }
   if (baum_i_coordinates_positions(def) < def->size) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: position_count is %d, must be at least size (%d)",
                        label, (int)def->position_count, (int)def->size);
   }
-  BAUM_I_TRY(check_arrays(def, label));
-  BAUM_I_TRY(baum_i_check_given(label, "mass()", def->mass != NULL));
-  BAUM_I_TRY(baum_i_check_given(label, "force()", def->force != NULL));
   return baum_i_coordinates_check_manifold(def, label);
-}
-
-static void release(void *copy)
-{
-  baum_coordinates_def *def = copy;
-  baum_i_free(def->q);
-  baum_i_free(def->v);
-  baum_i_free(def->scale);
-  baum_i_free(def->position_scale);
-  def->q = NULL;
-  def->v = NULL;
-  def->scale = NULL;
-  def->position_scale = NULL;
-}
-
-/* Replace an array by a copy; false when out of memory. */
-static bool own_array(const double **array, int count)
-{
-  if (*array) {
-    *array = baum_i_copy(*array, (size_t)count, sizeof **array);
-    return *array != NULL;
-  }
-  return true;
-}
-
-static baum_status own(void *copy)
-{
-  baum_coordinates_def *def = copy;
-  int positions = baum_i_coordinates_positions(def);
-  bool q = own_array(&def->q, positions);
-  bool position_scale = own_array(&def->position_scale, positions);
-  bool v = own_array(&def->v, def->size);
-  bool scale = own_array(&def->scale, def->size);
-  if (q && v && scale && position_scale) {
-    return BAUM_OK;
-  }
-  release(def);
-  return BAUM_ERR_MEMORY;
 }
 
 static int size(const void *given)
@@ -116,22 +60,6 @@ static int size(const void *given)
 static int positions(const void *given)
 {
   return baum_i_coordinates_positions(given);
-}
-
-static const char *tied(const void *present, const void *next)
-{
-  const baum_coordinates_def *a = present;
-  const baum_coordinates_def *b = next;
-  if (baum_i_coordinates_positions(a) != baum_i_coordinates_positions(b)) {
-    return "position_count";
-  }
-  return !a->rate == !b->rate ? NULL : "rate";
-}
-
-static void digest(const void *given, baum_i_digest *sum)
-{
-  const baum_coordinates_def *def = given;
-  baum_i_digest_add_integer(sum, def->constant_mass);
 }
 
 static bool depends_on_velocity(const void *given)
@@ -200,75 +128,49 @@ static baum_status mass_at(const baum_i_body *body, const baum_i_local *at, doub
   return baum_i_call_q(&f, def_of(body)->mass, at, out);
 }
 
-static baum_status force_at(const baum_i_body *body, const baum_i_local *at, double *out)
+static baum_i_given_force given_force(const baum_i_body *body)
 {
-  baum_i_user_function f = function(body, "force", body->nv, 0);
-  return baum_i_call_force(&f, def_of(body)->force, at, out);
+  return BAUM_I_GIVEN_FORCE(&body->element, "body", def_of(body));
 }
 
 /* ---- evaluation ---- */
 
 static baum_status mass(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
     baum_i_local at = baum_i_gather(point, &body->span);
-    status = mass_at(body, &at, out + body->mass);
+    BAUM_I_TRY(mass_at(body, &at, out + body->mass));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status force(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
     baum_i_local at = baum_i_gather(point, &body->span);
     double *value = baum_i_take(&at, body->nv);
-    status = force_at(body, &at, value);
-    for (int j = 0; j < body->nv && status == BAUM_OK; j++) {
+    baum_i_given_force f = given_force(body);
+    BAUM_I_TRY(baum_i_given_force_at(&f, &at, value));
+    for (int j = 0; j < body->nv; j++) {
       out[body->v + j] += value[j];
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status potential(const baum_i_body_group *group, baum_i_point *point, double *sum)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    const baum_i_body *body = group->bodies[i];
-    if (def_of(body)->potential) {
-      baum_i_local at = baum_i_gather(point, &body->span);
-      baum_i_user_function f = function(body, "potential", 1, 0);
-      double value;
-      status = baum_i_call_q(&f, def_of(body)->potential, &at, &value);
-      *sum += status == BAUM_OK ? value : 0.0;
-    }
+  for (int i = 0; i < group->count; i++) {
+    baum_i_given_force f = given_force(group->bodies[i]);
+    baum_i_local at = baum_i_gather(point, &group->bodies[i]->span);
+    BAUM_I_TRY(baum_i_given_force_potential(&f, &at, sum));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- derivatives ---- */
-
-static baum_status force_field(const void *context, const baum_i_local *at, double *out)
-{
-  return force_at(context, at, out);
-}
-
-static baum_status force_block(const baum_i_body *body, const baum_i_local *at,
-                               baum_i_variable variable, double *out)
-{
-  bool by_q = variable == BAUM_I_VARIABLE_Q;
-  baum_force_fn *given = by_q ? def_of(body)->force_q : def_of(body)->force_v;
-  if (given) {
-    baum_i_user_function f = function(body, by_q ? "force_q" : "force_v", body->nv, body->nv);
-    return baum_i_call_force(&f, given, at, out);
-  }
-  baum_i_field field = {.evaluate = force_field, .context = body, .size = body->nv};
-  return baum_i_difference_columns(&field, variable, at, out);
-}
 
 /* v^T M v / 2, v held fixed. */
 static baum_status kinetic_field(const void *context, const baum_i_local *at, double *out)
@@ -277,12 +179,12 @@ static baum_status kinetic_field(const void *context, const baum_i_local *at, do
   int n = body->nv;
   baum_i_local here = *at;
   double *block = baum_i_take(&here, n * n);
-  baum_status status = mass_at(body, &here, block);
+  BAUM_I_TRY(mass_at(body, &here, block));
   *out = 0.0;
-  for (int i = 0; i < n * n && status == BAUM_OK; i++) {
+  for (int i = 0; i < n * n; i++) {
     *out += 0.5 * at->v[i / n] * block[i] * at->v[i % n];
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* v^T M' v / 2 along the motion. */
@@ -303,26 +205,24 @@ static baum_status power_of(const baum_i_body *body, const baum_i_local *at, dou
   baum_i_local here = *at;
   double *value = baum_i_take(&here, body->nv);
   double rate = 0.0;
-  baum_status status = force_at(body, &here, value);
-  for (int j = 0; j < body->nv && status == BAUM_OK; j++) {
+  baum_i_given_force f = given_force(body);
+  BAUM_I_TRY(baum_i_given_force_at(&f, &here, value));
+  for (int j = 0; j < body->nv; j++) {
     *sum += value[j] * at->v[j];
   }
-  if (status == BAUM_OK) {
-    status = kinetic_rate(body, &here, &rate);
-  }
+  BAUM_I_TRY(kinetic_rate(body, &here, &rate));
   *sum += rate;
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status power(const baum_i_body_group *group, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     baum_i_local at = baum_i_gather(point, &group->bodies[i]->span);
-    status = power_of(group->bodies[i], &at, &sum[BAUM_I_POWER_BODIES]);
+    BAUM_I_TRY(power_of(group->bodies[i], &at, &sum[BAUM_I_POWER_BODIES]));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* M a, a held fixed. */
@@ -337,14 +237,14 @@ static baum_status inertia_field(const void *context, const baum_i_local *at, do
   int n = m->body->nv;
   baum_i_local here = *at;
   double *block = baum_i_take(&here, n * n);
-  baum_status status = mass_at(m->body, &here, block);
-  for (int i = 0; i < n && status == BAUM_OK; i++) {
+  BAUM_I_TRY(mass_at(m->body, &here, block));
+  for (int i = 0; i < n; i++) {
     out[i] = 0.0;
     for (int j = 0; j < n; j++) {
       out[i] += block[i * n + j] * m->a[j];
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status inertia_block(const baum_i_body *body, const baum_i_local *at, const double *a,
@@ -364,17 +264,14 @@ static baum_status linearize(const baum_i_body *body, baum_i_point *point, const
 {
   baum_i_local at = baum_i_gather(point, &body->span);
   const double *own_a = baum_i_gather_vector(&at, &body->span, a);
-  baum_status status = BAUM_OK;
   if (blocks->ma_q) {
-    status = inertia_block(body, &at, own_a, blocks->ma_q + body->mass);
+    BAUM_I_TRY(inertia_block(body, &at, own_a, blocks->ma_q + body->mass));
   }
-  if (blocks->force_q && status == BAUM_OK) {
-    status = force_block(body, &at, BAUM_I_VARIABLE_Q, blocks->force_q + body->mass);
-  }
-  if (blocks->force_v && status == BAUM_OK) {
-    status = force_block(body, &at, BAUM_I_VARIABLE_V, blocks->force_v + body->mass);
-  }
-  return status;
+  baum_i_given_force f = given_force(body);
+  double *force_q = baum_i_block_at(blocks->force_q, body->mass);
+  double *force_v = baum_i_block_at(blocks->force_v, body->mass);
+  BAUM_I_TRY(baum_i_given_force_block(&f, &at, BAUM_I_VARIABLE_Q, force_q));
+  return baum_i_given_force_block(&f, &at, BAUM_I_VARIABLE_V, force_v);
 }
 
 /* ---- checking what is given ---- */
@@ -428,81 +325,47 @@ static baum_status check_constant(const baum_i_body *body, const baum_i_local *a
   here.t = 0.0;
   here.q = at->point->mechanism->design_q + body->q;
   double *there = baum_i_take(&here, n * n);
-  baum_status status = mass_at(body, &here, there);
+  BAUM_I_TRY(mass_at(body, &here, there));
   baum_i_user_function f = function(body, "mass", n, n);
-  for (int i = 0; i < n * n && status == BAUM_OK; i++) {
+  for (int i = 0; i < n * n; i++) {
     double size = sqrt(fabs(block[i / n * (n + 1)] * block[i % n * (n + 1)]));
     if (fabs(block[i] - there[i]) > 1e-9 * (fabs(block[i]) + size)) {
-      status = baum_i_fail(
+      return baum_i_fail(
         BAUM_ERR_ARGUMENT,
         "%s is %.9g in the design configuration and %.9g near it, but constant_mass is true",
         baum_i_user_entry(&f, i, text), there[i], block[i]);
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_mass(const baum_i_body *body, const baum_i_local *at)
 {
   baum_i_local here = *at;
   double *block = baum_i_take(&here, body->nv * body->nv);
-  baum_status status = mass_at(body, &here, block);
-  if (status == BAUM_OK) {
-    status = check_symmetry(body, block);
+  BAUM_I_TRY(mass_at(body, &here, block));
+  BAUM_I_TRY(check_symmetry(body, block));
+  BAUM_I_TRY(check_sign(body, &here, block));
+  if (def_of(body)->constant_mass) {
+    BAUM_I_TRY(check_constant(body, &here, block));
   }
-  if (status == BAUM_OK) {
-    status = check_sign(body, &here, block);
-  }
-  if (status == BAUM_OK && def_of(body)->constant_mass) {
-    status = check_constant(body, &here, block);
-  }
-  return status;
-}
-
-static baum_status check_force(const baum_i_body *body, const baum_i_local *at,
-                               baum_i_variable variable)
-{
-  bool by_q = variable == BAUM_I_VARIABLE_Q;
-  if (!(by_q ? def_of(body)->force_q : def_of(body)->force_v)) {
-    return BAUM_OK;
-  }
-  baum_i_local here = *at;
-  double *given = baum_i_take(&here, body->nv * body->nv);
-  baum_status status = force_block(body, &here, variable, given);
-  baum_i_user_function f = function(body, by_q ? "force_q" : "force_v", body->nv, body->nv);
-  baum_i_field field = {.evaluate = force_field, .context = body, .size = body->nv};
-  baum_i_claim claim = {&f, "force", given};
-  return status == BAUM_OK ? baum_i_compare_columns(&claim, &field, variable, &here) : status;
+  return BAUM_OK;
 }
 
 static baum_status check_derivatives(const baum_i_body *body, baum_i_point *point)
 {
   baum_i_local at = baum_i_gather(point, &body->span);
   BAUM_I_TRY(baum_i_coordinates_compare_manifold(body, &at));
-  baum_status status = check_mass(body, &at);
-  if (status == BAUM_OK && !def_of(body)->depends_on_velocity) {
-    baum_i_user_function f = function(body, "force", body->nv, 0);
-    baum_i_field field = {.evaluate = force_field, .context = body, .size = body->nv};
-    status = baum_i_compare_with_rest(&f, &field, &at);
-  }
-  if (status == BAUM_OK) {
-    status = check_force(body, &at, BAUM_I_VARIABLE_Q);
-  }
-  if (status == BAUM_OK) {
-    status = check_force(body, &at, BAUM_I_VARIABLE_V);
-  }
-  return status;
+  BAUM_I_TRY(check_mass(body, &at));
+  baum_i_given_force f = given_force(body);
+  return baum_i_given_force_check(&f, &at);
 }
 
 static const baum_i_body_type type = {
   .definition = {.kind = "user coordinates",
                  .size = sizeof(baum_coordinates_def),
-                 .defaults = &defaults,
-                 .check = check,
-                 .own = own,
-                 .release = release,
-                 .tied = tied,
-                 .digest = digest},
+                 .fields = fields,
+                 .check = check},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
   .positions = positions,

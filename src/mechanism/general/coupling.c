@@ -27,56 +27,37 @@ enum { RATIO, OFFSET, PARAMETER_COUNT };
 /* Of the law. */
 enum { VALUE, SLOPE, CURVATURE, LAW_SIZE };
 
-static const baum_coupling_def defaults = {
-  .struct_size = sizeof(baum_coupling_def), .ratio = 1.0, .offset = BAUM_I_NOT_GIVEN};
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_coupling_def, joint_a, JOINT),
+  BAUM_I_FIELD(baum_coupling_def, joint_b, JOINT),
+  BAUM_I_NUMBERS(baum_coupling_def, ratio, FINITE, "[unit b / unit a]", 1.0),
+  BAUM_I_OPTIONAL(baum_coupling_def, offset, OPTIONAL, "rad or m"),
+  BAUM_I_FIELD(baum_coupling_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_coupling_def, user, USER),
+  {0},
+};
 
 /* ---- definition ---- */
 
-/* Number 0: joint_a, 1: joint_b. */
+/* Number 0: joint_a, 1: joint_b; of a definition that has been checked. */
 static const baum_i_joint *coupled(const baum_mechanism *mechanism, const void *given, int number)
 {
   const baum_coupling_def *def = given;
   baum_joint_id id = number == 0 ? def->joint_a : def->joint_b;
-  return mechanism->joints[baum_i_joint_index(mechanism, id)];
-}
-
-static baum_status check_joints(const baum_mechanism *mechanism, const baum_coupling_def *def,
-                                const char *label)
-{
-  baum_status status =
-    baum_i_check_coordinate(mechanism, def->joint_a, label, "joint_a", "to couple");
-  if (status == BAUM_OK) {
-    status = baum_i_check_coordinate(mechanism, def->joint_b, label, "joint_b", "to couple");
-  }
-  if (status == BAUM_OK && def->joint_a.index1 == def->joint_b.index1) {
-    char text[BAUM_I_LABEL_SIZE];
-    status =
-      baum_i_fail(BAUM_ERR_ARGUMENT, "%s: joint_a and joint_b are both %s", label,
-                  baum_i_joint_label(mechanism, baum_i_joint_index(mechanism, def->joint_a), text));
-  }
-  return status;
+  return mechanism->joints[id.index1 - 1];
 }
 
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_coupling_def *def = given;
-  baum_status status = check_joints(mechanism, def, label);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "ratio", "[unit b / unit a]", def->ratio);
+  BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_a, label, "joint_a", "to couple"));
+  BAUM_I_TRY(baum_i_check_coordinate(mechanism, def->joint_b, label, "joint_b", "to couple"));
+  if (def->joint_a.index1 == def->joint_b.index1) {
+    char text[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: joint_a and joint_b are both %s", label,
+                       baum_i_joint_label(mechanism, def->joint_a.index1 - 1, text));
   }
-  return status == BAUM_OK ? baum_i_check_optional(label, "offset", "rad or m", def->offset)
-                           : status;
-}
-
-/* As of a driver: in a copy, too, the joints are those that come before. */
-static const char *tied(const void *present, const void *next)
-{
-  const baum_coupling_def *a = present;
-  const baum_coupling_def *b = next;
-  if (a->joint_a.index1 != b->joint_a.index1) {
-    return "joint_a";
-  }
-  return a->joint_b.index1 == b->joint_b.index1 ? NULL : "joint_b";
+  return BAUM_OK;
 }
 
 /* Place of a body among the first `count`; count when it is not there. */
@@ -87,22 +68,6 @@ static int find(const int *bodies, int count, int body)
     k++;
   }
   return k;
-}
-
-static void bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
-{
-  int all[BAUM_I_COMPOSED_BODIES];
-  int count = 0;
-  for (int k = 0; k < BAUM_I_COMPOSED_BODIES; k++) {
-    int body = coupled(mechanism, def, k / 2)->span.bodies[k % 2];
-    if (find(all, count, body) == count) {
-      all[count++] = body;
-    }
-  }
-  span->body_count = count;
-  if (span->bodies) {
-    memcpy(span->bodies, all, (size_t)count * sizeof *all);
-  }
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
@@ -188,25 +153,22 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   s->values[1] = 0.0;
   s->values[2] = s->joints[0]->type->is_angle ? 1.0 : point->mechanism->length;
   baum_i_local at = place_at(point, s->values);
-  baum_status status = law_at(joint, &at, s->f);
+  BAUM_I_TRY(law_at(joint, &at, s->f));
   s->g = (baum_i_outer){.value = s->x[1].c.value - s->f[VALUE],
                         .first = {-s->f[SLOPE], 1.0},
                         .second = {-s->f[CURVATURE]}};
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     state s;
-    status = state_at(group->joints[i], point, &s);
-    if (status == BAUM_OK) {
-      baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-    }
+    BAUM_I_TRY(state_at(group->joints[i], point, &s));
+    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- second derivatives ---- */
@@ -214,9 +176,9 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 static baum_status curvature_field(const void *joint, const baum_i_local *at, double *out)
 {
   double f[LAW_SIZE];
-  baum_status status = law_at(joint, at, f);
+  BAUM_I_TRY(law_at(joint, at, f));
   out[0] = f[CURVATURE];
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, state *s)
@@ -224,9 +186,9 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = curvature_field, .context = joint, .size = 1};
   double third;
-  baum_status status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, &third);
+  BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, &third));
   s->g.third[0] = -third;
-  return status;
+  return BAUM_OK;
 }
 
 static bool needs_third(const baum_i_joint *joint, const state *s,
@@ -241,12 +203,9 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {
   state s;
-  baum_status status = state_at(joint, point, &s);
-  if (status == BAUM_OK && needs_third(joint, &s, blocks)) {
-    status = set_third(joint, point, &s);
-  }
-  if (status != BAUM_OK) {
-    return status;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  if (needs_third(joint, &s, blocks)) {
+    BAUM_I_TRY(set_third(joint, point, &s));
   }
   double w_wide[BAUM_I_COMPOSED_COLUMNS] = {0.0};
   baum_i_columns_gather(point, &joint->span, w, w_wide);
@@ -268,11 +227,11 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
 static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
 {
   double f[LAW_SIZE];
-  baum_status status = law_at(joint, at, f);
+  BAUM_I_TRY(law_at(joint, at, f));
   out[VALUE] = 0.0;
   out[SLOPE] = f[VALUE];
   out[CURVATURE] = f[SLOPE];
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
@@ -282,10 +241,7 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
     return BAUM_OK;
   }
   state s;
-  baum_status status = state_at(joint, point, &s);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(state_at(joint, point, &s));
   double direction[1];
   const double given[LAW_SIZE] = {0.0, s.f[SLOPE], s.f[CURVATURE]};
   baum_i_local at = place_at(point, s.values);
@@ -299,13 +255,11 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
 static const baum_i_joint_type type = {
   .definition = {.kind = "coupling",
                  .size = sizeof(baum_coupling_def),
-                 .defaults = &defaults,
+                 .fields = fields,
                  .check = check,
-                 .tied = tied},
-  .parameter_count = PARAMETER_COUNT,
+                 .parameter_count = PARAMETER_COUNT},
   .scleronomic = true,
   .row_count = 1,
-  .bodies = bodies,
   .lower = lower,
   .evaluate = evaluate,
   .linearize = linearize,

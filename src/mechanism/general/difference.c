@@ -228,18 +228,14 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
   double *centre = stencil->order == 2 ? baum_i_take(&here, field->size) : NULL;
   p.free = here.free;
   begin(out, field->size);
-  baum_status status = centre ? sample(&p, 0, centre) : BAUM_OK;
-  for (int k = 0; k < 3 && status == BAUM_OK; k++) {
-    status = sample(&p, k + 1, plus);
-    if (status == BAUM_OK) {
-      status = sample(&p, -k - 1, minus);
-    }
-    if (status == BAUM_OK) {
-      add_pair(stencil, k, plus, minus, centre, out, field->size);
-    }
+  BAUM_I_TRY(centre ? sample(&p, 0, centre) : BAUM_OK);
+  for (int k = 0; k < 3; k++) {
+    BAUM_I_TRY(sample(&p, k + 1, plus));
+    BAUM_I_TRY(sample(&p, -k - 1, minus));
+    add_pair(stencil, k, plus, minus, centre, out, field->size);
   }
   finish(stencil, step, out, field->size);
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- the search for a step ---- */
@@ -324,13 +320,12 @@ baum_status baum_i_difference_columns(const baum_i_field *field, baum_i_variable
   baum_i_local here = *at;
   double *direction = baum_i_take(&here, at->nl);
   double *column = baum_i_take(&here, field->size);
-  baum_status status = BAUM_OK;
-  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+  for (int j = 0; j < at->nl; j++) {
     baum_i_ray ray = baum_i_column_ray(at, variable, j, direction);
-    status = baum_i_difference_first(field, &ray, &here, column);
-    for (int i = 0; i < field->size && status == BAUM_OK; i++) {
+    BAUM_I_TRY(baum_i_difference_first(field, &ray, &here, column));
+    for (int i = 0; i < field->size; i++) {
       out[i * at->nl + j] = column[i];
     }
   }
-  return status;
+  return BAUM_OK;
 }

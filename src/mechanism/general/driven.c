@@ -22,20 +22,6 @@ baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def
   return baum_i_check_coordinate(mechanism, head->joint, label, "joint", "to drive");
 }
 
-/* A driver always comes after its joint; in a copy, too, that is what it finds. */
-const char *baum_i_driver_tied(const void *present, const void *next)
-{
-  const baum_i_driver_head *a = present;
-  const baum_i_driver_head *b = next;
-  return a->joint.index1 == b->joint.index1 ? NULL : "joint";
-}
-
-void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
-{
-  const baum_i_joint *driven = driven_by(mechanism, def);
-  driven->type->bodies(mechanism, driven->element.def, span);
-}
-
 /* ---- motion ---- */
 
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3])
@@ -93,10 +79,7 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
 {
   double s[3] = {0.0};
   if (out->phi || out->nu || out->gamma) {
-    baum_status status = motion_of(joint, point, motion, s);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(motion_of(joint, point, motion, s));
   }
   const baum_i_joint *driven = driven_by(point->mechanism, joint->element.def);
   baum_i_coordinate c;
@@ -120,11 +103,10 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
 baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
                                    baum_i_motion_fn *motion, const baum_i_rows *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = evaluate_one(group->joints[i], point, motion, out);
+  for (int i = 0; i < group->count; i++) {
+    BAUM_I_TRY(evaluate_one(group->joints[i], point, motion, out));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, const double *six,

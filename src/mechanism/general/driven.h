@@ -50,8 +50,6 @@ baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point
 /* Check of the joint alone. */
 baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def,
                                 const char *label);
-const char *baum_i_driver_tied(const void *present, const void *next);
-void baum_i_driver_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                                     const double *lambda, const baum_i_joint_blocks *blocks);
 void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);

@@ -8,25 +8,17 @@
 #include "mechanism/general/check.h"
 #include "mechanism/general/driven.h"
 
-static const baum_driver_def defaults = {.struct_size = sizeof(baum_driver_def)};
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_driver_def, joint, JOINT),
+  BAUM_I_NUMBERS(baum_driver_def, value, FINITE, "rad or m", 0.0),
+  BAUM_I_NUMBERS(baum_driver_def, rate, FINITE, "rad/s or m/s", 0.0),
+  BAUM_I_NUMBERS(baum_driver_def, acceleration, FINITE, "rad/s^2 or m/s^2", 0.0),
+  BAUM_I_FIELD(baum_driver_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_driver_def, user, USER),
+  {0},
+};
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
-{
-  const baum_driver_def *def = given;
-  baum_status status = baum_i_driver_check(mechanism, def, label);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "value", "rad or m", def->value);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "rate", "rad/s or m/s", def->rate);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "acceleration", "rad/s^2 or m/s^2", def->acceleration);
-  }
-  return status;
-}
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
@@ -71,11 +63,11 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
 static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
 {
   double s[LAW_SIZE];
-  baum_status status = law_at(joint, at->point, at->t, s);
+  BAUM_I_TRY(law_at(joint, at->point, at->t, s));
   out[0] = 0.0;
   out[1] = s[0];
   out[2] = s[1];
-  return status;
+  return BAUM_OK;
 }
 
 /* A law may begin and end where it likes: where it refuses, nothing is to be told. */
@@ -107,16 +99,14 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 static const baum_i_joint_type type = {
   .definition = {.kind = "driver",
                  .size = sizeof(baum_driver_def),
-                 .defaults = &defaults,
-                 .check = check,
-                 .tied = baum_i_driver_tied},
-  .parameter_count = BAUM_I_DRIVER_NUMBERS,
+                 .fields = fields,
+                 .check = baum_i_driver_check,
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS},
   .planar = true,
   .scleronomic = false,
   .drives = true,
   .replace_law = baum_i_driver_replace_law,
   .row_count = 1,
-  .bodies = baum_i_driver_bodies,
   .lower = lower,
   .evaluate = evaluate,
   .linearize = baum_i_driver_linearize,

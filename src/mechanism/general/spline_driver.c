@@ -20,7 +20,14 @@ enum { COUNT_MIN = 3 };
 /* A motion that is closed but for rounding. */
 static const double SAME_VALUE = 1e-12;
 
-static const baum_spline_driver_def defaults = {.struct_size = sizeof(baum_spline_driver_def)};
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_spline_driver_def, joint, JOINT),
+  BAUM_I_ARRAY(baum_spline_driver_def, times, OWN_ARRAY, FINITE, count, count),
+  BAUM_I_ARRAY(baum_spline_driver_def, values, OWN_ARRAY, FINITE, count, count),
+  BAUM_I_FIELD(baum_spline_driver_def, count, OWN_COUNT),
+  BAUM_I_FIELD(baum_spline_driver_def, periodic, FLAG),
+  {0},
+};
 
 /* ---- definition ---- */
 
@@ -73,14 +80,12 @@ static baum_status check_closed(const baum_spline_driver_def *def, const char *l
 static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
   const baum_spline_driver_def *def = given;
-  baum_status status = baum_i_driver_check(mechanism, def, label);
-  if (status == BAUM_OK) {
-    status = check_given(def, label);
+  BAUM_I_TRY(baum_i_driver_check(mechanism, def, label));
+  BAUM_I_TRY(check_given(def, label));
+  for (int32_t k = 0; k < def->count; k++) {
+    BAUM_I_TRY(check_place(def, k, label));
   }
-  for (int32_t k = 0; k < def->count && status == BAUM_OK; k++) {
-    status = check_place(def, k, label);
-  }
-  return status == BAUM_OK && def->periodic ? check_closed(def, label) : status;
+  return def->periodic ? check_closed(def, label) : BAUM_OK;
 }
 
 /* ---- what a copy owns ---- */
@@ -117,16 +122,6 @@ static baum_status own(void *copy)
   def->times = c->numbers;
   def->values = values;
   return BAUM_OK;
-}
-
-static void digest(const void *given, baum_i_digest *sum)
-{
-  const baum_spline_driver_def *def = given;
-  size_t bytes = (size_t)def->count * sizeof(double);
-  baum_i_digest_add_integer(sum, def->count);
-  baum_i_digest_add_integer(sum, def->periodic);
-  baum_i_digest_add(sum, def->times, bytes);
-  baum_i_digest_add(sum, def->values, bytes);
 }
 
 static void release(void *copy)
@@ -174,19 +169,16 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 static const baum_i_joint_type type = {
   .definition = {.kind = "spline driver",
                  .size = sizeof(baum_spline_driver_def),
-                 .defaults = &defaults,
+                 .fields = fields,
                  .check = check,
                  .own = own,
                  .release = release,
-                 .tied = baum_i_driver_tied,
-                 .digest = digest},
-  .parameter_count = BAUM_I_DRIVER_NUMBERS, /* all zero at first */
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
   .planar = true,
   .scleronomic = false,
   .drives = true,
   .replace_law = baum_i_driver_replace_law,
   .row_count = 1,
-  .bodies = baum_i_driver_bodies,
   .evaluate = evaluate,
   .linearize = baum_i_driver_linearize,
   .place = baum_i_driver_place,

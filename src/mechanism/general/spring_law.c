@@ -32,9 +32,9 @@ baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point
 {
   const baum_i_local at = {.point = point, .nl = 1, .t = point->t, .q = &length, .v = &rate};
   double entries[ENTRIES];
-  baum_status status = call(spring, &at, entries);
+  BAUM_I_TRY(call(spring, &at, entries));
   *out = (baum_i_tension){entries[VALUE], entries[BY_LENGTH], entries[BY_RATE]};
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- check ---- */
@@ -49,11 +49,11 @@ static baum_status tension_field(const void *context, const baum_i_local *at, do
 {
   const entry *e = context;
   double entries[ENTRIES];
-  baum_status status = call(e->spring, at, entries);
+  BAUM_I_TRY(call(e->spring, at, entries));
   for (int i = 0; i < ENTRIES; i++) {
     out[i] = i == e->which ? entries[VALUE] : 0.0;
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_entry(const entry *e, const baum_i_local *at, double value)
@@ -84,15 +84,15 @@ baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_poin
                            .scale = &scale,
                            .free = point->scratch};
   double given[ENTRIES];
-  baum_status status = call(spring, &at, given);
-  for (int which = BY_LENGTH; which <= BY_RATE && status == BAUM_OK; which++) {
-    status = check_entry(&(entry){spring, which}, &at, given[which]);
+  BAUM_I_TRY(call(spring, &at, given));
+  for (int which = BY_LENGTH; which <= BY_RATE; which++) {
+    BAUM_I_TRY(check_entry(&(entry){spring, which}, &at, given[which]));
   }
-  if (status == BAUM_OK && !spring->depends_on_rate) {
+  if (!spring->depends_on_rate) {
     baum_i_user_function f = function(spring);
     entry value = {spring, VALUE};
     baum_i_field field = {.evaluate = tension_field, .context = &value, .size = 1};
-    status = baum_i_compare_with_rest(&f, &field, &at);
+    return baum_i_compare_with_rest(&f, &field, &at);
   }
-  return status;
+  return BAUM_OK;
 }

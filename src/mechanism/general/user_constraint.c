@@ -27,36 +27,19 @@
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
 
-static const baum_user_constraint_def defaults = {.struct_size = sizeof(baum_user_constraint_def)};
+static const baum_i_def_field fields[] = {
+  BAUM_I_ARRAY(baum_user_constraint_def, bodies, BODIES, FINITE, body_count, body_count),
+  BAUM_I_FIELD(baum_user_constraint_def, body_count, OWN_COUNT),
+  BAUM_I_FIELD(baum_user_constraint_def, row_count, COUNT),
+  BAUM_I_FIELD(baum_user_constraint_def, phi, FUNCTION),
+  BAUM_I_FIELD(baum_user_constraint_def, jacobian, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_user_constraint_def, nu, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_user_constraint_def, gamma, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_user_constraint_def, user, USER),
+  {0},
+};
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
-{
-  const baum_user_constraint_def *def = given;
-  baum_status status = baum_i_check_user_bodies(mechanism, def->bodies, def->body_count, label);
-  if (status == BAUM_OK) {
-    status = baum_i_check_count(label, "row_count", def->row_count);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_given(label, "phi()", def->phi != NULL);
-  }
-  return status;
-}
-
-static baum_status own(void *copy)
-{
-  baum_user_constraint_def *def = copy;
-  def->bodies = baum_i_copy(def->bodies, (size_t)def->body_count, sizeof *def->bodies);
-  return def->bodies ? BAUM_OK : BAUM_ERR_MEMORY;
-}
-
-static void release(void *copy)
-{
-  baum_user_constraint_def *def = copy;
-  baum_i_free(def->bodies);
-  def->bodies = NULL;
-}
 
 static int rows(const void *given)
 {
@@ -72,12 +55,6 @@ static double noise(const void *given)
     return 1e-11;
   }
   return def->gamma && def->jacobian ? 0.0 : 1e-13;
-}
-
-static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
-{
-  const baum_user_constraint_def *def = given;
-  baum_i_user_bodies(mechanism, def->bodies, def->body_count, span);
 }
 
 /* ---- calls ---- */
@@ -131,11 +108,11 @@ static baum_status phi_field(const void *context, const baum_i_local *at, double
 static baum_status minus_phi_field(const void *context, const baum_i_local *at, double *out)
 {
   const baum_i_joint *joint = context;
-  baum_status status = phi_at(joint, at, out);
-  for (int i = 0; i < joint->rows && status == BAUM_OK; i++) {
+  BAUM_I_TRY(phi_at(joint, at, out));
+  for (int i = 0; i < joint->rows; i++) {
     out[i] = -out[i];
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* nu - J v, nu zero when not given. */
@@ -145,16 +122,14 @@ static baum_status minus_rate_field(const void *context, const baum_i_local *at,
   baum_i_local here = *at;
   double *jacobian = baum_i_take(&here, joint->rows * at->nl);
   memset(out, 0, (size_t)joint->rows * sizeof *out);
-  baum_status status = def_of(joint)->nu ? given_nu_at(joint, &here, out) : BAUM_OK;
-  if (status == BAUM_OK) {
-    status = given_jacobian_at(joint, &here, jacobian);
-  }
-  for (int i = 0; i < joint->rows && status == BAUM_OK; i++) {
+  BAUM_I_TRY(def_of(joint)->nu ? given_nu_at(joint, &here, out) : BAUM_OK);
+  BAUM_I_TRY(given_jacobian_at(joint, &here, jacobian));
+  for (int i = 0; i < joint->rows; i++) {
     for (int j = 0; j < at->nl; j++) {
       out[i] -= jacobian[i * at->nl + j] * at->v[j];
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_i_field field_of(baum_i_field_fn *evaluate, const baum_i_joint *joint)
@@ -192,13 +167,13 @@ static baum_status find_movement(const baum_i_joint *joint, const baum_i_local *
   double *then = baum_i_take(&here, joint->rows);
   size_t bytes = (size_t)joint->rows * sizeof *now;
   *moves = false;
-  baum_status status = phi_at(joint, &here, now);
-  for (int side = -1; side <= 1 && status == BAUM_OK && !*moves; side += 2) {
+  BAUM_I_TRY(phi_at(joint, &here, now));
+  for (int side = -1; side <= 1 && !*moves; side += 2) {
     here.t = at->t + side * 0x1p-9;
-    status = phi_at(joint, &here, then);
-    *moves = status == BAUM_OK && memcmp(now, then, bytes) != 0;
+    BAUM_I_TRY(phi_at(joint, &here, then));
+    *moves = memcmp(now, then, bytes) != 0;
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* The line of motion: where it goes, how fast, and whether Phi may change with t. */
@@ -210,13 +185,13 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
   /* When fast the step is the same in any case; then only a missing nu has to be told from zero. */
   bool matters = ray->rate < 1.0 || (def->jacobian && !def->nu);
   *moves = true;
-  baum_status status = matters ? find_movement(joint, at, moves) : BAUM_OK;
+  BAUM_I_TRY(matters ? find_movement(joint, at, moves) : BAUM_OK);
   if (*moves) {
     ray->rate = fmax(ray->rate, 1.0);
   } else {
     ray->dt = 0.0;
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
@@ -227,10 +202,7 @@ static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, d
   }
   baum_i_ray ray;
   bool moves;
-  baum_status status = find_line(joint, at, &ray, &moves);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(find_line(joint, at, &ray, &moves));
   if (ray.rate == 0.0) {
     memset(out, 0, (size_t)joint->rows * sizeof *out);
     return BAUM_OK;
@@ -249,27 +221,26 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
                                 const baum_i_rows *out)
 {
   baum_i_local at = baum_i_gather(point, &joint->span);
-  baum_status status = out->phi ? phi_at(joint, &at, out->phi + joint->row) : BAUM_OK;
-  if (status == BAUM_OK && out->jacobian) {
-    status = jacobian_at(joint, &at, out->jacobian + joint->jacobian);
+  BAUM_I_TRY(out->phi ? phi_at(joint, &at, out->phi + joint->row) : BAUM_OK);
+  if (out->jacobian) {
+    BAUM_I_TRY(jacobian_at(joint, &at, out->jacobian + joint->jacobian));
   }
-  if (status == BAUM_OK && out->nu) {
-    status = nu_at(joint, &at, out->nu + joint->row);
+  if (out->nu) {
+    BAUM_I_TRY(nu_at(joint, &at, out->nu + joint->row));
   }
-  if (status == BAUM_OK && out->gamma) {
-    status = gamma_at(joint, &at, out->gamma + joint->row);
+  if (out->gamma) {
+    BAUM_I_TRY(gamma_at(joint, &at, out->gamma + joint->row));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = evaluate_one(group->joints[i], point, out);
+  for (int i = 0; i < group->count; i++) {
+    BAUM_I_TRY(evaluate_one(group->joints[i], point, out));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- second derivatives ---- */
@@ -290,15 +261,15 @@ static baum_status products_field(const void *context, const baum_i_local *at, d
   int nl = at->nl;
   baum_i_local here = *at;
   double *jacobian_now = baum_i_take(&here, s->joint->rows * nl);
-  baum_status status = given_jacobian_at(s->joint, &here, jacobian_now);
+  BAUM_I_TRY(given_jacobian_at(s->joint, &here, jacobian_now));
   memset(out, 0, (size_t)(s->joint->rows + nl) * sizeof *out);
-  for (int i = 0; i < s->joint->rows && status == BAUM_OK; i++) {
+  for (int i = 0; i < s->joint->rows; i++) {
     for (int j = 0; j < nl; j++) {
       out[i] += jacobian_now[i * nl + j] * s->w[j];
       out[s->joint->rows + j] += jacobian_now[i * nl + j] * s->lambda[i];
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static void put_column(double *block, const double *column, int count, int nl, int j)
@@ -315,16 +286,13 @@ static baum_status products_by_columns(const second *s, const baum_i_local *at)
   double *direction = baum_i_take(&here, at->nl);
   double *column = baum_i_take(&here, row_count + at->nl);
   baum_i_field field = {.evaluate = products_field, .context = s, .size = row_count + at->nl};
-  baum_status status = BAUM_OK;
-  for (int j = 0; j < at->nl && status == BAUM_OK; j++) {
+  for (int j = 0; j < at->nl; j++) {
     baum_i_ray ray = baum_i_column_ray(at, BAUM_I_VARIABLE_Q, j, direction);
-    status = baum_i_difference_first(&field, &ray, &here, column);
-    if (status == BAUM_OK) {
-      put_column(s->jw_q, column, row_count, at->nl, j);
-      put_column(s->jtl_q, column + row_count, at->nl, at->nl, j);
-    }
+    BAUM_I_TRY(baum_i_difference_first(&field, &ray, &here, column));
+    put_column(s->jw_q, column, row_count, at->nl, j);
+    put_column(s->jtl_q, column + row_count, at->nl, at->nl, j);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* (J_i)_qj of all rows, i first where q is no vector; work (2 nl + rows). */
@@ -340,17 +308,17 @@ static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, 
   memset(direction, 0, 2 * (size_t)at->nl * sizeof *direction);
   direction[i] = at->scale[i];
   turned[j] += i == j ? 0.0 : at->scale[j];
-  baum_status status = baum_i_difference_second(&field, &ray, at, out);
+  BAUM_I_TRY(baum_i_difference_second(&field, &ray, at, out));
   double unit = at->scale[i] * at->scale[j];
-  if (i != j && status == BAUM_OK) {
+  if (i != j) {
     turned[j] = -at->scale[j];
-    status = baum_i_difference_second(&field, &ray, at, other);
+    BAUM_I_TRY(baum_i_difference_second(&field, &ray, at, other));
     unit *= 4.0;
   }
-  for (int k = 0; k < joint->rows && status == BAUM_OK; k++) {
+  for (int k = 0; k < joint->rows; k++) {
     out[k] = (out[k] - (i != j ? other[k] : 0.0)) / unit;
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* value: (J_ki)_qj of all rows k. */
@@ -372,19 +340,16 @@ static baum_status products_by_pairs(const second *s, const baum_i_local *at)
   baum_i_local here = *at;
   double *work = baum_i_take(&here, 2 * at->nl + s->joint->rows);
   double *value = baum_i_take(&here, s->joint->rows);
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < at->nl && status == BAUM_OK; i++) {
-    for (int j = at->span ? 0 : i; j < at->nl && status == BAUM_OK; j++) {
-      status = curvature(s->joint, &here, i, j, work, value);
-      if (status == BAUM_OK) {
-        add_curvature(s, value, i, j, at->nl);
-      }
-      if (status == BAUM_OK && i != j && !at->span) {
+  for (int i = 0; i < at->nl; i++) {
+    for (int j = at->span ? 0 : i; j < at->nl; j++) {
+      BAUM_I_TRY(curvature(s->joint, &here, i, j, work, value));
+      add_curvature(s, value, i, j, at->nl);
+      if (i != j && !at->span) {
         add_curvature(s, value, j, i, at->nl);
       }
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status linearize_products(const second *s, const baum_i_local *at)
@@ -405,14 +370,13 @@ static baum_status linearize_gamma(const baum_i_joint *joint, const baum_i_local
 {
   baum_i_field field = field_of(gamma_field, joint);
   field.rough = !def_of(joint)->gamma;
-  baum_status status = BAUM_OK;
   if (gamma_q) {
-    status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, gamma_q);
+    BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, gamma_q));
   }
-  if (gamma_v && status == BAUM_OK) {
-    status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_V, at, gamma_v);
+  if (gamma_v) {
+    BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_V, at, gamma_v));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status nu_field(const void *context, const baum_i_local *at, double *out)
@@ -430,11 +394,6 @@ static baum_status linearize_nu(const baum_i_joint *joint, const baum_i_local *a
   return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, nu_q);
 }
 
-static double *at_offset(double *blocks, int offset)
-{
-  return blocks ? blocks + offset : NULL;
-}
-
 static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {
@@ -444,17 +403,12 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   second s = {.joint = joint,
               .w = baum_i_gather_vector(&at, &joint->span, w),
               .lambda = lambda ? lambda + joint->row : none,
-              .jw_q = at_offset(blocks->jw_q, joint->jacobian),
-              .jtl_q = at_offset(blocks->jtl_q, joint->square)};
-  baum_status status = linearize_products(&s, &at);
-  if (status == BAUM_OK) {
-    status = linearize_gamma(joint, &at, at_offset(blocks->gamma_q, joint->jacobian),
-                             at_offset(blocks->gamma_v, joint->jacobian));
-  }
-  if (status == BAUM_OK) {
-    status = linearize_nu(joint, &at, at_offset(blocks->nu_q, joint->jacobian));
-  }
-  return status;
+              .jw_q = baum_i_block_at(blocks->jw_q, joint->jacobian),
+              .jtl_q = baum_i_block_at(blocks->jtl_q, joint->square)};
+  BAUM_I_TRY(linearize_products(&s, &at));
+  BAUM_I_TRY(linearize_gamma(joint, &at, baum_i_block_at(blocks->gamma_q, joint->jacobian),
+                             baum_i_block_at(blocks->gamma_v, joint->jacobian)));
+  return linearize_nu(joint, &at, baum_i_block_at(blocks->nu_q, joint->jacobian));
 }
 
 /* ---- checking what is given ---- */
@@ -466,12 +420,11 @@ static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local 
   }
   baum_i_local here = *at;
   double *given = baum_i_take(&here, joint->rows * at->nl);
-  baum_status status = given_jacobian_at(joint, &here, given);
+  BAUM_I_TRY(given_jacobian_at(joint, &here, given));
   baum_i_user_function f = function(joint, "jacobian", at->nl);
   baum_i_field field = field_of(phi_field, joint);
   baum_i_claim claim = {&f, "phi", given};
-  return status == BAUM_OK ? baum_i_compare_columns(&claim, &field, BAUM_I_VARIABLE_Q, &here)
-                           : status;
+  return baum_i_compare_columns(&claim, &field, BAUM_I_VARIABLE_Q, &here);
 }
 
 static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
@@ -481,13 +434,11 @@ static baum_status check_nu(const baum_i_joint *joint, const baum_i_local *at)
   }
   baum_i_local here = *at;
   double *given = baum_i_take(&here, joint->rows);
-  baum_status status = given_nu_at(joint, &here, given);
+  BAUM_I_TRY(given_nu_at(joint, &here, given));
   baum_i_user_function f = function(joint, "nu", 0);
   baum_i_field field = field_of(minus_phi_field, joint);
   baum_i_claim claim = {&f, "phi in t", given};
-  return status == BAUM_OK
-           ? baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here)
-           : status;
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &time_ray, &here);
 }
 
 /* By the more accurate of the two ways; jacobian and nu are checked before. */
@@ -501,10 +452,7 @@ static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at
   double *given = baum_i_take(&here, joint->rows);
   baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(baum_i_local_rate(at), 1.0)};
   baum_i_user_function f = function(joint, "gamma", 0);
-  baum_status status = given_gamma_at(joint, &here, given);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(given_gamma_at(joint, &here, given));
   if (def->jacobian && def->nu) {
     baum_i_field field = field_of(minus_rate_field, joint);
     baum_i_claim claim = {&f, "jacobian and nu", given};
@@ -520,28 +468,17 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
   baum_i_local at = baum_i_gather(point, &joint->span);
   baum_i_local here = at;
   double *value = baum_i_take(&here, joint->rows);
-  baum_status status = phi_at(joint, &here, value);
-  if (status == BAUM_OK) {
-    status = check_jacobian(joint, &at);
-  }
-  if (status == BAUM_OK) {
-    status = check_nu(joint, &at);
-  }
-  if (status == BAUM_OK) {
-    status = check_gamma(joint, &at);
-  }
-  return status;
+  BAUM_I_TRY(phi_at(joint, &here, value));
+  BAUM_I_TRY(check_jacobian(joint, &at));
+  BAUM_I_TRY(check_nu(joint, &at));
+  return check_gamma(joint, &at);
 }
 
 static const baum_i_joint_type type = {
   .definition = {.kind = "user constraint",
                  .size = sizeof(baum_user_constraint_def),
-                 .defaults = &defaults,
-                 .check = check,
-                 .own = own,
-                 .release = release},
+                 .fields = fields},
   .rows = rows,
-  .bodies = bodies,
   .evaluate = evaluate,
   .linearize = linearize,
   .check = check_derivatives,

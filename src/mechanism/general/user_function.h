@@ -8,6 +8,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 #define BAUM_I_MECHANISM_GENERAL_USER_FUNCTION_H
 
+#include "base/message.h"
 #include "mechanism/identify.h"
 
 /* Doubles of point->scratch that an element may use, with the larger number of its local columns,
@@ -28,6 +29,12 @@ typedef struct baum_i_local {
   const double *scale; /* (nl) a relevant change of each coordinate */
   double *free;        /* what is left of point->scratch */
 } baum_i_local;
+
+/* Where an element's block begins in an array of all; NULL where there is none. */
+static inline double *baum_i_block_at(double *blocks, int offset)
+{
+  return blocks ? blocks + offset : NULL;
+}
 
 /* Gather the columns of a span at a point. */
 baum_i_local baum_i_gather(baum_i_point *point, const baum_i_span *span);
@@ -71,25 +78,5 @@ baum_status baum_i_fail_returned(const baum_i_element *element, const char *fami
 enum { BAUM_I_ENTRY_SIZE = BAUM_I_LABEL_SIZE + 80 };
 const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
                               char text[BAUM_I_ENTRY_SIZE]);
-
-/* ---- for definitions ---- */
-
-/* More rows or coordinates than this in one element are taken for a mistake;
- * products of two still fit an int. */
-enum { BAUM_I_USER_SIZE_MAX = 10000 };
-
-/* 1 to BAUM_I_USER_SIZE_MAX. */
-baum_status baum_i_check_count(const char *label, const char *field, int32_t value);
-
-/* A required function: given is `def->mass != NULL`, field "mass()". */
-baum_status baum_i_check_given(const char *label, const char *field, bool given);
-
-/* The bodies of a user constraint or force: at least one, none twice, none of them ground. */
-baum_status baum_i_check_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
-                                     int32_t body_count, const char *label);
-
-/* Their indices, for the `bodies` function of types. */
-void baum_i_user_bodies(const baum_mechanism *mechanism, const baum_body_id *bodies,
-                        int32_t body_count, baum_i_span *span);
 
 #endif

@@ -10,18 +10,6 @@
 
 /* ---- an axis in definitions ---- */
 
-baum_status baum_i_axis_check(const double axis[2], const char *label)
-{
-  baum_status status = baum_i_check_finite(label, "axis[0]", "[-]", axis[0]);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "axis[1]", "[-]", axis[1]);
-  }
-  if (status == BAUM_OK && axis[0] == 0.0 && axis[1] == 0.0) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: axis is (0, 0), must have a direction", label);
-  }
-  return status;
-}
-
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2])
 {

@@ -26,9 +26,6 @@
 
 /* ---- an axis in definitions ---- */
 
-/* Finite, with a direction. */
-baum_status baum_i_axis_check(const double axis[2], const char *label);
-
 /* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`. The axis has those
  * axes that the points have: with `point` (given or NaN) it is drawn on the ground. */
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,

@@ -19,26 +19,16 @@
 /* Of the curve function. */
 enum { F, F_X, F_Y, F_XX, F_XY, F_YY, CURVE_SIZE };
 
-static const baum_planar_curve_def defaults = {
-  .struct_size = sizeof(baum_planar_curve_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_curve_def),
+  BAUM_I_FIELD(baum_planar_curve_def, curve, FUNCTION),
+  BAUM_I_FIELD(baum_planar_curve_def, user, USER),
+  {0},
 };
 
 static const double axes[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_planar_curve_def *given = def;
-  baum_status status = baum_i_planar_check(mechanism, def, label, true);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angle(mechanism, given->body_a, label, "body_a");
-  }
-  return status == BAUM_OK ? baum_i_check_given(label, "curve()", given->curve != NULL) : status;
-}
 
 /* ---- the curve ---- */
 
@@ -97,24 +87,21 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   }
   baum_i_local at = place_at(point, s->values);
   double f[CURVE_SIZE];
-  baum_status status = curve_at(joint, &at, f);
+  BAUM_I_TRY(curve_at(joint, &at, f));
   s->g =
     (baum_i_outer){.value = f[F], .first = {f[F_X], f[F_Y]}, .second = {f[F_XX], f[F_XY], f[F_YY]}};
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
                             const baum_i_rows *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     state s;
-    status = state_at(group->joints[i], point, &s);
-    if (status == BAUM_OK) {
-      baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-    }
+    BAUM_I_TRY(state_at(group->joints[i], point, &s));
+    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- second derivatives ---- */
@@ -122,9 +109,9 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 static baum_status second_field(const void *joint, const baum_i_local *at, double *out)
 {
   double f[CURVE_SIZE];
-  baum_status status = curve_at(joint, at, f);
+  BAUM_I_TRY(curve_at(joint, at, f));
   memcpy(out, f + F_XX, 3 * sizeof *out);
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, state *s)
@@ -132,12 +119,12 @@ static baum_status set_third(const baum_i_joint *joint, baum_i_point *point, sta
   baum_i_local at = place_at(point, s->values);
   baum_i_field field = {.evaluate = second_field, .context = joint, .size = 3};
   double by_column[6]; /* of F_xx, F_xy, F_yy by x and by y */
-  baum_status status = baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column);
+  BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, &at, by_column));
   s->g.third[0] = by_column[0];
   s->g.third[1] = by_column[1];
   s->g.third[2] = by_column[3];
   s->g.third[3] = by_column[5];
-  return status;
+  return BAUM_OK;
 }
 
 /* w (nv) or NULL. */
@@ -145,12 +132,9 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
                              const double *lambda, const baum_i_joint_blocks *blocks)
 {
   state s;
-  baum_status status = state_at(joint, point, &s);
-  if (status == BAUM_OK && blocks->gamma_q && (s.x[0].c.rate != 0.0 || s.x[1].c.rate != 0.0)) {
-    status = set_third(joint, point, &s);
-  }
-  if (status != BAUM_OK) {
-    return status;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  if (blocks->gamma_q && (s.x[0].c.rate != 0.0 || s.x[1].c.rate != 0.0)) {
+    BAUM_I_TRY(set_third(joint, point, &s));
   }
   double w_six[BAUM_I_PLANAR_COLUMNS];
   baum_i_columns_gather(point, &joint->span, w, w_six);
@@ -182,12 +166,12 @@ static baum_status derived_field(const void *context, const baum_i_local *at, do
 {
   const column_of *column = context;
   double f[CURVE_SIZE];
-  baum_status status = curve_at(column->joint, at, f);
+  BAUM_I_TRY(curve_at(column->joint, at, f));
   memset(out, 0, CURVE_SIZE * sizeof *out);
   for (int i = 0; i < 3; i++) {
     out[derived[column->by][i][0]] = f[derived[column->by][i][1]];
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_column(const column_of *column, const baum_i_local *at,
@@ -210,33 +194,20 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
 {
   state s;
   double f[CURVE_SIZE];
-  baum_status status = state_at(joint, point, &s);
+  BAUM_I_TRY(state_at(joint, point, &s));
   baum_i_local at = place_at(point, s.values);
-  if (status == BAUM_OK) {
-    status = curve_at(joint, &at, f);
-  }
-  for (int by = 0; by < 2 && status == BAUM_OK; by++) {
+  BAUM_I_TRY(curve_at(joint, &at, f));
+  for (int by = 0; by < 2; by++) {
     const column_of column = {joint, by};
-    status = check_column(&column, &at, f);
+    BAUM_I_TRY(check_column(&column, &at, f));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar point on a curve",
-                 .size = sizeof(baum_planar_curve_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS,
-  .planar = true,
-  .scleronomic = true,
-  .row_count = 1,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
+  BAUM_I_PLANAR_JOINT(planar_curve, "planar point on a curve", baum_i_planar_check_axis, 0, 1),
   .lower = baum_i_planar_lower_points,
-  .evaluate = evaluate,
   .linearize = linearize,
-  .place = baum_i_planar_place,
   .check = check_derivatives,
 };
 

@@ -20,30 +20,18 @@
 /* Own numbers, after both points. */
 enum { LENGTH = 0, OWN_COUNT = 1 };
 
-static const baum_planar_distance_def defaults = {
-  .struct_size = sizeof(baum_planar_distance_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .length = BAUM_I_NOT_GIVEN,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_distance_def),
+  BAUM_I_OPTIONAL(baum_planar_distance_def, length, OPTIONAL_POSITIVE, "m"),
+  {0},
 };
 
 /* ---- definition ---- */
 
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_planar_distance_def *given = def;
-  baum_status status = baum_i_planar_check(mechanism, def, label, false);
-  if (status != BAUM_OK || isnan(given->length)) {
-    return status;
-  }
-  return baum_i_check_positive(label, "length", "m", given->length);
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
-  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  BAUM_I_TRY(baum_i_planar_lower_points(mechanism, joint, parameters));
   const baum_planar_distance_def *def = joint->element.def;
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   numbers[LENGTH] = def->length;
@@ -57,7 +45,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
       "%s: length is not given and is 0 m in the design configuration, must be > 0",
       baum_i_label(&joint->element, "joint", label));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- one joint ---- */
@@ -131,34 +119,15 @@ static void one_linearize(const baum_i_planar_pair *pair, const double *w, const
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  static const baum_i_planar_kernels kernels = {1, one_phi, one_jacobian, one_gamma};
-  return baum_i_planar_evaluate(group, point, &kernels, out);
-}
+BAUM_I_PLANAR_EVALUATE(1, one_phi, one_jacobian, one_gamma)
 
-static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(joint, point, w, lambda, one_linearize, blocks);
-}
+BAUM_I_PLANAR_LINEARIZE(one_linearize)
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar distance joint",
-                 .size = sizeof(baum_planar_distance_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
-  .planar = true,
-  .scleronomic = true,
-  .row_count = 1,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
+  BAUM_I_PLANAR_JOINT(planar_distance, "planar distance joint", baum_i_planar_check_apart,
+                      OWN_COUNT, 1),
   .lower = lower,
-  .evaluate = evaluate,
   .linearize = linearize,
-  .place = baum_i_planar_place,
 };
 
 BAUM_I_DEFINE(joint, planar_distance, type)

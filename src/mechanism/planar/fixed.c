@@ -12,34 +12,22 @@
 /* Own numbers, after both points. */
 enum { ANGLE = 0, OWN_COUNT = 1 };
 
-static const baum_planar_fixed_def defaults = {
-  .struct_size = sizeof(baum_planar_fixed_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .angle = BAUM_I_NOT_GIVEN,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_fixed_def),
+  BAUM_I_OPTIONAL(baum_planar_fixed_def, angle, OPTIONAL, "rad"),
+  {0},
 };
-
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_planar_fixed_def *given = def;
-  baum_status status = baum_i_planar_check(mechanism, def, label, true);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angles(mechanism, def, label);
-  }
-  return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
-}
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
-  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  BAUM_I_TRY(baum_i_planar_lower_points(mechanism, joint, parameters));
   const baum_planar_fixed_def *def = joint->element.def;
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_design_frame(mechanism, joint->span.bodies[1]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- one joint; second derivatives are the pin's: the row of the angle is linear ---- */
@@ -80,35 +68,16 @@ static void weld(const double *parameters, bool from_a, const double *known, dou
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  static const baum_i_planar_kernels kernels = {3, one_phi, one_jacobian, one_gamma};
-  return baum_i_planar_evaluate(group, point, &kernels, out);
-}
+BAUM_I_PLANAR_EVALUATE(3, one_phi, one_jacobian, one_gamma)
 
-static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(joint, point, w, lambda, baum_i_pin_linearize, blocks);
-}
+BAUM_I_PLANAR_LINEARIZE(baum_i_pin_linearize)
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar fixed joint",
-                 .size = sizeof(baum_planar_fixed_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
-  .planar = true,
-  .scleronomic = true,
-  .row_count = 3,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
+  BAUM_I_PLANAR_JOINT(planar_fixed, "planar fixed joint", baum_i_planar_check_turning, OWN_COUNT,
+                      3),
   .lower = lower,
-  .evaluate = evaluate,
   .linearize = linearize,
   .weld = weld,
-  .place = baum_i_planar_place,
 };
 
 BAUM_I_DEFINE(joint, planar_fixed, type)

@@ -21,10 +21,13 @@ enum { RADIUS_A, RADIUS_B, OFFSET, PARAMETER_COUNT };
 
 enum { A, B, CARRIER, BODY_COUNT };
 
-static const baum_planar_gear_def defaults = {
-  .struct_size = sizeof(baum_planar_gear_def),
-  .carrier = {-1, 0}, /* BAUM_GROUND */
-  .offset = BAUM_I_NOT_GIVEN,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_BODIES(baum_planar_gear_def),
+  BAUM_I_FIELD(baum_planar_gear_def, carrier, CARRIER),
+  BAUM_I_NUMBERS(baum_planar_gear_def, radius_a, NOT_ZERO, "m", 0.0),
+  BAUM_I_NUMBERS(baum_planar_gear_def, radius_b, NOT_ZERO, "m", 0.0),
+  BAUM_I_OPTIONAL(baum_planar_gear_def, offset, OPTIONAL, "m"),
+  {0},
 };
 
 /* ---- definition ---- */
@@ -32,13 +35,8 @@ static const baum_planar_gear_def defaults = {
 static baum_status check_carrier(const baum_mechanism *mechanism, const baum_planar_gear_def *def,
                                  const char *label)
 {
-  baum_status status = baum_i_planar_check_body(mechanism, def->carrier, label, "carrier");
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angle(mechanism, def->carrier, label, "carrier");
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_planar_check_body(mechanism, def->carrier, label, "carrier"));
+  BAUM_I_TRY(baum_i_planar_check_angle(mechanism, def->carrier, label, "carrier"));
   int carrier = baum_i_body_index(mechanism, def->carrier);
   bool is_a = carrier == baum_i_body_index(mechanism, def->body_a);
   if (is_a || carrier == baum_i_body_index(mechanism, def->body_b)) {
@@ -51,34 +49,11 @@ static baum_status check_carrier(const baum_mechanism *mechanism, const baum_pla
   return BAUM_OK;
 }
 
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
 {
-  const baum_planar_gear_def *def = given;
-  baum_status status = baum_i_planar_check_bodies(mechanism, def, label);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angles(mechanism, def, label);
-  }
-  if (status == BAUM_OK) {
-    status = check_carrier(mechanism, def, label);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_zero(label, "radius_a", "m", def->radius_a);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_zero(label, "radius_b", "m", def->radius_b);
-  }
-  return status == BAUM_OK ? baum_i_check_optional(label, "offset", "m", def->offset) : status;
-}
-
-static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
-{
-  const baum_planar_gear_def *def = given;
-  span->body_count = BODY_COUNT;
-  if (span->bodies) {
-    span->bodies[A] = baum_i_body_index(mechanism, def->body_a);
-    span->bodies[B] = baum_i_body_index(mechanism, def->body_b);
-    span->bodies[CARRIER] = baum_i_body_index(mechanism, def->carrier);
-  }
+  BAUM_I_TRY(baum_i_planar_check_bodies(mechanism, def, label));
+  BAUM_I_TRY(baum_i_planar_check_angles(mechanism, def, label));
+  return check_carrier(mechanism, def, label);
 }
 
 /* Of the three angles. */
@@ -141,12 +116,11 @@ static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point
 static const baum_i_joint_type type = {
   .definition = {.kind = "planar gear",
                  .size = sizeof(baum_planar_gear_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = PARAMETER_COUNT,
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = PARAMETER_COUNT},
   .scleronomic = true,
   .row_count = 1,
-  .bodies = bodies,
   .lower = lower,
   .evaluate = evaluate,
 };

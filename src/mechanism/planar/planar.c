@@ -30,10 +30,6 @@ static const char *body_label(const baum_i_body *body, char text[BAUM_I_LABEL_SI
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field)
 {
-  baum_status status = baum_i_check_body(mechanism, id, label, field);
-  if (status != BAUM_OK) {
-    return status;
-  }
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
   if (baum_i_frame_of(body) == BAUM_I_FRAME_NONE) {
     char text[BAUM_I_LABEL_SIZE];
@@ -47,13 +43,8 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
                                        const char *label)
 {
   const baum_i_planar_head *head = def;
-  baum_status status = baum_i_planar_check_body(mechanism, head->body_a, label, "body_a");
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_body(mechanism, head->body_b, label, "body_b");
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_planar_check_body(mechanism, head->body_a, label, "body_a"));
+  BAUM_I_TRY(baum_i_planar_check_body(mechanism, head->body_b, label, "body_b"));
   if (head->body_a.index1 == head->body_b.index1) {
     char text[BAUM_I_LABEL_SIZE];
     int index = baum_i_body_index(mechanism, head->body_a);
@@ -79,47 +70,16 @@ baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const vo
                                        const char *label)
 {
   const baum_i_planar_head *head = def;
-  baum_status status = baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
-  return status == BAUM_OK ? baum_i_planar_check_angle(mechanism, head->body_b, label, "body_b")
-                           : status;
-}
-
-void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span)
-{
-  const baum_i_planar_head *head = def;
-  span->body_count = 2;
-  if (span->bodies) {
-    span->bodies[0] = baum_i_body_index(mechanism, head->body_a);
-    span->bodies[1] = baum_i_body_index(mechanism, head->body_b);
-  }
+  BAUM_I_TRY(baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a"));
+  return baum_i_planar_check_angle(mechanism, head->body_b, label, "body_b");
 }
 
 /* ---- points ---- */
 
-/* Both components finite, or both NaN. */
-static baum_status check_point(const char *label, const char *field_x, const char *field_y,
-                               const double point[2])
-{
-  if (isnan(point[0]) && isnan(point[1])) {
-    return BAUM_OK;
-  }
-  baum_status status = baum_i_check_finite(label, field_x, "m", point[0]);
-  return status == BAUM_OK ? baum_i_check_finite(label, field_y, "m", point[1]) : status;
-}
-
-/* Of a point that has passed check_point(). */
+/* All of a point, or nothing. */
 static bool is_given(const double point[2])
 {
   return !isnan(point[0]);
-}
-
-static baum_status check_points(const baum_i_planar_head *head, const char *label)
-{
-  baum_status status = check_point(label, "point[0]", "point[1]", head->point);
-  if (status == BAUM_OK) {
-    status = check_point(label, "point_a[0]", "point_a[1]", head->point_a);
-  }
-  return status == BAUM_OK ? check_point(label, "point_b[0]", "point_b[1]", head->point_b) : status;
 }
 
 static baum_status check_with_point(const baum_i_planar_head *head, const char *label,
@@ -170,24 +130,41 @@ static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_
                      label, field, s[0], s[1], body_label(body, text));
 }
 
-baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
+static baum_status check_points(const baum_mechanism *mechanism, const void *def, const char *label,
                                 bool point_allowed)
 {
   const baum_i_planar_head *head = def;
-  baum_status status = baum_i_planar_check_bodies(mechanism, head, label);
-  if (status == BAUM_OK) {
-    status = check_points(head, label);
-  }
-  if (status == BAUM_OK) {
-    status = check_one_way(head, label, point_allowed);
-  }
-  if (status == BAUM_OK) {
-    status = check_on_particle(mechanism, head->body_a, label, "point_a", head->point_a);
-  }
-  if (status == BAUM_OK) {
-    status = check_on_particle(mechanism, head->body_b, label, "point_b", head->point_b);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_planar_check_bodies(mechanism, head, label));
+  BAUM_I_TRY(check_one_way(head, label, point_allowed));
+  BAUM_I_TRY(check_on_particle(mechanism, head->body_a, label, "point_a", head->point_a));
+  return check_on_particle(mechanism, head->body_b, label, "point_b", head->point_b);
+}
+
+baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
+                                           const char *label)
+{
+  return check_points(mechanism, def, label, true);
+}
+
+baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
+                                      const char *label)
+{
+  return check_points(mechanism, def, label, false);
+}
+
+baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
+                                        const char *label)
+{
+  BAUM_I_TRY(check_points(mechanism, def, label, true));
+  return baum_i_planar_check_angles(mechanism, def, label);
+}
+
+baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
+                                     const char *label)
+{
+  const baum_i_planar_head *head = def;
+  BAUM_I_TRY(check_points(mechanism, def, label, true));
+  return baum_i_planar_check_angle(mechanism, head->body_a, label, "body_a");
 }
 
 /* A point in ground axes, design configuration, to a body's axes. */
@@ -225,8 +202,8 @@ baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *de
   }
   int a = baum_i_body_index(mechanism, head->body_a);
   int b = baum_i_body_index(mechanism, head->body_b);
-  baum_status status = place_on(mechanism, a, head->point, label, s);
-  return status == BAUM_OK ? place_on(mechanism, b, head->point, label, s + 2) : status;
+  BAUM_I_TRY(place_on(mechanism, a, head->point, label, s));
+  return place_on(mechanism, b, head->point, label, s + 2);
 }
 
 /* ---- extent ---- */

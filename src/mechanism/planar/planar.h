@@ -26,6 +26,12 @@ typedef struct baum_i_planar_head {
   double point_b[2];
 } baum_i_planar_head;
 
+/* Their rows in a table of fields. */
+#define BAUM_I_PLANAR_BODIES(DEF) BAUM_I_FIELD(DEF, body_a, BODY), BAUM_I_FIELD(DEF, body_b, BODY)
+#define BAUM_I_PLANAR_FIELDS(DEF)                                     \
+  BAUM_I_PLANAR_BODIES(DEF), BAUM_I_OPTIONAL(DEF, point, POINT, "m"), \
+    BAUM_I_OPTIONAL(DEF, point_a, POINT, "m"), BAUM_I_OPTIONAL(DEF, point_b, POINT, "m")
+
 typedef struct baum_i_marker {
   double arm[2]; /* p */
   double r[2];
@@ -67,7 +73,9 @@ static inline void baum_i_planar_velocities(const baum_i_frame *a, const baum_i_
   }
 }
 
-/* Check that a body exists and has a place in the plane. */
+/* Checks of definitions whose fields hold one by one. */
+
+/* Check that a body has a place in the plane. */
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field);
 
@@ -75,10 +83,17 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
 baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Check the bodies and that the points are given in exactly one way; point_allowed false refuses
- * `point`: for elements of non-zero length. */
-baum_status baum_i_planar_check(const baum_mechanism *mechanism, const void *def, const char *label,
-                                bool point_allowed);
+/* The `check` of definitions by bodies and points, which must be given in exactly one way: */
+baum_status baum_i_planar_check_with_point(const baum_mechanism *mechanism, const void *def,
+                                           const char *label);
+/* without `point`, for elements of non-zero length; */
+baum_status baum_i_planar_check_apart(const baum_mechanism *mechanism, const void *def,
+                                      const char *label);
+/* where both bodies, or body_a alone, must have an angle. */
+baum_status baum_i_planar_check_turning(const baum_mechanism *mechanism, const void *def,
+                                        const char *label);
+baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void *def,
+                                     const char *label);
 
 /* A body that has passed the checks above must have an angle (ground does); both bodies. */
 baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body_id id,
@@ -86,12 +101,8 @@ baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Bodies of a planar definition; for the `bodies` function of types. */
-void baum_i_planar_bodies(const baum_mechanism *mechanism, const void *def, baum_i_span *span);
-
 /* Points on both bodies from the definition and the design configuration, s[0..1] on a, s[2..3] on b. A
- * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are looked at by
- * baum_i_planar_check()). */
+ * particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are checked when they are given). */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
                                  const char *label, double s[4]);
 

@@ -17,7 +17,15 @@
 /* Parameters. */
 enum { POINT = 0, FORCE = 2, TORQUE = 4, PARAMETER_COUNT };
 
-static const baum_planar_load_def defaults = {.struct_size = sizeof(baum_planar_load_def)};
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_planar_load_def, body, BODY),
+  BAUM_I_NUMBERS(baum_planar_load_def, point, FINITE, "m", 0.0),
+  BAUM_I_NUMBERS(baum_planar_load_def, force, FINITE, "N", 0.0),
+  BAUM_I_NUMBERS(baum_planar_load_def, torque, FINITE, "N m", 0.0),
+  BAUM_I_FIELD(baum_planar_load_def, follows_body, FLAG),
+  BAUM_I_FIELD(baum_planar_load_def, input, INPUT),
+  {0},
+};
 
 /* `input` lies in what was padding after `follows_body`. */
 static const size_t former[] = {
@@ -46,13 +54,10 @@ static baum_status check_on_particle(const baum_planar_load_def *def, const char
   return BAUM_OK;
 }
 
-static baum_status check_body(const baum_mechanism *mechanism, const baum_planar_load_def *def,
-                              const char *label)
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
 {
-  baum_status status = baum_i_planar_check_body(mechanism, def->body, label, "body");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  const baum_planar_load_def *def = given;
+  BAUM_I_TRY(baum_i_planar_check_body(mechanism, def->body, label, "body"));
   int index = baum_i_body_index(mechanism, def->body);
   if (index == 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body is ground, which does not move", label);
@@ -61,53 +66,9 @@ static baum_status check_body(const baum_mechanism *mechanism, const baum_planar
   return particle ? check_on_particle(def, label) : BAUM_OK;
 }
 
-static baum_status check_numbers(const baum_planar_load_def *def, const char *label)
-{
-  const struct {
-    const char *field;
-    const char *unit;
-    double value;
-  } numbers[] = {
-    {"point[0]", "m", def->point[0]}, {"point[1]", "m", def->point[1]},
-    {"force[0]", "N", def->force[0]}, {"force[1]", "N", def->force[1]},
-    {"torque", "N m", def->torque},
-  };
-  baum_status status = BAUM_OK;
-  for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && status == BAUM_OK; i++) {
-    status = baum_i_check_finite(label, numbers[i].field, numbers[i].unit, numbers[i].value);
-  }
-  return status;
-}
-
 static bool has_input(const baum_planar_load_def *def)
 {
   return def->input.index1 != 0 || def->input.tag != 0;
-}
-
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
-{
-  const baum_planar_load_def *def = given;
-  baum_status status = check_numbers(def, label);
-  if (status == BAUM_OK && has_input(def)) {
-    status = baum_i_check_input(mechanism, def->input, label, "input");
-  }
-  return status == BAUM_OK ? check_body(mechanism, def, label) : status;
-}
-
-static void digest(const void *given, baum_i_digest *sum)
-{
-  const baum_planar_load_def *def = given;
-  baum_i_digest_add_integer(sum, def->follows_body);
-  baum_i_digest_add_integer(sum, def->input.index1);
-}
-
-static void bodies(const baum_mechanism *mechanism, const void *given, baum_i_span *span)
-{
-  const baum_planar_load_def *def = given;
-  span->body_count = 1;
-  if (span->bodies) {
-    span->bodies[0] = baum_i_body_index(mechanism, def->body);
-  }
 }
 
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
@@ -231,12 +192,10 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
 static const baum_i_force_type type = {
   .definition = {.kind = "planar load",
                  .size = sizeof(baum_planar_load_def),
-                 .defaults = &defaults,
+                 .fields = fields,
                  .former = former,
                  .check = check,
-                 .digest = digest},
-  .parameter_count = PARAMETER_COUNT,
-  .bodies = bodies,
+                 .parameter_count = PARAMETER_COUNT},
   .lower = lower,
   .force = force,
   .potential = potential,

@@ -13,39 +13,15 @@
 /* Parameters; the mass is where gravity.c looks for it. */
 enum { MASS = BAUM_I_GRAVITY_MASS, PARAMETER_COUNT };
 
-static const baum_planar_particle_def defaults = {
-  .struct_size = sizeof(baum_planar_particle_def),
-  .mass = 1.0,
-  .velocity = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+static const baum_i_def_field fields[] = {
+  BAUM_I_NUMBERS(baum_planar_particle_def, mass, POSITIVE, "kg", 1.0),
+  BAUM_I_NUMBERS(baum_planar_particle_def, position, FINITE, "m", 0.0),
+  BAUM_I_OPTIONAL(baum_planar_particle_def, velocity, FREE, "m/s"),
+  BAUM_I_FIELD(baum_planar_particle_def, held, START_FLAG),
+  {0},
 };
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
-{
-  (void)mechanism;
-  const baum_planar_particle_def *def = given;
-  baum_status status = baum_i_check_positive(label, "mass", "kg", def->mass);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "position[0]", "m", def->position[0]);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(label, "position[1]", "m", def->position[1]);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_optional(label, "velocity[0]", "m/s", def->velocity[0]);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_optional(label, "velocity[1]", "m/s", def->velocity[1]);
-  }
-  return status;
-}
-
-static bool constant_mass(const void *def)
-{
-  (void)def;
-  return true;
-}
 
 static void lower(const baum_i_body *body, double *parameters)
 {
@@ -87,15 +63,13 @@ static baum_status mass(const baum_i_body_group *group, baum_i_point *point, dou
 static const baum_i_body_type type = {
   .definition = {.kind = "planar particle",
                  .size = sizeof(baum_planar_particle_def),
-                 .defaults = &defaults,
-                 .check = check},
+                 .fields = fields,
+                 .parameter_count = PARAMETER_COUNT},
   .frame = BAUM_I_FRAME_PARTICLE,
-  .parameter_count = PARAMETER_COUNT,
   .scleronomic = true,
   .constant_force = true,
   .nq = 2,
   .nv = 2,
-  .constant_mass = constant_mass,
   .lower = lower,
   .design = design,
   .scale = scale,

@@ -167,12 +167,36 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   return BAUM_OK;
 }
 
-/* The members of the type struct that all planar joints share. */
+/* The member functions of a type of so many rows by its kernels. */
+#define BAUM_I_PLANAR_EVALUATE(ROWS, PHI, JACOBIAN, GAMMA)                          \
+  static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point, \
+                              const baum_i_rows *out)                               \
+  {                                                                                 \
+    static const baum_i_planar_kernels kernels = {ROWS, PHI, JACOBIAN, GAMMA};      \
+    return baum_i_planar_evaluate(group, point, &kernels, out);                     \
+  }
+
+#define BAUM_I_PLANAR_LINEARIZE(KERNEL)                                                         \
+  static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w, \
+                               const double *lambda, const baum_i_joint_blocks *blocks)         \
+  {                                                                                             \
+    return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
+  }
+
+/* The members that types of joints of two bodies share; their points come before OWN numbers. */
+#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                  \
+  .definition = {.kind = (TITLE),                                                           \
+                 .size = sizeof(baum_##NAME##_def),                                         \
+                 .fields = fields,                                                          \
+                 .check = (CHECK),                                                          \
+                 .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)},                         \
+  .planar = true, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
+  .evaluate = evaluate, .place = baum_i_planar_place
+
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
 
-/* Its points from the design configuration; then the joint lowers its own numbers. A failure, a particle drawn
- * off `point`, is told when all is lowered: most of these joints take no particles, or no `point`,
- * and would never reach a return in between. Freeze then gives up all numbers. */
+/* Its points from the design configuration; then the joint lowers its own numbers. Fails where a
+ * particle is drawn off `point`. */
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters);
 

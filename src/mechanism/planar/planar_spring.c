@@ -22,32 +22,18 @@
 /* Parameters; s_a and s_b come first. */
 enum { LAW = 4, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
 
-static const baum_planar_spring_def defaults = {
-  .struct_size = sizeof(baum_planar_spring_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .free_length = BAUM_I_NOT_GIVEN,
-  .depends_on_velocity = true,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_spring_def),
+  BAUM_I_NUMBERS(baum_planar_spring_def, stiffness, NOT_NEGATIVE, "N/m", 0.0),
+  BAUM_I_NUMBERS(baum_planar_spring_def, damping, NOT_NEGATIVE, "N s/m", 0.0),
+  BAUM_I_OPTIONAL(baum_planar_spring_def, free_length, OPTIONAL_NOT_NEGATIVE, "m"),
+  BAUM_I_FIELD(baum_planar_spring_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_planar_spring_def, user, USER),
+  BAUM_I_FIELD(baum_planar_spring_def, depends_on_velocity, CLAIM),
+  {0},
 };
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
-{
-  const baum_planar_spring_def *def = given;
-  baum_status status = baum_i_planar_check(mechanism, def, label, false);
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_negative(label, "stiffness", "N/m", def->stiffness);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_negative(label, "damping", "N s/m", def->damping);
-  }
-  if (status == BAUM_OK && !isnan(def->free_length)) {
-    status = baum_i_check_not_negative(label, "free_length", "m", def->free_length);
-  }
-  return status;
-}
 
 static bool depends_on_velocity(const void *given)
 {
@@ -60,8 +46,8 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 {
   const baum_planar_spring_def *def = force->element.def;
   char label[BAUM_I_LABEL_SIZE];
-  baum_status status =
-    baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label), parameters);
+  BAUM_I_TRY(baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label),
+                                  parameters));
   double *numbers = parameters + LAW;
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
   numbers[BAUM_I_DAMPING] = def->damping;
@@ -69,7 +55,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
   if (isnan(def->free_length)) {
     numbers[BAUM_I_FREE_LENGTH] = baum_i_separation_in_design(mechanism, &force->span, parameters);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- one spring ---- */
@@ -169,21 +155,20 @@ static baum_status add_one(const baum_i_force *element, baum_i_point *point, dou
   baum_i_pair e = d / length;
   baum_i_spring_law law = law_of(element, point);
   baum_i_tension t;
-  baum_status status = baum_i_tension_at(&law, point, length, baum_i_dot(e, rate), &t);
+  BAUM_I_TRY(baum_i_tension_at(&law, point, length, baum_i_dot(e, rate), &t));
   baum_i_pair pull = t.value * e;
   const double six[6] = {pull[0],  pull[1],  baum_i_dot(baum_i_turned(p), pull),
                          -pull[0], -pull[1], -baum_i_dot(baum_i_turned(s), pull)};
   baum_i_columns_scatter(point->mechanism, &element->span, six, out);
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
-    status = add_one(group->forces[i], point, out);
+  for (int i = 0; i < group->count; i++) {
+    BAUM_I_TRY(add_one(group->forces[i], point, out));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
@@ -199,15 +184,14 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
 static baum_status power(const baum_i_force_group *group, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     spring s = spring_at(group->forces[i], point);
     baum_i_spring_law law = law_of(group->forces[i], point);
     if (s.length > 0.0) {
-      status = baum_i_spring_power(&law, point, s.length, s.rate, sum);
+      BAUM_I_TRY(baum_i_spring_power(&law, point, s.length, s.rate, sum));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
@@ -219,7 +203,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   }
   baum_i_spring_law law = law_of(element, point);
   baum_i_tension t;
-  baum_status status = baum_i_tension_at(&law, point, s.length, s.rate, &t);
+  BAUM_I_TRY(baum_i_tension_at(&law, point, s.length, s.rate, &t));
   const baum_i_span *span = &element->span;
   double six[36];
   if (blocks->force_q) {
@@ -232,7 +216,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     set_force_v(&s, &t, six);
     baum_i_columns_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
@@ -247,10 +231,9 @@ static baum_status check_derivatives(const baum_i_force *element, baum_i_point *
 static const baum_i_force_type type = {
   .definition = {.kind = "planar spring",
                  .size = sizeof(baum_planar_spring_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = PARAMETER_COUNT,
-  .bodies = baum_i_planar_bodies,
+                 .fields = fields,
+                 .check = baum_i_planar_check_apart,
+                 .parameter_count = PARAMETER_COUNT},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,

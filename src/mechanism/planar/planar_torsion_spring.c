@@ -17,31 +17,23 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/planar/planar.h"
 
-static const baum_planar_torsion_spring_def defaults = {
-  .struct_size = sizeof(baum_planar_torsion_spring_def),
-  .free_angle = BAUM_I_NOT_GIVEN,
-  .depends_on_velocity = true,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_BODIES(baum_planar_torsion_spring_def),
+  BAUM_I_NUMBERS(baum_planar_torsion_spring_def, stiffness, NOT_NEGATIVE, "N m/rad", 0.0),
+  BAUM_I_NUMBERS(baum_planar_torsion_spring_def, damping, NOT_NEGATIVE, "N m s/rad", 0.0),
+  BAUM_I_OPTIONAL(baum_planar_torsion_spring_def, free_angle, OPTIONAL, "rad"),
+  BAUM_I_FIELD(baum_planar_torsion_spring_def, law, OPTIONAL_FUNCTION),
+  BAUM_I_FIELD(baum_planar_torsion_spring_def, user, USER),
+  BAUM_I_FIELD(baum_planar_torsion_spring_def, depends_on_velocity, CLAIM),
+  {0},
 };
 
 /* ---- definition ---- */
 
-static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
 {
-  const baum_planar_torsion_spring_def *def = given;
-  baum_status status = baum_i_planar_check_bodies(mechanism, def, label);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angles(mechanism, def, label);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_negative(label, "stiffness", "N m/rad", def->stiffness);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_negative(label, "damping", "N m s/rad", def->damping);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_optional(label, "free_angle", "rad", def->free_angle);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_planar_check_bodies(mechanism, def, label));
+  return baum_i_planar_check_angles(mechanism, def, label);
 }
 
 static bool depends_on_velocity(const void *given)
@@ -114,15 +106,14 @@ static void put_square(const baum_i_force *force, const baum_mechanism *mechanis
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     const baum_i_force *element = group->forces[i];
     baum_i_tension t;
-    status = torque_at(element, point, &t);
+    BAUM_I_TRY(torque_at(element, point, &t));
     const double six[6] = {0.0, 0.0, t.value, 0.0, 0.0, -t.value};
     baum_i_columns_scatter(point->mechanism, &element->span, six, out);
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
@@ -138,23 +129,22 @@ static baum_status potential(const baum_i_force_group *group, baum_i_point *poin
 static baum_status power(const baum_i_force_group *group, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < group->count && status == BAUM_OK; i++) {
+  for (int i = 0; i < group->count; i++) {
     twist now = twist_at(group->forces[i], point);
     baum_i_spring_law law = law_of(group->forces[i], point);
-    status = baum_i_spring_power(&law, point, now.angle, now.rate, sum);
+    BAUM_I_TRY(baum_i_spring_power(&law, point, now.angle, now.rate, sum));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
                              const baum_i_force_blocks *blocks)
 {
   baum_i_tension t;
-  baum_status status = torque_at(element, point, &t);
+  BAUM_I_TRY(torque_at(element, point, &t));
   put_square(element, point->mechanism, t.by_length, blocks->force_q);
   put_square(element, point->mechanism, t.by_rate, blocks->force_v);
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
@@ -167,10 +157,9 @@ static baum_status check_derivatives(const baum_i_force *element, baum_i_point *
 static const baum_i_force_type type = {
   .definition = {.kind = "planar torsion spring",
                  .size = sizeof(baum_planar_torsion_spring_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_SPRING_NUMBERS,
-  .bodies = baum_i_planar_bodies,
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = BAUM_I_SPRING_NUMBERS},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,

@@ -18,32 +18,15 @@
 /* Own numbers, after both points. */
 enum { AXIS = 0, RADIUS = 2, OFFSET = 3, OWN_COUNT = 4 };
 
-static const baum_planar_rack_and_pinion_def defaults = {
-  .struct_size = sizeof(baum_planar_rack_and_pinion_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .axis = {1.0, 0.0},
-  .offset = BAUM_I_NOT_GIVEN,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_rack_and_pinion_def),
+  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, axis, DIRECTION, "[-]", 1.0, 0.0),
+  BAUM_I_NUMBERS(baum_planar_rack_and_pinion_def, radius, NOT_ZERO, "m", 0.0),
+  BAUM_I_OPTIONAL(baum_planar_rack_and_pinion_def, offset, OPTIONAL, "m"),
+  {0},
 };
 
 /* ---- definition ---- */
-
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_planar_rack_and_pinion_def *given = def;
-  baum_status status = baum_i_planar_check(mechanism, def, label, true);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angles(mechanism, def, label);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_axis_check(given->axis, label);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_not_zero(label, "radius", "m", given->radius);
-  }
-  return status == BAUM_OK ? baum_i_check_optional(label, "offset", "m", given->offset) : status;
-}
 
 /* Displacement along the rack less what has been rolled off. */
 static double rolled(const baum_i_planar_pair *pair)
@@ -55,7 +38,7 @@ static double rolled(const baum_i_planar_pair *pair)
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
-  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  BAUM_I_TRY(baum_i_planar_lower_points(mechanism, joint, parameters));
   const baum_planar_rack_and_pinion_def *def = joint->element.def;
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_design_frame(mechanism, joint->span.bodies[1]);
@@ -64,7 +47,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
   numbers[RADIUS] = def->radius;
   baum_i_planar_pair drawn = baum_i_planar_pair_of(parameters, &a, &b);
   numbers[OFFSET] = isnan(def->offset) ? rolled(&drawn) : def->offset;
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- one joint ---- */
@@ -94,34 +77,15 @@ static void one_linearize(const baum_i_planar_pair *pair, const double *w, const
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  static const baum_i_planar_kernels kernels = {1, one_phi, one_jacobian, one_gamma};
-  return baum_i_planar_evaluate(group, point, &kernels, out);
-}
+BAUM_I_PLANAR_EVALUATE(1, one_phi, one_jacobian, one_gamma)
 
-static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(joint, point, w, lambda, one_linearize, blocks);
-}
+BAUM_I_PLANAR_LINEARIZE(one_linearize)
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar rack and pinion",
-                 .size = sizeof(baum_planar_rack_and_pinion_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
-  .planar = true,
-  .scleronomic = true,
-  .row_count = 1,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
+  BAUM_I_PLANAR_JOINT(planar_rack_and_pinion, "planar rack and pinion", baum_i_planar_check_turning,
+                      OWN_COUNT, 1),
   .lower = lower,
-  .evaluate = evaluate,
   .linearize = linearize,
-  .place = baum_i_planar_place,
 };
 
 BAUM_I_DEFINE(joint, planar_rack_and_pinion, type)

@@ -7,31 +7,14 @@
 #include "mechanism/definition.h"
 #include "mechanism/planar/pin_rows.h"
 
-static const baum_planar_revolute_def defaults = {
-  .struct_size = sizeof(baum_planar_revolute_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_revolute_def),
+  {0},
 };
 
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  return baum_i_planar_check(mechanism, def, label, true);
-}
+BAUM_I_PLANAR_EVALUATE(2, baum_i_pin_phi, baum_i_pin_jacobian, baum_i_pin_gamma)
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  static const baum_i_planar_kernels kernels = {2, baum_i_pin_phi, baum_i_pin_jacobian,
-                                                baum_i_pin_gamma};
-  return baum_i_planar_evaluate(group, point, &kernels, out);
-}
-
-static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
-                             const double *lambda, const baum_i_joint_blocks *blocks)
-{
-  return baum_i_planar_linearize(joint, point, w, lambda, baum_i_pin_linearize, blocks);
-}
+BAUM_I_PLANAR_LINEARIZE(baum_i_pin_linearize)
 
 static void coordinate(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out)
 {
@@ -56,21 +39,11 @@ static void coordinate_linearize(const baum_i_joint *joint, const baum_i_point *
 }
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar revolute joint",
-                 .size = sizeof(baum_planar_revolute_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS,
-  .planar = true,
-  .scleronomic = true,
+  BAUM_I_PLANAR_JOINT(planar_revolute, "planar revolute joint", baum_i_planar_check_with_point, 0,
+                      2),
   .is_pin = true,
-  .row_count = 2,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
   .lower = baum_i_planar_lower_points,
-  .evaluate = evaluate,
   .linearize = linearize,
-  .place = baum_i_planar_place,
   .is_angle = true,
   .check_coordinate = baum_i_planar_check_angles,
   .coordinate = coordinate,

@@ -16,41 +16,26 @@
 /* Own numbers, after both points. */
 enum { ANGLE = BAUM_I_AXIS_NUMBERS, OWN_COUNT };
 
-static const baum_planar_translational_def defaults = {
-  .struct_size = sizeof(baum_planar_translational_def),
-  .point = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_a = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .point_b = {BAUM_I_NOT_GIVEN, BAUM_I_NOT_GIVEN},
-  .axis = {1.0, 0.0},
-  .angle = BAUM_I_NOT_GIVEN,
+static const baum_i_def_field fields[] = {
+  BAUM_I_PLANAR_FIELDS(baum_planar_translational_def),
+  BAUM_I_NUMBERS(baum_planar_translational_def, axis, DIRECTION, "[-]", 1.0, 0.0),
+  BAUM_I_OPTIONAL(baum_planar_translational_def, angle, OPTIONAL, "rad"),
+  {0},
 };
 
 /* ---- definition ---- */
 
-static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
-{
-  const baum_planar_translational_def *given = def;
-  baum_status status = baum_i_planar_check(mechanism, def, label, true);
-  if (status == BAUM_OK) {
-    status = baum_i_planar_check_angles(mechanism, def, label);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_axis_check(given->axis, label);
-  }
-  return status == BAUM_OK ? baum_i_check_optional(label, "angle", "rad", given->angle) : status;
-}
-
 static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
                          double *parameters)
 {
-  baum_status status = baum_i_planar_lower_points(mechanism, joint, parameters);
+  BAUM_I_TRY(baum_i_planar_lower_points(mechanism, joint, parameters));
   const baum_planar_translational_def *def = joint->element.def;
   baum_i_frame a = baum_i_design_frame(mechanism, joint->span.bodies[0]);
   baum_i_frame b = baum_i_design_frame(mechanism, joint->span.bodies[1]);
   double *numbers = parameters + BAUM_I_PLANAR_NUMBERS;
   baum_i_axis_lower(def->axis, def->point, &a, numbers + BAUM_I_AXIS, numbers + BAUM_I_AXIS_NORMAL);
   numbers[ANGLE] = isnan(def->angle) ? b.angle - a.angle : def->angle;
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- one joint ---- */
@@ -75,28 +60,13 @@ static void one_gamma(const baum_i_planar_pair *pair, double *out)
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  static const baum_i_planar_kernels kernels = {2, one_phi, one_jacobian, one_gamma};
-  return baum_i_planar_evaluate(group, point, &kernels, out);
-}
+BAUM_I_PLANAR_EVALUATE(2, one_phi, one_jacobian, one_gamma)
 
 static const baum_i_joint_type type = {
-  .definition = {.kind = "planar translational joint",
-                 .size = sizeof(baum_planar_translational_def),
-                 .defaults = &defaults,
-                 .check = check},
-  .parameter_count = BAUM_I_PLANAR_NUMBERS + OWN_COUNT,
-  .planar = true,
-  .scleronomic = true,
-  .row_count = 2,
-  .bodies = baum_i_planar_bodies,
-  .extent = baum_i_planar_extent,
+  BAUM_I_PLANAR_JOINT(planar_translational, "planar translational joint",
+                      baum_i_planar_check_turning, OWN_COUNT, 2),
   .lower = lower,
-  .evaluate = evaluate,
   .linearize = baum_i_axis_joint_linearize,
-  .place = baum_i_planar_place,
   .coordinate = baum_i_axis_joint_coordinate,
   .coordinate_linearize = baum_i_axis_joint_coordinate_linearize,
 };

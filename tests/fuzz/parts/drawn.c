@@ -12,6 +12,7 @@ typedef struct drawing {
   design_mechanism *m;
   fuzz_bytes *b;
   const element_kind *kind;
+  element_fields fields;
   any_def *def;
   int arrays; /* of numbers, so far */
 } drawing;
@@ -145,9 +146,9 @@ static void draw_field(drawing *d, const element_field *f)
 static void drop_short_arrays(const drawing *d, int32_t count)
 {
   const void *none = NULL;
-  for (int k = 0; k < d->kind->field_count && count > DRAWN_ROOM; k++) {
-    if (d->kind->fields[k].type == FIELD_ARRAY) {
-      put(d, &d->kind->fields[k], &none, sizeof none);
+  for (int k = 0; k < d->fields.count && count > DRAWN_ROOM; k++) {
+    if (d->fields.list[k].type == FIELD_ARRAY) {
+      put(d, &d->fields.list[k], &none, sizeof none);
     }
   }
 }
@@ -155,8 +156,8 @@ static void drop_short_arrays(const drawing *d, int32_t count)
 static int32_t integer_of(const drawing *d, const char *name)
 {
   int32_t value = 0;
-  for (int k = 0; k < d->kind->field_count; k++) {
-    const element_field *f = &d->kind->fields[k];
+  for (int k = 0; k < d->fields.count; k++) {
+    const element_field *f = &d->fields.list[k];
     if (f->type == FIELD_INTEGER && strcmp(f->name, name) == 0) {
       memcpy(&value, d->def->bytes + f->offset, sizeof value);
     }
@@ -166,13 +167,13 @@ static int32_t integer_of(const drawing *d, const char *name)
 
 void design_definition(design_mechanism *m, fuzz_bytes *b, const element_kind *kind, any_def *def)
 {
-  drawing d = {.m = m, .b = b, .kind = kind, .def = def};
+  drawing d = {.m = m, .b = b, .kind = kind, .fields = element_fields_of(kind), .def = def};
   int users = m->user_count;
   memset(def, 0, sizeof *def);
   kind->init(def, kind->size);
-  for (int k = 0; k < kind->field_count; k++) {
-    if (kind->fields[k].type == FIELD_ID || fuzz_below(b, 4) != 0) {
-      draw_field(&d, &kind->fields[k]);
+  for (int k = 0; k < d.fields.count; k++) {
+    if (d.fields.list[k].type == FIELD_ID || fuzz_below(b, 4) != 0) {
+      draw_field(&d, &d.fields.list[k]);
     }
   }
   int32_t size = integer_of(&d, "size");

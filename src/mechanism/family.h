@@ -1,0 +1,54 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies, joints and forces as families of elements: what is done to elements is written once, for
+ * any of them. */
+#ifndef BAUM_I_MECHANISM_FAMILY_H
+#define BAUM_I_MECHANISM_FAMILY_H
+
+#include "mechanism/model.h"
+
+/* How much a family has been given of columns or rows, and of values in blocks. */
+typedef struct baum_i_totals {
+  int64_t positions;
+  int64_t rows;    /* velocities of bodies, rows of joints */
+  int64_t blocks;  /* rows x nl each */
+  int64_t squares; /* nl x nl each */
+} baum_i_totals;
+
+/* What families differ in. An element is a struct of theirs, which begins with its baum_i_element. */
+typedef struct baum_i_family {
+  const char *name; /* "body", for messages and default names */
+  size_t size;      /* of an element */
+  size_t span;      /* offset of its baum_i_span */
+  size_t count;     /* offset of their number in the mechanism, an int */
+  baum_i_element *(*at)(const baum_mechanism *mechanism, int k); /* from 0, without ground */
+  /* Those that may fail do so with BAUM_ERR_MEMORY and its message. */
+  baum_status (*append)(baum_mechanism *mechanism, baum_i_element *element);
+  void (*prepare)(baum_i_element *element); /* set what follows from the definition */
+  /* At freeze: rows or velocities of one, where its blocks begin, how large all are. */
+  int (*rows)(const baum_i_element *element);
+  void (*place)(baum_i_element *element, const baum_i_totals *before);
+  void (*close)(baum_mechanism *mechanism, const baum_i_totals *all);
+  /* All elements by type. */
+  baum_status (*open_groups)(baum_mechanism *mechanism);
+  baum_status (*join_group)(baum_mechanism *mechanism, baum_i_element *element);
+  void (*free_groups)(baum_mechanism *mechanism); /* none is fine */
+} baum_i_family;
+
+extern const baum_i_family baum_i_body_family;
+extern const baum_i_family baum_i_joint_family;
+extern const baum_i_family baum_i_force_family;
+
+enum { BAUM_I_FAMILIES = 3 };
+extern const baum_i_family *const baum_i_families[BAUM_I_FAMILIES]; /* bodies first */
+
+static inline int baum_i_family_count(const baum_i_family *family, const baum_mechanism *mechanism)
+{
+  return *(const int *)(const void *)((const char *)mechanism + family->count);
+}
+
+static inline baum_i_span *baum_i_family_span(const baum_i_family *family, baum_i_element *element)
+{
+  return (baum_i_span *)(void *)((char *)element + family->span);
+}
+
+#endif

@@ -1,0 +1,44 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A force by functions of the user, of generalized coordinates or of a force on bodies: its value,
+ * derivatives that are given or come from differences, and a potential.
+ */
+#ifndef BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
+#define BAUM_I_MECHANISM_GENERAL_GIVEN_FORCE_H
+
+#include "mechanism/general/difference.h"
+
+typedef struct baum_i_given_force {
+  const baum_i_element *element;
+  const char *family;
+  baum_force_fn *force;
+  baum_force_fn *by[2]; /* derivatives by q and by v, as baum_i_variable; or NULL */
+  baum_q_fn *potential; /* or NULL */
+  bool depends_on_velocity;
+  void *user;
+} baum_i_given_force;
+
+/* Of a definition that has members of these names. */
+#define BAUM_I_GIVEN_FORCE(ELEMENT, FAMILY, DEF)                           \
+  ((baum_i_given_force){.element = (ELEMENT),                              \
+                        .family = (FAMILY),                                \
+                        .force = (DEF)->force,                             \
+                        .by = {(DEF)->force_q, (DEF)->force_v},            \
+                        .potential = (DEF)->potential,                     \
+                        .depends_on_velocity = (DEF)->depends_on_velocity, \
+                        .user = (DEF)->user})
+
+baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,
+                                  double *out); /* (nl) */
+
+/* Its derivative by q or v (nl x nl); none where out is NULL. */
+baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
+                                     baum_i_variable variable, double *out);
+
+/* Adds to *sum. */
+baum_status baum_i_given_force_potential(const baum_i_given_force *given, const baum_i_local *at,
+                                         double *sum);
+
+/* Compare the derivatives that are given with differences; the `check` of types. */
+baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);
+
+#endif

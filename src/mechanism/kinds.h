@@ -1,0 +1,35 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* All kinds of elements, for whoever goes through their definitions. */
+#ifndef BAUM_I_MECHANISM_KINDS_H
+#define BAUM_I_MECHANISM_KINDS_H
+
+#include "mechanism/fields.h"
+
+/* KIND(family, name) */
+#define BAUM_I_KINDS(KIND)            \
+  KIND(body, planar_body)             \
+  KIND(body, planar_particle)         \
+  KIND(body, coordinates)             \
+  KIND(joint, planar_revolute)        \
+  KIND(joint, planar_distance)        \
+  KIND(joint, planar_translational)   \
+  KIND(joint, planar_fixed)           \
+  KIND(joint, planar_pin_in_slot)     \
+  KIND(joint, planar_rack_and_pinion) \
+  KIND(joint, planar_gear)            \
+  KIND(joint, planar_curve)           \
+  KIND(joint, coupling)               \
+  KIND(joint, driver)                 \
+  KIND(joint, spline_driver)          \
+  KIND(joint, user_constraint)        \
+  KIND(force, planar_spring)          \
+  KIND(force, planar_torsion_spring)  \
+  KIND(force, planar_load)            \
+  KIND(force, user_force)
+
+#define BAUM_I_DECLARE_DEFINITION(FAMILY, NAME) \
+  extern const baum_i_definition *const baum_i_##NAME##_definition;
+
+BAUM_I_KINDS(BAUM_I_DECLARE_DEFINITION)
+
+#endif
