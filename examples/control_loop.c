@@ -40,7 +40,7 @@ static baum_input_id add_torque(baum_mechanism *mechanism, baum_body_id crank, c
 
 static void look(loop *l)
 {
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = l->pin};
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, l->pin);
   CHECK(baum_simulation_get(l->run, &channel, 1, l->crank));
 }
 

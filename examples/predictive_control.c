@@ -32,7 +32,7 @@ static double now(void)
 
 static double angle(const plant *p)
 {
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = p->pin};
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, p->pin);
   double crank[2];
   CHECK(baum_simulation_get(p->run, &channel, 1, crank));
   return crank[0];

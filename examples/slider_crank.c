@@ -95,8 +95,8 @@ static baum_counters simulate(const slider_crank *s, baum_gains gains, int set)
   options.step = H;
   baum_simulation *run = NULL;
   CHECK(baum_simulation_create(s->mechanism, &options, &run));
-  const baum_channel channels[] = {{.quantity = BAUM_PHI, .joint = s->pin_b},
-                                   {.quantity = BAUM_BODY_POSE, .body = s->slider}};
+  const baum_channel channels[] = {baum_channel_of_joint(BAUM_PHI, s->pin_b),
+                                   baum_channel_of_body(BAUM_BODY_POSE, s->slider)};
   baum_status status =
     baum_simulation_sample(run, exact.t, STEPS + 1, channels, 2, rows[set][0], NULL);
   if (status != BAUM_WARNED) { /* of marginal gains, as the table shows */

@@ -383,13 +383,58 @@ typedef enum baum_quantity {
                                     energy_account. */
 } baum_quantity;
 
-/** One group of columns. */
+/** One group of columns. All channels of an array have the same struct_size. */
 typedef struct baum_channel {
-  baum_quantity quantity; /**< What. */
-  baum_body_id body;      /**< For BAUM_BODY_*. */
-  baum_joint_id joint;    /**< For JOINT_*, DRIVE_EFFORT; optional for LAMBDA, PHI, PHI_RATE. */
-  double point[2]; /**< [m] body axes, for BAUM_BODY_* of a planar body; 0: centre of mass. */
+  size_t struct_size;     /**< Set by the default. Do not write. */
+  baum_quantity quantity; /**< What. Default: 0, must be set. */
+  baum_body_id body;      /**< For BAUM_BODY_*. Default: none. */
+  baum_joint_id joint;    /**< For JOINT_*, DRIVE_EFFORT; optional for LAMBDA, PHI, PHI_RATE.
+                               Default: none. */
+  double point[3];        /**< [m] body axes, for BAUM_BODY_* of a body that has axes; its plane has
+                               z = 0. Default: (0, 0, 0), the centre of mass. */
 } baum_channel;
+
+/** Set the defaults of a channel; writes at most caller_size bytes.
+ *  @param[out] channel      NULL is ignored
+ *  @param      caller_size  sizeof *channel
+ */
+BAUM_API void baum_channel_init(baum_channel *channel, size_t caller_size);
+
+/** A channel of the whole mechanism. */
+static inline baum_channel baum_channel_of(baum_quantity quantity)
+{
+  baum_channel channel;
+  baum_channel_init(&channel, sizeof channel);
+  channel.quantity = quantity;
+  return channel;
+}
+
+/** A channel of a body. */
+static inline baum_channel baum_channel_of_body(baum_quantity quantity, baum_body_id body)
+{
+  baum_channel channel = baum_channel_of(quantity);
+  channel.body = body;
+  return channel;
+}
+
+/** A channel of a point of a body [m], body axes. */
+static inline baum_channel baum_channel_of_point(baum_quantity quantity, baum_body_id body,
+                                                 double x, double y, double z)
+{
+  baum_channel channel = baum_channel_of_body(quantity, body);
+  channel.point[0] = x;
+  channel.point[1] = y;
+  channel.point[2] = z;
+  return channel;
+}
+
+/** A channel of a joint. */
+static inline baum_channel baum_channel_of_joint(baum_quantity quantity, baum_joint_id joint)
+{
+  baum_channel channel = baum_channel_of(quantity);
+  channel.joint = joint;
+  return channel;
+}
 
 /** Number of columns of some channels together.
  *  @param[in] mechanism  frozen
@@ -412,8 +457,8 @@ BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulat
 /** Read channels at the present state.
  *  @param[in]  channels  (count)
  *  @param[out] row       (baum_channels_width())
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (BAUM_ENERGY_ACCOUNT without the option),
- *              BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
+ *              (BAUM_ENERGY_ACCOUNT without the option), BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
@@ -425,8 +470,8 @@ BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum
  *  @param[in]  channels  (count)
  *  @param[out] rows      (n x width)
  *  @param[out] done      number of rows written, also on failure. May be NULL.
- *  @return     as baum_simulation_advance_to(); BAUM_ERR_STATE (BAUM_ENERGY_ACCOUNT without the
- *              option)
+ *  @return     as baum_simulation_advance_to(); BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
+ *              (BAUM_ENERGY_ACCOUNT without the option)
  */
 BAUM_API baum_status baum_simulation_sample(baum_simulation *simulation, const double *times,
                                             int64_t n, const baum_channel *channels, int32_t count,

@@ -182,7 +182,8 @@ BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integra
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
  *  @param     unit      [of the channels] > 0, finite: a difference of that size is an error of 1
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; unchanged on failure
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE,
+ *             BAUM_ERR_MEMORY; unchanged on failure
  */
 BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel *channels,
                                           int32_t count, double unit);

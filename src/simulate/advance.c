@@ -370,14 +370,13 @@ static baum_status check_times(const baum_simulation *run, const double *times, 
 static baum_status check_sample(const baum_simulation *run, const double *times, int64_t n,
                                 const baum_channel *channels, int32_t count, const double *rows)
 {
+  int width = 0;
   const char *call = "baum_simulation_sample";
   if (!run || n < 0 || (n > 0 && (!times || !rows))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
                        run ? "times or rows are NULL, or n is negative" : "the simulation is NULL");
   }
-  if (baum_i_output_width(run->workspace->mechanism, channels, count) < 0) {
-    return BAUM_ERR_ARGUMENT;
-  }
+  BAUM_I_TRY(baum_i_check_channels(run->workspace->mechanism, channels, count, &width));
   BAUM_I_TRY(check_times(run, times, n));
   return baum_i_run_may_be_changed(run, call);
 }
@@ -414,7 +413,8 @@ static baum_status sample_all(baum_simulation *run, const double *times, int64_t
                               const baum_channel *channels, int count, double *rows, int64_t *done,
                               int64_t *taken)
 {
-  int width = baum_i_output_width(run->workspace->mechanism, channels, count);
+  int width = 0;
+  BAUM_I_TRY(baum_i_check_channels(run->workspace->mechanism, channels, count, &width));
   for (; *done < n; ++*done) {
     const baum_i_state *at = NULL;
     BAUM_I_TRY(baum_i_run_is_wanted(run));

@@ -6,7 +6,9 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/sized.h"
 #include "base/text.h"
+#include "mechanism/definition.h"
 #include "mechanism/planar/planar.h"
 #include "simulate/account.h"
 
@@ -74,12 +76,14 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
                                      : "body is none or not of this mechanism");
   }
   bool rigid = m->bodies[body]->type->frame == BAUM_I_FRAME_BODY;
-  if (!rigid && (c->point[0] != 0.0 || c->point[1] != 0.0)) {
+  const double *p = c->point;
+  if (!rigid && (p[0] != 0.0 || p[1] != 0.0 || p[2] != 0.0)) {
     return fail_channel(k, "point is given, but the body has no axes");
   }
-  if (!isfinite(c->point[0]) || !isfinite(c->point[1])) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: point is (%g, %g) m, must be finite", k,
-                      c->point[0], c->point[1]);
+  if (!isfinite(p[0]) || !isfinite(p[1]) || p[2] != 0.0) {
+    (void)baum_i_fail(BAUM_ERR_ARGUMENT,
+                      "channel %d: point is (%g, %g, %g) m, must be finite and in the plane, z = 0",
+                      k, p[0], p[1], p[2]);
     return -1;
   }
   return c->quantity == BAUM_BODY_POSE ? m->bodies[body]->nq : m->bodies[body]->nv;
@@ -147,33 +151,72 @@ void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char 
   }
 }
 
-int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *channels, int count)
+void baum_channel_init(baum_channel *channel, size_t caller_size)
 {
-  int sum = 0;
+  const baum_channel defaults = {.struct_size = sizeof defaults};
+  if (baum_i_takes_sized(channel, caller_size)) {
+    baum_i_give_sized(channel, caller_size, &defaults, sizeof defaults);
+  }
+}
+
+baum_channel baum_i_channel(const baum_channel *channels, int k)
+{
+  const size_t size = channels->struct_size;
+  baum_channel channel = {.struct_size = 0};
+  memcpy(&channel, (const char *)channels + (size_t)k * size, size);
+  channel.struct_size = sizeof channel;
+  return channel;
+}
+
+/* The first one's size is the distance to the next. */
+static baum_status check_size(const baum_channel *channels, int k)
+{
+  const size_t size = channels->struct_size;
+  size_t own = 0;
+  if (!baum_i_is_struct_size(size, sizeof *channels)) {
+    return baum_i_fail(BAUM_ERR_STRUCT,
+                       "channel 0: struct_size is %zu, must be %zu, or that of an older version; "
+                       "start from baum_channel_of()",
+                       size, sizeof *channels);
+  }
+  memcpy(&own, (const char *)channels + (size_t)k * size, sizeof own);
+  return own == size ? BAUM_OK
+                     : baum_i_fail(BAUM_ERR_STRUCT,
+                                   "channel %d: struct_size is %zu, must be %zu as of channel 0; "
+                                   "start from baum_channel_of()",
+                                   k, own, size);
+}
+
+baum_status baum_i_check_channels(const baum_mechanism *mechanism, const baum_channel *channels,
+                                  int count, int *width)
+{
+  *width = 0;
   if (count < 0 || (count > 0 && !channels)) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channels are NULL or their count is negative");
-    return -1;
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "channels are NULL or their count is negative");
   }
   for (int k = 0; k < count; k++) {
-    int width = channel_width(mechanism, &channels[k], k);
-    if (width < 0) {
-      return -1;
+    BAUM_I_TRY(check_size(channels, k));
+    const baum_channel channel = baum_i_channel(channels, k);
+    int own = channel_width(mechanism, &channel, k);
+    if (own < 0) {
+      return BAUM_ERR_ARGUMENT;
     }
-    if (width > INT_MAX - sum) {
-      return fail_channel(k, "the channels up to here have more columns than an int can count");
+    if (own > INT_MAX - *width) {
+      (void)fail_channel(k, "the channels up to here have more columns than an int can count");
+      return BAUM_ERR_ARGUMENT;
     }
-    sum += width;
+    *width += own;
   }
-  return sum;
+  return BAUM_OK;
 }
 
 int32_t baum_channels_width(const baum_mechanism *mechanism, const baum_channel *channels,
                             int32_t count)
 {
-  if (baum_i_check_frozen(mechanism, "baum_channels_width") != BAUM_OK) {
-    return -1;
-  }
-  return baum_i_output_width(mechanism, channels, count);
+  int width = -1;
+  bool is_valid = baum_i_check_frozen(mechanism, "baum_channels_width") == BAUM_OK &&
+                  baum_i_check_channels(mechanism, channels, count, &width) == BAUM_OK;
+  return is_valid ? width : -1;
 }
 
 /* ---- evaluation that channels need ---- */
@@ -183,7 +226,7 @@ static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
 {
   depth deepest = DEPTH_FRAMES;
   for (int k = 0; k < count; k++) {
-    depth asked = facts_of(channels[k].quantity).needs;
+    depth asked = facts_of(baum_i_channel(channels, k).quantity).needs;
     deepest = asked > deepest ? asked : deepest;
   }
   if (deepest == DEPTH_SOLUTION) {
@@ -323,12 +366,13 @@ static baum_status put_energies(baum_simulation *run, const baum_i_state *state,
 {
   baum_workspace *w = run->workspace;
   for (int k = 0; k < count; k++) {
-    if (channels[k].quantity == BAUM_ENERGY) {
+    const baum_channel channel = baum_i_channel(channels, k);
+    if (channel.quantity == BAUM_ENERGY) {
       BAUM_I_TRY(baum_i_energy(w, state->t, state->q, state->v, &row[0], &row[1]));
-    } else if (channels[k].quantity == BAUM_ENERGY_ACCOUNT) {
+    } else if (channel.quantity == BAUM_ENERGY_ACCOUNT) {
       BAUM_I_TRY(baum_i_account_put(run, state, row));
     }
-    row += channel_width(w->mechanism, &channels[k], k);
+    row += channel_width(w->mechanism, &channel, k);
   }
   return BAUM_OK;
 }
@@ -340,8 +384,9 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
   double *place = row;
   BAUM_I_TRY(evaluate(w, state, channels, count));
   for (int k = 0; k < count; k++) {
-    int width = put_channel(w, state, &channels[k], place);
-    BAUM_I_TRY(check_channel(&channels[k], k, place, width));
+    const baum_channel channel = baum_i_channel(channels, k);
+    int width = put_channel(w, state, &channel, place);
+    BAUM_I_TRY(check_channel(&channel, k, place, width));
     place += width;
   }
   return put_energies(run, state, channels, count, row);
@@ -354,9 +399,8 @@ baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel 
     return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_get: %s is NULL",
                        simulation ? "row" : "the simulation");
   }
-  if (baum_i_output_width(simulation->workspace->mechanism, channels, count) < 0) {
-    return BAUM_ERR_ARGUMENT;
-  }
+  int width = 0;
+  BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_get"));
   return baum_i_output(simulation, &simulation->state, channels, count, row);
 }

@@ -236,8 +236,12 @@ baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
 
 /* ---- output.c ---- */
 
-/* Width of channels, or -1 with the sentence. */
-int baum_i_output_width(const baum_mechanism *mechanism, const baum_channel *channels, int count);
+/* Check channels and find their width: BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT. */
+baum_status baum_i_check_channels(const baum_mechanism *mechanism, const baum_channel *channels,
+                                  int count, int *width);
+
+/* Channel k of an array of a caller, whose struct may be of an older version. */
+baum_channel baum_i_channel(const baum_channel *channels, int k);
 
 /* `pose of body 3 "slider" at (0.1, 0) m` behind a text. The channel is checked. */
 void baum_i_append_channel(const baum_mechanism *mechanism, const baum_channel *channel, char *text,

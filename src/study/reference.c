@@ -271,7 +271,7 @@ static baum_status derive(const baum_study *study, const baum_i_layout *l, baum_
   double *v = sample + l->v;
   double *still = baum_i_alloc((size_t)l->nv, sizeof *still);
   baum_i_state at = {.t = t, .q = sample, .v = has_v ? v : still};
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   if (!still) {
     return baum_i_fail_memory();
   }

@@ -44,7 +44,7 @@ int baum_i_study_channels(const baum_study *study, baum_channel *channels)
   int count = 0;
   for (size_t k = 0; k < sizeof OWN / sizeof OWN[0]; k++) {
     if (OWN[k] != BAUM_LAMBDA || study->mechanism->nc > 0) {
-      channels[count++] = (baum_channel){.quantity = OWN[k]};
+      channels[count++] = baum_channel_of(OWN[k]);
     }
   }
   for (int k = 0; k < study->channel_count; k++) {

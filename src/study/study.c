@@ -263,15 +263,17 @@ baum_status baum_study_set_error(baum_study *study, const baum_channel *channels
   if (!(isfinite(unit) && unit > 0.0)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: unit is %g, must be finite and > 0", call, unit);
   }
-  if (baum_channels_width(study->mechanism, channels, count) < 0) {
-    return BAUM_ERR_ARGUMENT;
-  }
+  int width = 0;
+  BAUM_I_TRY(baum_i_check_channels(study->mechanism, channels, count, &width));
   if (study->begun) {
     return begun(call, "what error means");
   }
-  baum_channel *copy = baum_i_copy(channels, (size_t)count, sizeof *copy);
+  baum_channel *copy = baum_i_alloc((size_t)count, sizeof *copy);
   if (!copy) {
     return baum_i_fail_memory();
+  }
+  for (int32_t k = 0; k < count; k++) {
+    copy[k] = baum_i_channel(channels, k);
   }
   baum_i_free(study->channels);
   study->channels = copy;

@@ -32,7 +32,7 @@ static int make_channels(const every_element *parts, baum_channel channels[CHANN
 {
   for (int k = 0; k < CHANNELS; k++) {
     baum_quantity quantity = (baum_quantity)(k + 1);
-    channels[k] = (baum_channel){.quantity = quantity};
+    channels[k] = baum_channel_of(quantity);
     if (is_of_a_body(quantity)) {
       channels[k].body = parts->tool;
     } else if (quantity == BAUM_JOINT_REACTION || quantity == BAUM_JOINT_COORDINATE) {

@@ -100,7 +100,7 @@ static void calls_that_need_a_frozen_mechanism_refuse_an_open_one(void **state)
   assert_int_equal(every_element_build(&parts), BAUM_OK);
   baum_workspace *workspace = GARBAGE;
   int32_t number = 77;
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   ASSERT_SAYS(baum_mechanism_sizes(parts.mechanism, &number, NULL, NULL), BAUM_ERR_STATE,
               "baum_mechanism_sizes: the mechanism is not frozen");
   ASSERT_SAYS(baum_mechanism_rows(parts.mechanism, parts.pin, &number, NULL), BAUM_ERR_STATE,
@@ -397,7 +397,7 @@ static void facts_about_integrators_take_null_and_unknown_values(void **state)
 static void calls_on_no_run_are_refused(void **state)
 {
   (void)state;
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   double numbers[4] = {0.0};
   baum_warning warning;
   bool unique = false;

@@ -206,7 +206,7 @@ static void a_run_refuses_bad_schedules(void **state)
 static double crank_angle(baum_simulation *run, baum_joint_id pin)
 {
   double row[2];
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = pin};
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, pin);
   assert_int_equal(baum_simulation_advance_to(run, 0.1), BAUM_OK);
   assert_int_equal(baum_simulation_get(run, &channel, 1, row), BAUM_OK);
   return row[0];

@@ -435,7 +435,7 @@ static void sample_times_that_do_not_go_one_way_change_nothing(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation *run = make_run(&parts);
   snapshot before = take(run);
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   double rows[6] = {7.0, 7.0, 7.0, 7.0, 7.0, 7.0};
   int64_t done = 9;
   const double bad[][3] = {{0.05, 0.07, 0.06},
@@ -494,7 +494,7 @@ static void a_state_that_is_none_changes_nothing(void **state)
 static void check_channel(baum_simulation *run, const every_element *parts, baum_channel bad,
                           const char *sentence)
 {
-  const baum_channel channels[2] = {{.quantity = BAUM_Q}, bad};
+  const baum_channel channels[2] = {baum_channel_of(BAUM_Q), bad};
   double row[4 * EVERY_NV];
   double t = baum_simulation_time(run) + 0.01;
   int64_t done = 9;
@@ -519,26 +519,26 @@ static void channels_that_do_not_fit_are_refused(void **state)
     baum_channel channel;
     const char *sentence;
   } bad[] = {
-    {{.quantity = (baum_quantity)0}, "channel 1: quantity is no baum_quantity"},
-    {{.quantity = (baum_quantity)15}, "channel 1: quantity is no baum_quantity"},
-    {{.quantity = BAUM_BODY_POSE}, "channel 1: body is none or not of this mechanism"},
-    {{.quantity = BAUM_BODY_POSE, .body = others.crank}, "channel 1: body is none or not of"},
-    {{.quantity = BAUM_BODY_VELOCITY, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
-    {{.quantity = BAUM_BODY_POSE, .body = parts.bob, .point = {0.1, 0.0}},
+    {baum_channel_of((baum_quantity)0), "channel 1: quantity is no baum_quantity"},
+    {baum_channel_of((baum_quantity)15), "channel 1: quantity is no baum_quantity"},
+    {baum_channel_of(BAUM_BODY_POSE), "channel 1: body is none or not of this mechanism"},
+    {baum_channel_of_body(BAUM_BODY_POSE, others.crank), "channel 1: body is none or not of"},
+    {baum_channel_of_body(BAUM_BODY_VELOCITY, BAUM_GROUND), "channel 1: ground has no pose"},
+    {baum_channel_of_point(BAUM_BODY_POSE, parts.bob, 0.1, 0.0, 0.0),
      "channel 1: point is given, but the body has no axes"},
-    {{.quantity = BAUM_PHI, .joint = others.pin}, "channel 1: joint is not of this mechanism"},
-    {{.quantity = BAUM_JOINT_REACTION}, "channel 1: joint is none or not of this mechanism"},
-    {{.quantity = BAUM_JOINT_COORDINATE, .joint = parts.rod},
+    {baum_channel_of_joint(BAUM_PHI, others.pin), "channel 1: joint is not of this mechanism"},
+    {baum_channel_of(BAUM_JOINT_REACTION), "channel 1: joint is none or not of this mechanism"},
+    {baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.rod),
      "channel 1: joint is a planar distance joint, which has no coordinate"},
-    {{.quantity = BAUM_DRIVE_EFFORT, .joint = parts.pin}, "channel 1: only drivers have an effort"},
-    {{.quantity = BAUM_DRIVE_EFFORT}, "channel 1: joint is none or not of this mechanism"},
-    {{.quantity = BAUM_BODY_ACCELERATION, .body = BAUM_GROUND}, "channel 1: ground has no pose"},
+    {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.pin), "channel 1: only drivers have an effort"},
+    {baum_channel_of(BAUM_DRIVE_EFFORT), "channel 1: joint is none or not of this mechanism"},
+    {baum_channel_of_body(BAUM_BODY_ACCELERATION, BAUM_GROUND), "channel 1: ground has no pose"},
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     check_channel(run, &parts, bad[k].channel, bad[k].sentence);
   }
   double row[12];
-  const baum_channel account = {.quantity = BAUM_ENERGY_ACCOUNT};
+  const baum_channel account = baum_channel_of(BAUM_ENERGY_ACCOUNT);
   ASSERT_SAYS(baum_simulation_get(run, &account, 1, row), BAUM_ERR_STATE, "no energy account");
   ASSERT_SAYS(baum_simulation_get(run, NULL, 1, row), BAUM_ERR_ARGUMENT, "channels are NULL");
   ASSERT_SAYS(baum_simulation_get(run, NULL, -1, row), BAUM_ERR_ARGUMENT, "count is negative");
@@ -554,10 +554,9 @@ static void a_point_of_a_channel_that_is_not_finite_is_refused(void **state)
   (void)state;
   every_element parts = every_element_make(NULL);
   baum_simulation *run = make_run(&parts);
-  check_channel(
-    run, &parts,
-    (baum_channel){.quantity = BAUM_BODY_POSE, .body = parts.crank, .point = {0.0, (double)NAN}},
-    "channel 1: point is (0, nan) m, must be finite");
+  check_channel(run, &parts,
+                baum_channel_of_point(BAUM_BODY_POSE, parts.crank, 0.0, (double)NAN, 0.0),
+                "channel 1: point is (0, nan, 0) m, must be finite");
   baum_simulation_destroy(run);
   baum_mechanism_destroy(parts.mechanism);
 }

@@ -234,7 +234,7 @@ static bool all_finite(const double *values, int count)
 static void check_readable(baum_simulation *run)
 {
   double q[EVERY_NV];
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   baum_counters counters;
   assert_int_equal(baum_simulation_get(run, &channel, 1, q), BAUM_OK);
   assert_memory_equal(q, baum_simulation_q(run), sizeof q);

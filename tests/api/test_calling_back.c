@@ -41,7 +41,7 @@ static baum_simulation *start(asked *b, step_mode mode)
 static baum_status go(baum_simulation *run, int64_t steps)
 {
   double energies[2];
-  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
   baum_status status = baum_simulation_get(run, &channel, 1, energies);
   return status < BAUM_OK ? status : baum_simulation_step(run, steps);
 }
@@ -141,7 +141,7 @@ static void try_to_change(const asked *b)
   double x[ASKED_NV] = {0.0};
   const double one = 1.0;
   const double later = baum_simulation_time(b->run) + 0.5;
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   baum_event_def event = baum_event_def_default();
   event.function = asked_gate;
   REFUSED(baum_simulation_step(b->run, 1));
@@ -165,7 +165,7 @@ static void look(const asked *b, baum_status want)
   double x[2];
   baum_counters counters;
   baum_energy_account account;
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   assert_int_equal(baum_simulation_get(b->run, &energy, 1, x), want);
   assert_int_equal(baum_simulation_counters(b->run, &counters, sizeof counters), want);
   assert_int_equal(baum_simulation_energy_account(b->run, &account, sizeof account), want);

@@ -374,7 +374,7 @@ CALL(baum_study_add_stress)
 
 CALL(baum_study_set_error)
 {
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   return baum_study_set_error(s->study, &energy, 1, 1.0);
 }
 

@@ -176,6 +176,7 @@ typedef struct scene {
   X(baum_simulation_message, (s->run))                                                           \
   X(baum_simulation_cancel, (NULL))                                                              \
   X(baum_event_def_init, (&s->event_def, sizeof s->event_def))                                   \
+  X(baum_channel_init, (&s->channel, sizeof s->channel))                                         \
   X(baum_gains_auto, ())                                                                         \
   X(baum_gains_best_damping, ())                                                                 \
   X(baum_gains_deadbeat, ())                                                                     \
@@ -269,7 +270,7 @@ static void make_scene(scene *s)
   s->study = s->report.study;
   assert_int_equal(baum_study_run(s->study), BAUM_OK);
   s->dae = (baum_dae){.index = BAUM_RESIDUAL_INDEX1};
-  s->channel = (baum_channel){.quantity = BAUM_ENERGY};
+  s->channel = baum_channel_of(BAUM_ENERGY);
   s->choice = (baum_catalog_choice){.name = "pendulum"};
   assert_int_equal(baum_catalog_build(&s->choice, &s->pendulum), BAUM_OK);
   assert_int_equal(baum_study_create(s->pendulum, 0.0, 1.0, &s->fresh), BAUM_OK);

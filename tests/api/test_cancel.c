@@ -187,7 +187,7 @@ static void a_call_that_is_over_is_not_cancelled_nor_is_the_next(void **unused)
 /* Rows of positions and energies; what is cancelled goes on with the samples that are left. */
 static void sample(baum_simulation *run, double rows[SAMPLES][4])
 {
-  const baum_channel channels[] = {{.quantity = BAUM_Q}, {.quantity = BAUM_ENERGY}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_ENERGY)};
   double times[SAMPLES];
   int64_t first = 0;
   baum_status status = BAUM_STOP_CANCELLED;
@@ -266,7 +266,7 @@ static void samples_that_need_no_step_are_cancelled(void **unused)
   check(baum_simulation_create(m.mechanism, &o, &run));
   check(baum_simulation_advance_to(run, 1e-6));
   const double times[3] = {2e-6, 3e-6, 4e-6};
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
   double rows[3 * 2];
   int64_t done = -1;
   baum_simulation_cancel(run);

@@ -52,9 +52,9 @@ static void accelerations_are_the_slopes_of_velocities(void **state)
   model m;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = false}, &m), BAUM_OK);
   const baum_channel channels[] = {
-    {.quantity = BAUM_BODY_VELOCITY, .body = m.bodies[MODEL_ROD], .point = {0.1, 0.07}},
-    {.quantity = BAUM_BODY_ACCELERATION, .body = m.bodies[MODEL_ROD], .point = {0.1, 0.07}},
-    {.quantity = BAUM_PHI, .joint = m.joints[MODEL_PIN_GROUND]},
+    baum_channel_of_point(BAUM_BODY_VELOCITY, m.bodies[MODEL_ROD], 0.1, 0.07, 0.0),
+    baum_channel_of_point(BAUM_BODY_ACCELERATION, m.bodies[MODEL_ROD], 0.1, 0.07, 0.0),
+    baum_channel_of_joint(BAUM_PHI, m.joints[MODEL_PIN_GROUND]),
   };
   double times[AROUND];
   double rows[AROUND][WIDTH];
@@ -79,10 +79,10 @@ static void bodies_without_axes_give_their_part_of_a(void **state)
   every_element parts = every_element_make(NULL);
   baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
   const baum_channel channels[] = {
-    {.quantity = BAUM_A},
-    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.bob},
-    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.masses},
-    {.quantity = BAUM_BODY_ACCELERATION, .body = parts.tool},
+    baum_channel_of(BAUM_A),
+    baum_channel_of_body(BAUM_BODY_ACCELERATION, parts.bob),
+    baum_channel_of_body(BAUM_BODY_ACCELERATION, parts.masses),
+    baum_channel_of_body(BAUM_BODY_ACCELERATION, parts.tool),
   };
   double row[EVERY_NV + 2 + 2 + 3];
   int32_t first[3];
@@ -113,9 +113,9 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
   model m;
   assert_int_equal(model_slider_crank_build((model_slider_crank){.driven = true}, &m), BAUM_OK);
   const baum_channel channels[] = {
-    {.quantity = BAUM_ENERGY},
-    {.quantity = BAUM_DRIVE_EFFORT, .joint = m.joints[MODEL_MOTOR]},
-    {.quantity = BAUM_JOINT_COORDINATE, .joint = m.joints[MODEL_PIN_GROUND]},
+    baum_channel_of(BAUM_ENERGY),
+    baum_channel_of_joint(BAUM_DRIVE_EFFORT, m.joints[MODEL_MOTOR]),
+    baum_channel_of_joint(BAUM_JOINT_COORDINATE, m.joints[MODEL_PIN_GROUND]),
   };
   enum { COUNT = sizeof channels / sizeof *channels, COLUMNS = 5 };
   static double times[INTERVALS + 1];
@@ -150,14 +150,14 @@ static void the_power_of_a_driver_is_the_change_of_energy(void **state)
 static int cheap_channels(const every_element *parts, baum_channel channels[8])
 {
   int count = 0;
-  channels[count++] = (baum_channel){.quantity = BAUM_Q};
-  channels[count++] = (baum_channel){.quantity = BAUM_V};
-  channels[count++] = (baum_channel){.quantity = BAUM_BODY_POSE, .body = parts->tool};
-  channels[count++] = (baum_channel){.quantity = BAUM_BODY_VELOCITY, .body = parts->tool};
-  channels[count++] = (baum_channel){.quantity = BAUM_JOINT_COORDINATE, .joint = parts->pin};
-  channels[count++] = (baum_channel){.quantity = BAUM_PHI};
-  channels[count++] = (baum_channel){.quantity = BAUM_PHI_RATE};
-  channels[count++] = (baum_channel){.quantity = BAUM_ENERGY};
+  channels[count++] = baum_channel_of(BAUM_Q);
+  channels[count++] = baum_channel_of(BAUM_V);
+  channels[count++] = baum_channel_of_body(BAUM_BODY_POSE, parts->tool);
+  channels[count++] = baum_channel_of_body(BAUM_BODY_VELOCITY, parts->tool);
+  channels[count++] = baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts->pin);
+  channels[count++] = baum_channel_of(BAUM_PHI);
+  channels[count++] = baum_channel_of(BAUM_PHI_RATE);
+  channels[count++] = baum_channel_of(BAUM_ENERGY);
   return count;
 }
 
@@ -185,8 +185,8 @@ static void a_sample_costs_a_solution_only_when_it_asks_for_one(void **state)
 {
   (void)state;
   every_element parts = every_element_make(NULL);
-  const baum_channel effort[2] = {{.quantity = BAUM_DRIVE_EFFORT, .joint = parts.motor},
-                                  {.quantity = BAUM_BODY_ACCELERATION, .body = parts.bob}};
+  const baum_channel effort[2] = {baum_channel_of_joint(BAUM_DRIVE_EFFORT, parts.motor),
+                                  baum_channel_of_body(BAUM_BODY_ACCELERATION, parts.bob)};
   baum_channel cheap[8];
   int count = cheap_channels(&parts, cheap);
   for (int k = 0; k < 2 && (k == 0 || baum_has("sundials")); k++) {
@@ -211,8 +211,8 @@ static void what_follows_from_the_state_calls_nothing(void **state)
   int64_t calls = fault.calls;
   assert_int_equal(baum_simulation_get(run, cheap, 5, row), BAUM_OK);
   assert_int_equal(fault.calls, calls);
-  const baum_channel energy = {.quantity = BAUM_ENERGY};
-  const baum_channel phi = {.quantity = BAUM_PHI};
+  const baum_channel energy = baum_channel_of(BAUM_ENERGY);
+  const baum_channel phi = baum_channel_of(BAUM_PHI);
   int64_t solutions = evaluations(run);
   calls = fault.calls;
   assert_int_equal(baum_simulation_get(run, &phi, 1, row), BAUM_OK);
@@ -230,8 +230,8 @@ static void what_overflows_is_told(void **state)
   double row[ROW];
   every_element parts = every_element_make(NULL);
   baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
-  baum_channel channels[2] = {{.quantity = BAUM_Q},
-                              {.quantity = BAUM_BODY_VELOCITY, .body = parts.crank}};
+  baum_channel channels[2] = {baum_channel_of(BAUM_Q),
+                              baum_channel_of_body(BAUM_BODY_VELOCITY, parts.crank)};
   assert_int_equal(baum_simulation_get(run, channels, 2, row), BAUM_OK);
   channels[1].point[0] = -1.79e308; /* it turns with 2 rad/s */
   ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_NOT_FINITE,
@@ -250,7 +250,7 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
   baum_channel *channels = calloc(MANY, sizeof *channels);
   assert_non_null(channels);
   for (int k = 0; k < MANY; k++) {
-    channels[k].quantity = BAUM_Q;
+    channels[k] = baum_channel_of(BAUM_Q);
   }
   def.size = 10000;
   def.mass = user_never_asked;
@@ -266,6 +266,68 @@ static void more_columns_than_can_be_counted_are_refused(void **state)
   free(channels);
 }
 
+/* ---- structs of other versions ---- */
+
+/* As they were before they had bodies, joints and points. */
+typedef struct short_channel {
+  size_t struct_size;
+  baum_quantity quantity;
+} short_channel;
+
+static void channels_of_an_older_version_have_defaults_where_they_end(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
+  const baum_channel whole[] = {baum_channel_of(BAUM_V), baum_channel_of(BAUM_ENERGY),
+                                baum_channel_of(BAUM_PHI)};
+  const short_channel old[] = {
+    {sizeof *old, BAUM_V}, {sizeof *old, BAUM_ENERGY}, {sizeof *old, BAUM_PHI}};
+  const baum_channel *cut = (const void *)old;
+  enum { COLUMNS = EVERY_NV + 2 + EVERY_NC };
+  double want[COLUMNS];
+  double got[COLUMNS];
+  assert_int_equal(baum_channels_width(parts.mechanism, cut, 3), COLUMNS);
+  assert_int_equal(baum_simulation_get(run, whole, 3, want), BAUM_OK);
+  assert_int_equal(baum_simulation_get(run, cut, 3, got), BAUM_OK);
+  assert_memory_equal(got, want, sizeof want);
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void channels_of_wrong_or_mixed_sizes_are_refused(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_simulation *run = run_of(parts.mechanism, baum_rk4(), 0.01);
+  const double t = 0.1;
+  double row[EVERY_NV];
+  const size_t sizes[] = {0, sizeof(size_t), sizeof(baum_channel) - 1, 2 * sizeof(baum_channel)};
+  for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
+    baum_channel channels[2] = {baum_channel_of(BAUM_V), baum_channel_of(BAUM_ENERGY)};
+    channels[0].struct_size = sizes[k];
+    ASSERT_SAYS(baum_simulation_get(run, channels, 1, row), BAUM_ERR_STRUCT,
+                "channel 0: struct_size is |must be |baum_channel_of()");
+    channels[0].struct_size = sizeof *channels;
+    channels[1].struct_size = sizes[k];
+    ASSERT_SAYS(baum_simulation_sample(run, &t, 1, channels, 2, row, NULL), BAUM_ERR_STRUCT,
+                "channel 1: struct_size is |as of channel 0|baum_channel_of()");
+    assert_int_equal(baum_channels_width(parts.mechanism, channels, 2), -1);
+  }
+  baum_simulation_destroy(run);
+  baum_mechanism_destroy(parts.mechanism);
+}
+
+static void a_point_outside_of_a_bodys_plane_is_refused(void **state)
+{
+  (void)state;
+  every_element parts = every_element_make(NULL);
+  baum_channel channel = baum_channel_of_point(BAUM_BODY_POSE, parts.crank, 0.1, 0.0, 0.2);
+  assert_int_equal(baum_channels_width(parts.mechanism, &channel, 1), -1);
+  assert_non_null(strstr(baum_message(), "point is (0.1, 0, 0.2) m"));
+  baum_mechanism_destroy(parts.mechanism);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -276,6 +338,9 @@ int main(void)
     cmocka_unit_test(what_follows_from_the_state_calls_nothing),
     cmocka_unit_test(more_columns_than_can_be_counted_are_refused),
     cmocka_unit_test(what_overflows_is_told),
+    cmocka_unit_test(channels_of_an_older_version_have_defaults_where_they_end),
+    cmocka_unit_test(channels_of_wrong_or_mixed_sizes_are_refused),
+    cmocka_unit_test(a_point_outside_of_a_bodys_plane_is_refused),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -481,9 +481,10 @@ typedef baum_status read_fn(baum_simulation *run, fault *f);
 static baum_status read_channels(baum_simulation *run, fault *f)
 {
   (void)f;
-  static const baum_channel channels[] = {
-    {.quantity = BAUM_A},        {.quantity = BAUM_LAMBDA}, {.quantity = BAUM_PHI},
-    {.quantity = BAUM_PHI_RATE}, {.quantity = BAUM_ENERGY}, {.quantity = BAUM_ENERGY_ACCOUNT},
+  const baum_channel channels[] = {
+    baum_channel_of(BAUM_A),      baum_channel_of(BAUM_LAMBDA),
+    baum_channel_of(BAUM_PHI),    baum_channel_of(BAUM_PHI_RATE),
+    baum_channel_of(BAUM_ENERGY), baum_channel_of(BAUM_ENERGY_ACCOUNT),
   };
   double row[32];
   return baum_simulation_get(run, channels, 6, row);

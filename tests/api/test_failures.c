@@ -327,7 +327,7 @@ static void inputs_and_laws_go_on_too(void **state)
   /* assembled on the way, to rounding */
   assert_true(fabs(baum_simulation_q(runs[1])[2] - baum_simulation_q(runs[0])[2]) < 1e-9);
   double driven = 0.5403 + 0.03 * (2.006 + 0.03 * 2.5);
-  const baum_channel angle = {.quantity = BAUM_JOINT_COORDINATE, .joint = parts.pin};
+  const baum_channel angle = baum_channel_of_joint(BAUM_JOINT_COORDINATE, parts.pin);
   double coordinate[2];
   assert_int_equal(baum_simulation_get(runs[1], &angle, 1, coordinate), BAUM_OK);
   assert_true(fabs(coordinate[0] - driven) < 1e-9); /* projected to rounding */

@@ -15,7 +15,7 @@
 
 static baum_status go(baum_simulation *run, double from, double to)
 {
-  const baum_channel channels[2] = {{.quantity = BAUM_Q}, {.quantity = BAUM_A}};
+  const baum_channel channels[2] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_A)};
   double times[9];
   double rows[9][18];
   for (int k = 0; k < 9; k++) {

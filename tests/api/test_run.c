@@ -281,7 +281,7 @@ static void samples_off_the_grid_do_not_alter_the_motion(void **state)
 {
   (void)state;
   const double off[TIMES] = {0.0, 0.003, 0.0101, 0.0255, 0.0256, 0.03, 0.047, 0.0699, 0.1};
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   double rows[TIMES * EVERY_NV];
   int64_t done = 0;
   for (int k = 0; mode_at(k).integrator; k++) {
@@ -304,7 +304,7 @@ static void a_sample_is_what_an_advance_to_its_time_finds(void **state)
 {
   (void)state;
   const double times[3] = {0.0134, 0.0345, 0.06};
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   double rows[3 * EVERY_NV];
   for (int k = 0; mode_at(k).integrator; k++) {
     scene a = open_mode(mode_at(k));
@@ -321,7 +321,7 @@ static void samples_backward_and_at_the_present_time_are_fine(void **state)
 {
   (void)state;
   const double times[4] = {0.0, 0.0, -0.015, -0.02};
-  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
   double rows[8];
   for (int k = 0; mode_at(k).integrator; k++) {
     scene s = open_mode(mode_at(k));
@@ -340,13 +340,13 @@ static void channels_agree_with_each_other(void **state)
   scene s = open_scene(baum_rk4());
   assert_int_equal(baum_simulation_advance_to(s.run, 0.05), BAUM_OK);
   const baum_channel channels[] = {
-    {.quantity = BAUM_Q},
-    {.quantity = BAUM_BODY_POSE, .body = s.parts.crank, .point = {0.05, 0.0}},
-    {.quantity = BAUM_BODY_VELOCITY, .body = s.parts.crank},
-    {.quantity = BAUM_JOINT_COORDINATE, .joint = s.parts.pin},
-    {.quantity = BAUM_PHI},
-    {.quantity = BAUM_PHI, .joint = s.parts.motor},
-    {.quantity = BAUM_BODY_POSE, .body = s.parts.masses},
+    baum_channel_of(BAUM_Q),
+    baum_channel_of_point(BAUM_BODY_POSE, s.parts.crank, 0.05, 0.0, 0.0),
+    baum_channel_of_body(BAUM_BODY_VELOCITY, s.parts.crank),
+    baum_channel_of_joint(BAUM_JOINT_COORDINATE, s.parts.pin),
+    baum_channel_of(BAUM_PHI),
+    baum_channel_of_joint(BAUM_PHI, s.parts.motor),
+    baum_channel_of_body(BAUM_BODY_POSE, s.parts.masses),
   };
   enum { COUNT = sizeof channels / sizeof *channels };
   double row[EVERY_NV + 3 + 3 + 2 + EVERY_NC + 1 + 2];

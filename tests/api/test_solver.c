@@ -196,7 +196,7 @@ static void all_solvers_find_the_same(void **state)
   model m;
   model_slider_crank data = {.angle = 1.0, .moving = true};
   check(model_slider_crank_build(data, &m));
-  const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_A), baum_channel_of(BAUM_LAMBDA)};
   double want[17];
   for (size_t k = 0; k < sizeof SOLVERS / sizeof *SOLVERS; k++) {
     baum_simulation_options o = euler(SOLVERS[k]);
@@ -296,7 +296,7 @@ static void masses_that_cannot_be_inverted_are_named(void **state)
   baum_mechanism *m = make_massless();
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
   baum_simulation *run = start(m, &o);
-  const baum_channel channel = {.quantity = BAUM_A};
+  const baum_channel channel = baum_channel_of(BAUM_A);
   double a[2];
   check(baum_simulation_get(run, &channel, 1, a));
   ASSERT_NEAR(a[0], 3.0, 0.0, 1e-10); /* differences of Phi */

@@ -76,7 +76,7 @@ static void calls_on_no_study_are_refused(void **state)
   const double one = 1.0;
   double number = 0.0;
   int32_t count = 0;
-  const baum_channel q = {.quantity = BAUM_Q};
+  const baum_channel q = baum_channel_of(BAUM_Q);
   const baum_status refused[] = {
     baum_study_set_options(NULL, &o),
     baum_study_add(NULL, &best),
@@ -212,7 +212,7 @@ static int change_all(const baum_study *study, int32_t done, int32_t total, void
   assert_ptr_equal(study, under_way);
   const baum_simulation_options o = rk4(0.02);
   const baum_study_options options = baum_study_options_default();
-  const baum_channel q = {.quantity = BAUM_Q};
+  const baum_channel q = baum_channel_of(BAUM_Q);
   ASSERT_SAYS(baum_study_run(under_way), BAUM_ERR_STATE, "baum_study_run() is under way");
   ASSERT_SAYS(baum_study_add(under_way, &o), BAUM_ERR_STATE, "is under way");
   ASSERT_SAYS(baum_study_add_standard(under_way, NULL), BAUM_ERR_STATE, "is under way");
@@ -262,9 +262,9 @@ static void what_error_means_is_told_by_name(void **state)
 {
   const model *m = *state;
   baum_study *study = make(m);
-  const baum_channel pose = {.quantity = BAUM_BODY_POSE, .body = m->bodies[0]};
-  const baum_channel entry = {.quantity = BAUM_PHI, .joint = m->joints[0]};
-  const baum_channel channels[5] = {pose, entry, {.quantity = BAUM_ENERGY}, pose, entry};
+  const baum_channel pose = baum_channel_of_body(BAUM_BODY_POSE, m->bodies[0]);
+  const baum_channel entry = baum_channel_of_joint(BAUM_PHI, m->joints[0]);
+  const baum_channel channels[5] = {pose, entry, baum_channel_of(BAUM_ENERGY), pose, entry};
   assert_string_equal(
     baum_study_error_text(study),
     "largest error of all positions over all samples, lengths by 1, angles in rad");
@@ -305,7 +305,7 @@ static void what_entries_depend_on_stays_once_they_are_run(void **state)
   baum_study *study = make(*state);
   baum_study_options o = small_study_options();
   const baum_simulation_options run = rk4(0.01);
-  const baum_channel q = {.quantity = BAUM_Q};
+  const baum_channel q = baum_channel_of(BAUM_Q);
   assert_int_equal(baum_study_set_options(study, &o), BAUM_OK);
   assert_int_equal(baum_study_add(study, &run), BAUM_OK);
   assert_int_equal(baum_study_run(study), BAUM_OK);

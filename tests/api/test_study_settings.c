@@ -127,9 +127,9 @@ static void errors_of(const model *m, const baum_channel *channel, double unit, 
 static void error_may_be_of_channels_by_a_unit(void **state)
 {
   const model *m = *state;
-  const baum_channel place = {.quantity = BAUM_Q};
-  const baum_channel speed = {.quantity = BAUM_V};
-  const baum_channel pull = {.quantity = BAUM_LAMBDA};
+  const baum_channel place = baum_channel_of(BAUM_Q);
+  const baum_channel speed = baum_channel_of(BAUM_V);
+  const baum_channel pull = baum_channel_of(BAUM_LAMBDA);
   double own[2];
   double same[2];
   double finer[2];
@@ -158,8 +158,8 @@ static void what_is_no_unit_no_entry_and_no_cost_is_refused(void **state)
   const baum_simulation_options o = baumgarte(baum_gains_fixed(5.0, 5.0), 0.05);
   baum_simulation_options best;
   baum_study_entry entry;
-  const baum_channel place = {.quantity = BAUM_Q};
-  const baum_channel foreign = {.quantity = BAUM_BODY_POSE, .body = {1, 1}};
+  const baum_channel place = baum_channel_of(BAUM_Q);
+  const baum_channel foreign = baum_channel_of_body(BAUM_BODY_POSE, (baum_body_id){1, 1});
   const baum_study_cost none = (baum_study_cost)7;
   double number = 0.0;
   int32_t count = 0;

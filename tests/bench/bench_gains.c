@@ -57,7 +57,7 @@ typedef struct cell {
 static baum_status sample(const cell *at, const gain_start *start, baum_simulation *run,
                           double *error)
 {
-  static const baum_channel positions = {.quantity = BAUM_Q};
+  const baum_channel positions = baum_channel_of(BAUM_Q);
   const gain_problem *p = at->problem;
   double *rows = calloc((size_t)p->samples * (size_t)p->nq, sizeof *rows);
   baum_status status =

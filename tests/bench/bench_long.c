@@ -47,7 +47,7 @@ static double size_of(const band *b)
 
 static double energy_of(baum_simulation *run, double *kinetic)
 {
-  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
   double energy[2];
   check(baum_simulation_get(run, &channel, 1, energy));
   *kinetic = energy[0];

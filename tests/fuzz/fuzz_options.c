@@ -75,7 +75,7 @@ static void take_steps(const scene *s)
 static void sample(const scene *s)
 {
   static double rows[3 * WIDTH];
-  const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_ENERGY}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_A), baum_channel_of(BAUM_ENERGY)};
   double times[3];
   int64_t done = -1;
   times[0] = baum_simulation_time(s->run);
@@ -128,7 +128,7 @@ static void add_event(const scene *s)
 static void get_channels(const scene *s)
 {
   static double row[WIDTH];
-  baum_channel channel = {.quantity = (baum_quantity)fuzz_below(s->b, CHANNELS + 2)};
+  baum_channel channel = baum_channel_of((baum_quantity)fuzz_below(s->b, CHANNELS + 2));
   channel.body = fuzz_below(s->b, 2) == 0 ? s->parts->bob : s->parts->crank;
   channel.joint = fuzz_below(s->b, 2) == 0 ? s->parts->rod : s->parts->motor;
   channel.point[0] = fuzz_number(s->b);

@@ -145,7 +145,7 @@ static void use(const scene *s)
   baum_counters counters;
   baum_event_record record;
   baum_near_singular crossing;
-  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
   (void)fuzz_status(baum_simulation_step(s->run, 2));
   (void)fuzz_status(baum_simulation_advance_to(s->run, baum_simulation_time(s->run) - 1e-3));
   (void)fuzz_status(baum_simulation_get(s->run, &channel, 1, row));

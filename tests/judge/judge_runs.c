@@ -116,7 +116,7 @@ void judge_run(const judge_case *c, const judge_setting *setting, bool error_che
 {
   double rows[JUDGE_SAMPLES * JUDGE_N];
   double times[JUDGE_SAMPLES];
-  const baum_channel positions = {.quantity = BAUM_Q};
+  const baum_channel positions = baum_channel_of(BAUM_Q);
   baum_simulation *run = NULL;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = setting->integrator();

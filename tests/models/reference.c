@@ -38,7 +38,7 @@ static void finish(baum_simulation *run, reference_run *out)
 reference_run reference_compare(const reference *with, const baum_mechanism *mechanism,
                                 const baum_simulation_options *options)
 {
-  static const baum_channel positions = {.quantity = BAUM_Q};
+  const baum_channel positions = baum_channel_of(BAUM_Q);
   reference_run out = {.error = (double)NAN};
   double scale = (double)NAN;
   int32_t nq = 0;

@@ -52,7 +52,7 @@ static baum_simulation_options method_options(step_mode mode, baum_formulation f
 
 static double kinetic_energy(baum_simulation *run)
 {
-  const baum_channel channel = {.quantity = BAUM_ENERGY};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY);
   double energy[2];
   check(baum_simulation_get(run, &channel, 1, energy));
   return energy[0];
@@ -211,8 +211,8 @@ static int find_free_joint(const baum_mechanism *m)
 /* Value and rate of a joint's coordinate at start. */
 static void read_start(const baum_mechanism *m, int joint, double out[2])
 {
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE,
-                                .joint = baum_i_joint_id(m, joint)};
+  const baum_channel channel =
+    baum_channel_of_joint(BAUM_JOINT_COORDINATE, baum_i_joint_id(m, joint));
   baum_simulation_options options = reference_options(1e-3);
   baum_simulation *run = NULL;
   check(baum_simulation_create(m, &options, &run));

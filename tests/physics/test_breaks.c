@@ -190,7 +190,7 @@ static void outputs_change_nothing(void **state)
       baum_simulation *run = open_run(m, mode);
       double times[6] = {0.5, 0.503, 1.2345, 1.23451, 1.2361, 1.9};
       double rows[18];
-      baum_channel all = {.quantity = BAUM_Q};
+      baum_channel all = baum_channel_of(BAUM_Q);
       int first = i == 0 ? 0 : 5;
       assert_int_equal(baum_simulation_sample(run, times + first, 6 - first, &all, 1, rows, NULL),
                        BAUM_OK);
@@ -272,8 +272,8 @@ static void kinematics_take_either_side(void **state)
   o.check_derivatives = false; /* the law has kinks */
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-  const baum_channel channels[2] = {{.quantity = BAUM_JOINT_COORDINATE, .joint = motor.joint},
-                                    {.quantity = BAUM_DRIVE_EFFORT, .joint = drive}};
+  const baum_channel channels[2] = {baum_channel_of_joint(BAUM_JOINT_COORDINATE, motor.joint),
+                                    baum_channel_of_joint(BAUM_DRIVE_EFFORT, drive)};
   for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
     double row[3];
     double s[3];

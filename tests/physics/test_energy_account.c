@@ -24,7 +24,7 @@ enum { FORMULATION_COUNT = sizeof FORMULATIONS / sizeof *FORMULATIONS };
 
 static double close_run(const account_scene *scene, baum_simulation_options options)
 {
-  const baum_channel channel = {.quantity = BAUM_ENERGY_ACCOUNT};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY_ACCOUNT);
   double times[TIMES];
   double rows[TIMES][WIDTH];
   double residual = 0.0;

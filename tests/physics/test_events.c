@@ -301,7 +301,7 @@ static void event_at_an_output_is_both(void **state)
       double times[4] = {0.3 * t, t, 1.0001 * t, 1.5 * t};
       double rows[12];
       int64_t done = 0;
-      baum_channel angle = {.quantity = BAUM_JOINT_COORDINATE, .joint = s.pin};
+      baum_channel angle = baum_channel_of_joint(BAUM_JOINT_COORDINATE, s.pin);
       baum_status status = baum_simulation_sample(run, times, 4, &angle, 1, rows, &done);
       assert_int_equal(status, terminal ? BAUM_STOP_EVENT : BAUM_OK);
       assert_int_equal(done, terminal ? 1 : 4);
@@ -388,7 +388,7 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   }
   double times[5];
   double rows[30];
-  baum_channel all = {.quantity = BAUM_Q};
+  baum_channel all = baum_channel_of(BAUM_Q);
   for (int k = 0; k < 5; k++) {
     times[k] =
       fmin(end, (k > 0 ? times[k - 1] : t) + uniform(seed, 0.0, chance < 0.6 ? 1e-3 : 0.1));

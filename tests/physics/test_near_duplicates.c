@@ -165,7 +165,7 @@ static bool names_a_joint(const char *sentence)
 /* Of the accelerations that rows leave which hold hardly. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
-  const baum_channel channel = {.quantity = BAUM_A};
+  const baum_channel channel = baum_channel_of(BAUM_A);
   int nv = 0;
   int nc = 0;
   double a[NV];

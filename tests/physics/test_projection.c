@@ -101,7 +101,7 @@ static void step_through(looked_on *at, baum_simulation *run)
 /* Times that no step ends at. */
 static void sample_through(looked_on *at, baum_simulation *run, double span)
 {
-  static const baum_channel channels[] = {{.quantity = BAUM_Q}, {.quantity = BAUM_V}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_V)};
   double times[SAMPLES];
   double rows[SAMPLES * 2 * WIDEST];
   double begin = baum_simulation_time(run);

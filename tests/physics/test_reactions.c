@@ -43,7 +43,7 @@ static void a_light_bracket_carries_what_hangs_on_it(void **state)
     double v[6] = {0.0};
     double lambda[8];
     double reaction[3];
-    baum_channel channel = {.quantity = BAUM_JOINT_REACTION};
+    baum_channel channel = baum_channel_of(BAUM_JOINT_REACTION);
     baum_workspace *w = NULL;
     baum_mechanism *m = redundant_bracket(pow(10.0, k), &channel.joint);
     baum_simulation *run = run_bracket(m);
@@ -89,7 +89,7 @@ static void a_pin_and_a_weld_share_by_halves_at_any_mass(void **state)
     double ratio = pow(10.0, k);
     baum_joint_id hold;
     double lambda[8];
-    const baum_channel channel = {.quantity = BAUM_LAMBDA};
+    const baum_channel channel = baum_channel_of(BAUM_LAMBDA);
     baum_mechanism *m = redundant_bracket(ratio, &hold);
     baum_simulation *run = run_bracket(m);
     check(baum_simulation_get(run, &channel, 1, lambda));

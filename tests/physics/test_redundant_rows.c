@@ -161,7 +161,7 @@ static void read_multipliers(bool doubled, baum_solver solver, double *lambda, b
 {
   const model_parallelogram_data data = {
     .which = MODEL_TWO_CRANKS, .angle = 1.0, .doubled = doubled};
-  const baum_channel channel = {.quantity = BAUM_LAMBDA};
+  const baum_channel channel = baum_channel_of(BAUM_LAMBDA);
   baum_simulation_options options = baum_simulation_options_default();
   baum_simulation *run = NULL;
   model m;

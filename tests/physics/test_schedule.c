@@ -309,8 +309,8 @@ static void kinematics_have_the_effort_of_the_time(void **state)
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(d.mechanism, &o, &run), BAUM_OK);
   schedule(run, &d);
-  const baum_channel channels[2] = {{.quantity = BAUM_DRIVE_EFFORT, .joint = d.motor},
-                                    {.quantity = BAUM_JOINT_COORDINATE, .joint = d.pin}};
+  const baum_channel channels[2] = {baum_channel_of_joint(BAUM_DRIVE_EFFORT, d.motor),
+                                    baum_channel_of_joint(BAUM_JOINT_COORDINATE, d.pin)};
   for (size_t i = 0; i < sizeof targets / sizeof *targets; i++) {
     double row[3];
     double t = targets[i];

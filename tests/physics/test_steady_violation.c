@@ -68,7 +68,7 @@ static void compare_rows(const double *got, const double *gamma, double factor, 
 
 static void compare_state(const watched_run *watched, const motion *with, deviation *worst)
 {
-  static const baum_channel channels[2] = {{.quantity = BAUM_PHI}, {.quantity = BAUM_PHI_RATE}};
+  const baum_channel channels[2] = {baum_channel_of(BAUM_PHI), baum_channel_of(BAUM_PHI_RATE)};
   double rows[2 * PHYSICS_NC];
   double gamma[PHYSICS_NC];
   double h = with->step;

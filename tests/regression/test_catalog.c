@@ -146,7 +146,7 @@ static void references_fulfil_the_constraints(void **state)
 
 static baum_catalog_error run(const known *k, double rtol)
 {
-  static const baum_channel channels[] = {{.quantity = BAUM_Q}, {.quantity = BAUM_V}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_V)};
   size_t n = (size_t)k->entry.sample_count;
   size_t nq = (size_t)k->nq;
   double *rows = calloc(2 * n * nq, sizeof *rows);

@@ -102,7 +102,7 @@ static void rk4_with_projection_reaches_both(void **state)
 static void multipliers_have_the_sign_of_the_equations(void **state)
 {
   (void)state;
-  static const baum_channel channels[2] = {{.quantity = BAUM_V}, {.quantity = BAUM_LAMBDA}};
+  const baum_channel channels[2] = {baum_channel_of(BAUM_V), baum_channel_of(BAUM_LAMBDA)};
   enum { ROW = 13 };
   model m;
   assert_int_equal(model_andrews_angles(true, &m), BAUM_OK);

@@ -57,7 +57,7 @@ static void rk4_with_projection_reaches_it_too(void **state)
 static void multipliers_are_the_negative_of_the_test_set(void **state)
 {
   (void)state;
-  static const baum_channel channels[2] = {{.quantity = BAUM_V}, {.quantity = BAUM_LAMBDA}};
+  const baum_channel channels[2] = {baum_channel_of(BAUM_V), baum_channel_of(BAUM_LAMBDA)};
   enum { ROW = 6 };
   model m;
   assert_int_equal(model_car_axis(true, &m), BAUM_OK);

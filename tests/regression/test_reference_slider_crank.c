@@ -119,7 +119,7 @@ static void velocities_follow(void **state)
 {
   (void)state;
   static const double *const want[2] = {SLIDER_CRANK_ECCENTRIC_V[0], SLIDER_CRANK_DRIVEN_V[0]};
-  static const baum_channel velocities = {.quantity = BAUM_V};
+  const baum_channel velocities = baum_channel_of(BAUM_V);
   enum { SIZE = SLIDER_CRANK_DRIVEN_SAMPLES * SLIDER_CRANK_DRIVEN_WIDTH };
   for (int driven = 0; driven < 2; driven++) {
     model m = build(driven, false);

@@ -373,7 +373,7 @@ static redundant_verdict verdict(baum_status status, double share)
 /* What a run says where it starts as given. */
 static baum_status read_run(const baum_mechanism *m, redundant_state *s)
 {
-  static const baum_channel channels[] = {{.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  const baum_channel channels[] = {baum_channel_of(BAUM_A), baum_channel_of(BAUM_LAMBDA)};
   baum_simulation_options o = baum_simulation_options_default();
   baum_simulation *run = NULL;
   o.integrator = baum_rk4();

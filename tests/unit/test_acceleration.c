@@ -163,12 +163,12 @@ static void reactions_on_each_body_balance_inertia_and_weight(void **state)
   assert_int_equal(baum_simulation_create(m.mechanism, &o, &s), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(s, 0.0123), BAUM_OK);
   const baum_channel channels[] = {
-    {.quantity = BAUM_A},
-    {.quantity = BAUM_Q},
-    {.quantity = BAUM_JOINT_REACTION, .joint = m.joints[MODEL_PIN_CRANK]},
-    {.quantity = BAUM_JOINT_REACTION, .joint = m.joints[MODEL_PIN_SLIDER]},
-    {.quantity = BAUM_BODY_POSE, .body = m.bodies[MODEL_ROD], .point = {-0.153, 0.0}},
-    {.quantity = BAUM_BODY_POSE, .body = m.bodies[MODEL_ROD], .point = {0.153, 0.0}},
+    baum_channel_of(BAUM_A),
+    baum_channel_of(BAUM_Q),
+    baum_channel_of_joint(BAUM_JOINT_REACTION, m.joints[MODEL_PIN_CRANK]),
+    baum_channel_of_joint(BAUM_JOINT_REACTION, m.joints[MODEL_PIN_SLIDER]),
+    baum_channel_of_point(BAUM_BODY_POSE, m.bodies[MODEL_ROD], -0.153, 0.0, 0.0),
+    baum_channel_of_point(BAUM_BODY_POSE, m.bodies[MODEL_ROD], 0.153, 0.0, 0.0),
   };
   double row[9 + 9 + 3 + 3 + 3 + 3];
   assert_int_equal(baum_channels_width(m.mechanism, channels, 6), 30);

@@ -333,7 +333,7 @@ static void samples_and_motion_stay_apart(void **state)
   (void)state;
   enum { WIDTH = 12, LOADS = 2, N = 3 };
   static const double times[N] = {0.105, 0.205, 0.3};
-  const baum_channel channel = {.quantity = BAUM_ENERGY_ACCOUNT};
+  const baum_channel channel = baum_channel_of(BAUM_ENERGY_ACCOUNT);
   double rows[N][WIDTH];
   double x[2];
   baum_input_id input;

@@ -262,7 +262,7 @@ static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
 {
   (void)state;
   enum { SAMPLES = 300 };
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   double times[SAMPLES];
   double rows[SAMPLES];
   const double step = 1.0 / 64.0;

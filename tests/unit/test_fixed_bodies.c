@@ -314,12 +314,12 @@ static void reactions_of_fixed_bodies_are_right(void **state)
   baum_simulation_options o = fixed_step();
   baum_simulation *run = start(it.mechanism, &o);
   baum_simulation *whole = start_whole(it.mechanism, o);
-  const baum_channel channels[] = {{.quantity = BAUM_JOINT_REACTION, .joint = it.foot},
-                                   {.quantity = BAUM_JOINT_REACTION, .joint = it.shoulder},
-                                   {.quantity = BAUM_LAMBDA},
-                                   {.quantity = BAUM_A},
-                                   {.quantity = BAUM_PHI},
-                                   {.quantity = BAUM_PHI_RATE}};
+  const baum_channel channels[] = {baum_channel_of_joint(BAUM_JOINT_REACTION, it.foot),
+                                   baum_channel_of_joint(BAUM_JOINT_REACTION, it.shoulder),
+                                   baum_channel_of(BAUM_LAMBDA),
+                                   baum_channel_of(BAUM_A),
+                                   baum_channel_of(BAUM_PHI),
+                                   baum_channel_of(BAUM_PHI_RATE)};
   double got[MOST];
   double want[MOST];
   int32_t width = baum_channels_width(it.mechanism, channels, 6);

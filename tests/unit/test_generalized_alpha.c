@@ -246,7 +246,7 @@ static void samples_beside_the_grid_alter_nothing(void **state)
 {
   (void)state;
   enum { SAMPLES = 300 };
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   const double step = 1.0 / 64.0;
   double times[SAMPLES];
   double rows[SAMPLES];
@@ -287,7 +287,7 @@ static int jump(double t, const double *q, const double *v, const double *inputs
 static void samples_of_a_mechanism_alter_nothing_from_the_first_step_on(void **state)
 {
   (void)state;
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   const double times[3] = {0.3e-4, 1.7e-4, 20e-4};
   double rows[27];
   model m = make_crank((model_slider_crank){0});

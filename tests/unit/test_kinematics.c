@@ -177,8 +177,8 @@ static void positions_velocities_accelerations_are_those_of_the_closed_form(void
   baum_simulation *run = open_run(mechanism);
   double times[40];
   double rows[40][3 * SLIDER_NV];
-  const baum_channel channels[3] = {
-    {.quantity = BAUM_Q}, {.quantity = BAUM_V}, {.quantity = BAUM_A}};
+  const baum_channel channels[3] = {baum_channel_of(BAUM_Q), baum_channel_of(BAUM_V),
+                                    baum_channel_of(BAUM_A)};
   for (int k = 0; k < 40; k++) {
     times[k] = 0.0137 * k;
   }
@@ -203,8 +203,8 @@ static void the_multiplier_of_the_driver_is_its_torque(void **state)
                                   0.1, 1e-4};
   baum_mechanism *mechanism = slider_crank_make(&data);
   baum_simulation *run = open_run(mechanism);
-  const baum_channel channels[3] = {
-    {.quantity = BAUM_V}, {.quantity = BAUM_A}, {.quantity = BAUM_LAMBDA}};
+  const baum_channel channels[3] = {baum_channel_of(BAUM_V), baum_channel_of(BAUM_A),
+                                    baum_channel_of(BAUM_LAMBDA)};
   for (int k = 1; k < 20; k++) {
     double row[3 * SLIDER_NV];
     double power = 0.0;

@@ -116,7 +116,7 @@ static void outputs_up_to_the_lock_up_are_given(void **state)
   baum_simulation *run = open_run(mechanism);
   double times[4] = {0.5 * lock, 0.999 * lock, lock - 1e-6, 1.5 * lock};
   double q[4][SLIDER_NV];
-  const baum_channel channel = {.quantity = BAUM_Q};
+  const baum_channel channel = baum_channel_of(BAUM_Q);
   int64_t done = 0;
   ASSERT_SAYS(baum_simulation_sample(run, times, 4, &channel, 1, q[0], &done), BAUM_ERR_SINGULAR,
               "locks up");

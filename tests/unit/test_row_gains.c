@@ -55,7 +55,7 @@ static const double FACTORS[ROWS] = {0.5, 0.25, 2.0, 4.0, 1.0, 3.0, 0.7, 1.5};
 /* Every row of a slider-crank a little off. */
 static void start_beside_the_constraints(baum_simulation *run, double *phi)
 {
-  static const baum_channel violation = {.quantity = BAUM_PHI};
+  const baum_channel violation = baum_channel_of(BAUM_PHI);
   double q[9];
   double v[9] = {0.0};
   memcpy(q, baum_simulation_q(run), sizeof q);
@@ -68,7 +68,7 @@ static void start_beside_the_constraints(baum_simulation *run, double *phi)
 
 static void check_decay(const baum_mechanism *m, const char *name, double gain)
 {
-  static const baum_channel violation = {.quantity = BAUM_PHI};
+  const baum_channel violation = baum_channel_of(BAUM_PHI);
   double times[SAMPLES];
   double rows[SAMPLES * ROWS];
   double start[ROWS];
@@ -114,7 +114,7 @@ static void likewise_backward_in_time(void **state)
     if (find(NAMES[k])) {
       double start[ROWS];
       double end[ROWS];
-      static const baum_channel violation = {.quantity = BAUM_PHI};
+      const baum_channel violation = baum_channel_of(BAUM_PHI);
       baum_simulation *run = begin(m.mechanism, find(NAMES[k]), 50.0, FACTORS);
       start_beside_the_constraints(run, start);
       assert_true(baum_simulation_advance_to(run, -0.02) >= BAUM_OK);

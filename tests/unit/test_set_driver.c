@@ -171,7 +171,7 @@ typedef struct motion {
 static motion motion_of(baum_simulation *run, baum_joint_id joint)
 {
   double row[2];
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = joint};
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, joint);
   assert_int_equal(baum_simulation_get(run, &channel, 1, row), BAUM_OK);
   return (motion){row[0], row[1]};
 }

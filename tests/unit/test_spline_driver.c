@@ -227,7 +227,7 @@ static void what_overflows_is_named(void **state)
 
 static double coordinate_of(baum_simulation *run, baum_joint_id joint)
 {
-  const baum_channel channel = {.quantity = BAUM_JOINT_COORDINATE, .joint = joint};
+  const baum_channel channel = baum_channel_of_joint(BAUM_JOINT_COORDINATE, joint);
   double row[2];
   assert_int_equal(baum_simulation_get(run, &channel, 1, row), BAUM_OK);
   return row[0];

@@ -308,10 +308,11 @@ class baum_quantity(enum.IntEnum):
 
 class baum_channel(Structure):
     _fields_ = [
+        ("struct_size", c_size_t),
         ("quantity", c_int),
         ("body", baum_body_id),
         ("joint", baum_joint_id),
-        ("point", c_double * 2),
+        ("point", c_double * 3),
     ]
 
 
@@ -1011,6 +1012,7 @@ PROTOTYPES = {
     "baum_simulation_time": (c_double, [c_void_p]),
     "baum_simulation_q": (c_void_p, [c_void_p]),
     "baum_simulation_v": (c_void_p, [c_void_p]),
+    "baum_channel_init": (None, [POINTER(baum_channel), c_size_t]),
     "baum_channels_width": (c_int32, [c_void_p, POINTER(baum_channel), c_int32]),
     "baum_simulation_unique_multipliers": (c_int, [c_void_p, POINTER(c_bool)]),
     "baum_simulation_get": (c_int, [c_void_p, POINTER(baum_channel), c_int32, c_void_p]),
@@ -1296,6 +1298,7 @@ DEFAULTS = {
     baum_coupling_def: "baum_coupling_def_init",
     baum_user_force_def: "baum_user_force_def_init",
     baum_simulation_options: "baum_simulation_options_init",
+    baum_channel: "baum_channel_init",
     baum_event_def: "baum_event_def_init",
     baum_planar_body_def: "baum_planar_body_def_init",
     baum_planar_particle_def: "baum_planar_particle_def_init",

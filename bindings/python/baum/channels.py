@@ -10,7 +10,7 @@ import ctypes
 import numpy as np
 
 from . import _abi, _calls
-from ._lib import lib
+from ._lib import default, lib
 from .errors import Error, Status
 
 _Q = _abi.baum_quantity
@@ -23,7 +23,9 @@ class Channel:
 
     def __init__(self, key, quantity, **fields):
         self.key = key
-        self.struct = _abi.baum_channel(quantity=quantity, **fields)
+        self.struct = default(_abi.baum_channel)
+        for field, value in {"quantity": quantity, **fields}.items():
+            setattr(self.struct, field, value)
 
     def __repr__(self):
         return f"<channel {self.key}>"

@@ -102,7 +102,7 @@ class Body(Element):
         if point is not None:
             at = vector(point, 2, f"point of {self.name!r}").tolist()
             key += f"({at[0]!r}, {at[1]!r})"
-        return Channel(key, quantity, body=self.id, point=tuple(at))
+        return Channel(key, quantity, body=self.id, point=(*at, 0.0))
 
 
 class Joint(Element):

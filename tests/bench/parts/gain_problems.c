@@ -74,7 +74,7 @@ double gain_problem_error(const gain_problem *problem, const double *rows, const
 static baum_status integrate(const gain_problem *problem, const gain_start *start, int steps,
                              double *rows)
 {
-  static const baum_channel positions = {.quantity = BAUM_Q};
+  const baum_channel positions = baum_channel_of(BAUM_Q);
   baum_simulation_options options = baum_simulation_options_default();
   options.integrator = baum_rk4();
   options.formulation = BAUM_FORMULATION_PROJECTION;

@@ -79,7 +79,7 @@ static sweep_class class_of(const outcome *out)
 
 static outcome run_once(const sweep_scene *s, const baum_simulation_options *o)
 {
-  const baum_channel positions = {.quantity = BAUM_Q};
+  const baum_channel positions = baum_channel_of(BAUM_Q);
   double *flat = calloc((size_t)SWEEP_SAMPLES * (size_t)s->nq, sizeof *flat);
   baum_simulation *run = NULL;
   int64_t done = 0;
