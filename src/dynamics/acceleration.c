@@ -40,9 +40,8 @@ static baum_status translate(baum_workspace *w, baum_status status)
 
 static baum_status solve(baum_workspace *w)
 {
-  const baum_i_kkt_values values = {.mass = w->mass,
-                                    .jacobian = w->jacobian,
-                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
+  const baum_i_kkt_values values = {
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
   w->solved_by = NULL;
@@ -139,7 +138,7 @@ baum_status baum_i_reported_acceleration(baum_workspace *w, double t, const doub
 {
   BAUM_I_TRY(baum_i_acceleration(w, t, q, v, 0.0, 0.0));
   BAUM_I_TRY(baum_i_need_jacobian(w));
-  if (w->redundancy.count == 0) {
+  if (w->rows.count == 0) {
     return BAUM_OK;
   }
   BAUM_I_TRY(baum_i_evaluate_mass(w));

@@ -51,7 +51,7 @@ static void find_traits(const baum_workspace *w, bool for_motion, traits *out)
         .is_pin = true, .body_a = joint->span.bodies[0] - 1, .body_b = joint->span.bodies[1] - 1};
     }
     for (int k = joint->row; k < joint->row + joint->rows; k++) {
-      bool redundant = w->redundancy.count > 0 && w->redundancy.omitted[k];
+      bool redundant = w->rows.omitted[k];
       out->omitted[k] = redundant || (for_motion && joint->fixed) ? 1 : 0;
     }
   }
@@ -360,8 +360,8 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
 static void set_dropped_rates(baum_workspace *w, const double *v)
 {
   const baum_mechanism *m = w->mechanism;
-  for (int i = 0; v && w->redundancy.count > 0 && i < m->nc; i++) {
-    if (w->redundancy.omitted[i]) {
+  for (int i = 0; v && w->rows.count > 0 && i < m->nc; i++) {
+    if (w->rows.omitted[i]) {
       const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
       const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
       w->phi_rate[i] = -w->nu[i];
@@ -486,8 +486,8 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
 
 static void clear_omitted(baum_workspace *w)
 {
-  for (int i = 0; w->redundancy.count > 0 && i < w->mechanism->nc; i++) {
-    w->lambda[i] = w->redundancy.omitted[i] ? 0.0 : w->lambda[i];
+  for (int i = 0; w->rows.count > 0 && i < w->mechanism->nc; i++) {
+    w->lambda[i] = w->rows.omitted[i] ? 0.0 : w->lambda[i];
   }
 }
 

@@ -20,9 +20,8 @@
 
 static baum_i_kkt_values values_of(const baum_workspace *w)
 {
-  return (baum_i_kkt_values){.mass = w->mass,
-                             .jacobian = w->jacobian,
-                             .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
+  return (baum_i_kkt_values){
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
 }
 
 static baum_status translate(const baum_workspace *w, baum_status status)

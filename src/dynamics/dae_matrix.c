@@ -182,7 +182,7 @@ static void walk_row(const factors *f, const baum_i_joint *joint, int r, int fir
 {
   const baum_workspace *w = f->w;
   int row = first + joint->row + r;
-  bool omitted = w->redundancy.count > 0 && w->redundancy.omitted[joint->row + r];
+  bool omitted = w->rows.omitted[joint->row + r];
   double keep = omitted ? 0.0 : 1.0;
   emit(s, row, row, 1.0 - keep);
   for (int j = 0; j < joint->span.nl; j++) {

@@ -67,8 +67,8 @@ static void position_rows(const baum_mechanism *m, const double *q, const double
 
 static void hold_omitted(const baum_workspace *w, const double *multipliers, double *rows)
 {
-  for (int i = 0; i < w->mechanism->nc && w->redundancy.count > 0; i++) {
-    rows[i] = w->redundancy.omitted[i] ? multipliers[i] : rows[i];
+  for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
+    rows[i] = w->rows.omitted[i] ? multipliers[i] : rows[i];
   }
 }
 

@@ -18,25 +18,19 @@
 #include <baum/dynamics.h>
 
 #include "base/message.h"
+#include "dynamics/row_set.h"
 #include "linear/kkt.h"
 #include "mechanism/manifold.h"
 
-/* Dependent rows: how many is found once, at the assembled start pose and its neighbours; which of them to leave out may
- * change on the way. */
-typedef struct baum_i_redundancy {
-  int rank;               /* of J at the neighbours */
-  int rank_at_start;      /* at the start pose itself; less: it is singular, or next to that */
-  int count;              /* omitted rows, nc - rank */
-  unsigned char *omitted; /* (nc) 1 where a row is left out */
-  double tried;           /* pivot at which they were last looked for; 0: as good as never */
-  /* Of least_multipliers.c: */
-  baum_i_kkt *kkt;  /* NULL while nothing has been omitted */
+/* Of least_multipliers.c. */
+typedef struct baum_i_sharing {
+  baum_i_kkt *kkt;  /* NULL while no row has been omitted */
   double *weight;   /* (mass_size) block values of W */
   double *mobility; /* (nc) square of the length of row i of J M^-1/2 */
   double *part;     /* (nc) of multipliers, in the null space of J^T */
   double *work;     /* (4 nc) */
   double *system;   /* (4 (nv + nc)) */
-} baum_i_redundancy;
+} baum_i_sharing;
 
 typedef struct baum_i_block_path baum_i_block_path;
 
@@ -67,7 +61,8 @@ struct baum_workspace {
   bool blocks_only;                 /* nothing is handed over */
   baum_i_block_path *solved_by;     /* of the last solution; NULL: kkt */
   baum_i_block_path *eliminated_by; /* whose pivots are of now, whoever has solved; NULL: none */
-  baum_i_redundancy redundancy;
+  baum_i_row_set rows;
+  baum_i_sharing sharing;
   bool mass_ready;      /* a constant M has been evaluated */
   bool jacobian_ready;  /* the last evaluation has set all blocks of J */
   int32_t metric_ready; /* W has been chosen */
@@ -142,6 +137,12 @@ void baum_i_workspace_forget(baum_workspace *workspace);
 
 /* What solvers have done for accelerations, projection and assembly. */
 baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *workspace);
+
+/* The omitted rows (nc) for solvers; NULL: none. */
+static inline const unsigned char *baum_i_omitted_rows(const baum_workspace *workspace)
+{
+  return workspace->rows.count > 0 ? workspace->rows.omitted : NULL;
+}
 
 /* ---- stages.c, acceleration.c ---- */
 
@@ -251,7 +252,7 @@ baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const 
 /* BAUM_ERR_NOT_FINITE: names whose number in J, force or rhs is not finite. */
 baum_status baum_i_fail_not_finite(const baum_workspace *w);
 
-/* ---- project.c, assemble.c, redundancy.c ---- */
+/* ---- project.c, assemble.c ---- */
 
 /* q, then v, changed in place to fulfil the constraints at t by the least change in the metric of
  * M. Also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY; then q and v are undefined. */
@@ -280,29 +281,6 @@ baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows
 /* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */
 baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, double *v,
                             const bool *held);
-
-/* Fill workspace->redundancy from the assembled pose (q, t). Also BAUM_ERR_MEMORY. */
-baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q);
-
-/* The rank of J and one largest set of independent rows (nc), those that are marked first; J of the workspace, scaled by
- * columns (0 for fixed bodies). The rows of the welds that fix bodies are in it. BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. */
-baum_status baum_i_find_independent_rows(const baum_workspace *workspace,
-                                         const double *column_scale, double tolerance, int *rank,
-                                         unsigned char *independent);
-
-/* choose_rows.c: of the rows of its rank those that are well apart in this pose, if there are such; before paths are made. */
-baum_status baum_i_keep_rows_apart(baum_workspace *workspace, double t, const double *q);
-
-/* Leave out these rows (nc) from now on in place of those before, as many and of the same rank. BAUM_ERR_MEMORY,
- * BAUM_ERR_UNSUPPORTED where blocks do not suit the others, statuses of functions of the user; then all stays as it is. */
-baum_status baum_i_omit_rows(baum_workspace *workspace, const unsigned char *omitted);
-
-/* Where the pivot, of the usual one, has become poor, for rows that were well apart need not be so everywhere: leave out
- * others if these are. true: they have changed, and what was solved for is gone. Allocates, but hardly ever. */
-bool baum_i_choose_rows(baum_workspace *workspace, double t, const double *q, double pivot);
-
-/* Are there rows of the whole rank that are well apart in this pose, whichever are left out? */
-bool baum_i_rows_are_apart(baum_workspace *workspace, double t, const double *q);
 
 /* ---- least_multipliers.c: where rows have been omitted, with M and J in the workspace ---- */
 

@@ -61,7 +61,7 @@ static baum_status learn_redundancy(baum_workspace *w)
 {
   baum_i_sentence kept;
   baum_i_message_keep(&kept);
-  baum_status status = baum_i_find_redundancy(w, 0.0, w->mechanism->design_q);
+  baum_status status = baum_i_find_rows(w, 0.0, w->mechanism->design_q);
   status = status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
   return status == BAUM_OK ? baum_i_use_blocks(w) : status;
 }

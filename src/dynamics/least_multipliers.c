@@ -47,9 +47,9 @@ static const double SHARE = 0.02;
 /* shift (nc) or NULL: of the rows, so that nothing is singular. */
 static baum_status factor(baum_workspace *w, const double *shift)
 {
-  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_sharing *r = &w->sharing;
   const baum_i_kkt_values values = {
-    .mass = r->weight, .jacobian = w->jacobian, .shift = shift, .omitted = r->omitted};
+    .mass = r->weight, .jacobian = w->jacobian, .shift = shift, .omitted = w->rows.omitted};
   for (int b = 0; b < w->structure.mass_block_count; b++) {
     const baum_i_mass_block *block = &w->structure.mass_blocks[b];
     for (int i = 0; i < block->size; i++) {
@@ -72,7 +72,7 @@ static baum_status apply(baum_workspace *w, const double *z, double *out)
   for (int i = 0; i < nv; i++) {
     f[i] = -f[i];
   }
-  baum_status status = baum_i_kkt_solve(w->redundancy.kkt, f, w->work_c, f + nv, out);
+  baum_status status = baum_i_kkt_solve(w->sharing.kkt, f, w->work_c, f + nv, out);
   for (int i = 0; i < nc && status == BAUM_OK; i++) {
     out[i] += z[i];
   }
@@ -87,12 +87,12 @@ static baum_status apply_transposed(baum_workspace *w, const double *u, double *
   double *f = w->work_v;
   memset(f, 0, (size_t)nv * sizeof *f);
   memset(out, 0, (size_t)nc * sizeof *out);
-  baum_status status = baum_i_kkt_solve(w->redundancy.kkt, f, u, f + nv, w->work_c);
+  baum_status status = baum_i_kkt_solve(w->sharing.kkt, f, u, f + nv, w->work_c);
   if (status == BAUM_OK) {
     baum_i_jacobian_times(&w->structure, w->jacobian, f + nv, out);
   }
   for (int i = 0; i < nc && status == BAUM_OK; i++) {
-    out[i] = w->redundancy.omitted[i] ? u[i] - out[i] : 0.0;
+    out[i] = w->rows.omitted[i] ? u[i] - out[i] : 0.0;
   }
   return status;
 }
@@ -109,7 +109,7 @@ typedef struct search {
 
 static search begin(const baum_workspace *w)
 {
-  double *work = w->redundancy.work;
+  double *work = w->sharing.work;
   int nc = w->mechanism->nc;
   return (search){
     .u = work, .gradient = work + nc, .direction = work + 2 * nc, .image = work + 3 * nc};
@@ -118,7 +118,7 @@ static search begin(const baum_workspace *w)
 /* Gradient at lambda + part, and its size. */
 static baum_status find_gradient(baum_workspace *w, const search *s, double *size)
 {
-  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_sharing *r = &w->sharing;
   for (int i = 0; i < w->mechanism->nc; i++) {
     s->u[i] = r->mobility[i] * (w->lambda[i] + r->part[i]);
   }
@@ -133,7 +133,7 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
 /* Minimizes along the new direction, to which `turned` of the last one belongs. */
 static baum_status step(baum_workspace *w, const search *s, double size, double turned)
 {
-  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_sharing *r = &w->sharing;
   int nc = w->mechanism->nc;
   for (int i = 0; i < nc; i++) {
     s->direction[i] = turned * s->direction[i] - s->gradient[i] / r->mobility[i];
@@ -153,18 +153,18 @@ static baum_status step(baum_workspace *w, const search *s, double size, double 
 static baum_status refine_part(baum_workspace *w)
 {
   double *refined = begin(w).image;
-  baum_status status = apply(w, w->redundancy.part, refined);
-  memcpy(w->redundancy.part, refined, (size_t)w->mechanism->nc * sizeof *refined);
+  baum_status status = apply(w, w->sharing.part, refined);
+  memcpy(w->sharing.part, refined, (size_t)w->mechanism->nc * sizeof *refined);
   return status;
 }
 
 /* N z into part. */
 static baum_status find_part(baum_workspace *w)
 {
-  baum_i_redundancy *r = &w->redundancy;
+  const baum_i_sharing *r = &w->sharing;
   search s = begin(w);
   size_t bytes = (size_t)w->mechanism->nc * sizeof *r->part;
-  int most = r->count == 1 ? 1 : 2 * r->count;
+  int most = w->rows.count == 1 ? 1 : 2 * w->rows.count;
   double size = 0.0;
   double first = 0.0;
   memset(r->part, 0, bytes);
@@ -202,7 +202,7 @@ static balance form(const baum_workspace *w, const double *force, const double *
 {
   int nv = w->mechanism->nv;
   int n = nv + w->mechanism->nc;
-  double *system = w->redundancy.system;
+  double *system = w->sharing.system;
   balance out = {system, system + n, system + 2 * n, system + 3 * n};
   const baum_i_kkt_values values = {.mass = w->mass, .jacobian = w->jacobian};
   memset(system, 0, 2 * (size_t)n * sizeof *system);
@@ -294,7 +294,7 @@ static baum_status check_balance(const baum_workspace *w)
 static double find_share(const baum_workspace *w)
 {
   int worst = 0;
-  balance at = form(w, NULL, NULL, w->redundancy.part);
+  balance at = form(w, NULL, NULL, w->sharing.part);
   double imbalance = find_imbalance(w, &at, &worst);
   return imbalance <= SHARE ? 1.0 : SHARE / imbalance;
 }
@@ -307,7 +307,7 @@ static baum_status refine_multipliers(baum_workspace *w)
   balance at = form_solution(w);
   memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
   baum_status status =
-    baum_i_kkt_solve(w->redundancy.kkt, at.residual, w->work_c, w->work_v + nv, change);
+    baum_i_kkt_solve(w->sharing.kkt, at.residual, w->work_c, w->work_v + nv, change);
   for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
     w->lambda[i] += change[i];
   }
@@ -323,7 +323,7 @@ static void share_out(baum_workspace *w)
   double share = find_share(w);
   memcpy(before, w->lambda, bytes);
   for (int i = 0; i < w->mechanism->nc && share > 0.0; i++) {
-    w->lambda[i] += share * w->redundancy.part[i];
+    w->lambda[i] += share * w->sharing.part[i];
   }
   double imbalance = find_imbalance_of_solution(w);
   if (imbalance > 2.0 * SHARE && refine_multipliers(w) == BAUM_OK) {
@@ -360,13 +360,13 @@ static const double SHIFT = 1e-12;
  * violated it spreads to other rows by as much as it is out of balance. */
 static baum_status find_reach(baum_workspace *w, double *least)
 {
-  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_sharing *r = &w->sharing;
   int nc = w->mechanism->nc;
   double *z = begin(w).direction;
   double *size = begin(w).u;
   baum_i_row_displacements(w, size);
   for (int i = 0; i < nc; i++) {
-    z[i] = r->omitted[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
+    z[i] = w->rows.omitted[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
     w->shift[i] = SHIFT * size[i] * size[i];
   }
   baum_status status = factor(w, w->shift);
@@ -391,7 +391,7 @@ static baum_status find_reach(baum_workspace *w, double *least)
 static double part_of(const baum_workspace *w, const baum_i_joint *joint)
 {
   double part = 0.0;
-  (void)baum_i_largest(w->redundancy.part + joint->row, joint->rows, &part);
+  (void)baum_i_largest(w->sharing.part + joint->row, joint->rows, &part);
   return part;
 }
 
@@ -421,11 +421,11 @@ baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 
 baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)
 {
-  bool any_shared = w->redundancy.count > 0;
+  bool any_shared = w->rows.count > 0;
   double least = 0.0;
   baum_status status = any_shared ? find_reach(w, &least) : BAUM_OK;
   for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
-    unique[i] = !any_shared || fabs(w->redundancy.part[i]) <= least;
+    unique[i] = !any_shared || fabs(w->sharing.part[i]) <= least;
   }
   return status;
 }

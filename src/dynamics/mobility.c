@@ -70,8 +70,8 @@ static baum_status report_conflict(baum_workspace *w, baum_mobility *report)
 static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility *report)
 {
   const baum_mechanism *m = w->mechanism;
-  const baum_i_redundancy *r = &w->redundancy;
-  baum_status status = baum_i_find_redundancy(w, 0.0, q);
+  const baum_i_row_set *r = &w->rows;
+  baum_status status = baum_i_find_rows(w, 0.0, q);
   if (status != BAUM_OK) {
     return status;
   }

@@ -28,9 +28,8 @@ static const double NOISE = 64.0 * DBL_EPSILON;
 /* Solve with right side (0, w->rhs); the change is in w->a. */
 static baum_status least_change(baum_workspace *w)
 {
-  const baum_i_kkt_values values = {.mass = w->mass,
-                                    .jacobian = w->jacobian,
-                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
+  const baum_i_kkt_values values = {
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
   baum_status status =
     baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
@@ -103,8 +102,7 @@ static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, 
     baum_i_row_displacements(w, w->rhs);
   }
   for (int i = 0; i < m->nc && *is; i++) {
-    *is =
-      (w->redundancy.count > 0 && w->redundancy.omitted[i]) || fabs(w->phi[i]) <= most * w->rhs[i];
+    *is = w->rows.omitted[i] || fabs(w->phi[i]) <= most * w->rhs[i];
   }
   return status;
 }
@@ -201,7 +199,7 @@ static baum_status fail_left_out(const baum_workspace *w, int row)
 baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, const double *v,
                                   double speed)
 {
-  if (w->redundancy.count == 0) {
+  if (w->rows.count == 0) {
     return BAUM_OK;
   }
   baum_status status = baum_i_violation(w, t, q, v);
@@ -210,7 +208,7 @@ baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, 
     double distance = w->work_c[i];
     bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance ||
                   fabs(w->phi_rate[i]) > NEGLIGIBLE * (speed * distance + fabs(w->nu[i]));
-    if (w->redundancy.omitted[i] && is_off) {
+    if (w->rows.omitted[i] && is_off) {
       status = fail_left_out(w, i);
     }
   }

@@ -4,7 +4,7 @@
  * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours
  * on the constraint manifold. The largest of them is the rank that the mechanism has; the rows
  * outside one largest independent set are redundant, and every solver leaves them out; which, may change on
- * the way (choose_rows.c). A start pose of lower rank is a singular one.
+ * the way (row_set.c). A start pose of lower rank is a singular one.
  *
  * Next to a singular pose a row that is all but dependent, by its distance d from there, blows up the rounding of those
  * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear, and the first such
@@ -42,50 +42,26 @@ typedef struct pose_rank {
 
 typedef struct search {
   baum_workspace *w;
-  double *column_scale;       /* (nv) M^-1/2 */
-  double *start;              /* (nq) the pose to look at */
-  double *q;                  /* (nq) neighbour */
-  double *x;                  /* (nv) direction */
-  unsigned char *independent; /* (nc) of the pose last looked at */
+  double *start; /* (nq) the pose to look at */
+  double *q;     /* (nq) neighbour */
+  double *x;     /* (nv) direction */
   pose_rank kept;
 } search;
-
-baum_status baum_i_find_independent_rows(const baum_workspace *w, const double *column_scale,
-                                         double tolerance, int *rank, unsigned char *independent)
-{
-  const baum_mechanism *m = w->mechanism;
-  baum_status status =
-    baum_i_jacobian_rank(&w->structure, w->jacobian, column_scale, tolerance, rank, independent);
-  if (status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail_not_finite(w);
-  }
-  *rank += m->fixed_nv;
-  for (int k = 0; k < m->joint_count && m->fixed_count > 0; k++) {
-    if (m->joints[k]->fixes) {
-      memset(independent + m->joints[k]->row, 1, (size_t)m->joints[k]->rows);
-    }
-  }
-  return status;
-}
 
 /* Rank at a pose; leaves J, M and nu there in the workspace. */
 static baum_status rank_at(const search *s, double t, const double *q, pose_rank *rank)
 {
-  baum_status status = baum_i_position_stage(s->w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  baum_i_column_scales(s->w, s->column_scale);
-  int nc = s->w->mechanism->nc;
-  memset(s->independent, 0, (size_t)nc);
-  const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
+  static const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
+  baum_workspace *w = s->w;
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
+  baum_i_column_scales(w, w->work_v);
+  memset(w->rows.selected, 0, (size_t)w->mechanism->nc);
   rank->all = 0;
-  for (int k = 0; k < 3 && status == BAUM_OK && rank->all < nc; k++) {
-    status = baum_i_find_independent_rows(s->w, s->column_scale, tolerances[k], &rank->all,
-                                          s->independent);
+  for (int k = 0; k < 3 && rank->all < w->mechanism->nc; k++) {
+    BAUM_I_TRY(baum_i_select_rows(w, tolerances[k], &rank->all));
     rank->clear = tolerances[k] >= CLEAR ? rank->all : rank->clear;
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* What is sure: the first row that is all but dependent has no rounding blown up yet. */
@@ -105,13 +81,13 @@ static bool is_better(const pose_rank *rank, const pose_rank *other)
 
 static void keep_set(search *s, const pose_rank *rank)
 {
-  baum_i_redundancy *r = &s->w->redundancy;
+  baum_i_row_set *r = &s->w->rows;
   int nc = s->w->mechanism->nc;
   s->kept = *rank;
   r->rank = rank->all;
   r->count = nc - rank->all;
   for (int i = 0; i < nc; i++) {
-    r->omitted[i] = s->independent[i] ? 0 : 1;
+    r->omitted[i] = r->selected[i] ? 0 : 1;
   }
 }
 
@@ -200,7 +176,7 @@ static baum_status look_around(search *s, double t, const double *q)
 
 /* Constraints that contradict each other have no redundant rows: leaving one out would hide the
  * contradiction. */
-static void keep_all(baum_i_redundancy *r, int nc)
+static void keep_all(baum_i_row_set *r, int nc)
 {
   r->count = 0;
   memset(r->omitted, 0, (size_t)nc);
@@ -209,7 +185,7 @@ static void keep_all(baum_i_redundancy *r, int nc)
 /* The pose to look at is assembled: off the constraints no row depends on others exactly. */
 static baum_status find(search *s, double t, const double *q)
 {
-  baum_i_redundancy *r = &s->w->redundancy;
+  baum_i_row_set *r = &s->w->rows;
   int nc = s->w->mechanism->nc;
   pose_rank rank = {0, 0};
   memcpy(s->start, q, (size_t)s->w->mechanism->nq * sizeof *q);
@@ -235,40 +211,31 @@ static baum_status find(search *s, double t, const double *q)
   if (status == BAUM_OK && r->count > 0) {
     status = baum_i_keep_rows_apart(s->w, t, s->start);
   }
-  if (status == BAUM_OK && r->count > 0 && !r->kkt) {
-    status = baum_i_kkt_create(&s->w->structure, s->w->choice, &r->kkt);
+  baum_i_kkt **kkt = &s->w->sharing.kkt;
+  if (status == BAUM_OK && r->count > 0 && !*kkt) {
+    status = baum_i_kkt_create(&s->w->structure, s->w->choice, kkt);
   }
   return status;
 }
 
-baum_status baum_i_find_redundancy(baum_workspace *workspace, double t, const double *q)
+baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q)
 {
   size_t nq = (size_t)workspace->mechanism->nq;
   size_t nv = (size_t)workspace->mechanism->nv;
-  size_t nc = (size_t)workspace->mechanism->nc;
-  workspace->redundancy.count = 0;
-  workspace->redundancy.tried = 0.0;
-  if (nc == 0) {
+  keep_all(&workspace->rows, workspace->mechanism->nc);
+  workspace->rows.pivot_at_last_selection = 0.0;
+  if (workspace->mechanism->nc == 0) {
     return BAUM_OK;
   }
-  double *memory = baum_i_alloc(2 * nq + 2 * nv, sizeof *memory);
-  unsigned char *independent = baum_i_alloc(nc, 1);
-  baum_status status = BAUM_ERR_MEMORY;
-  if (memory && independent) {
-    search s = {.w = workspace,
-                .column_scale = memory,
-                .x = memory + nv,
-                .start = memory + 2 * nv,
-                .q = memory + 2 * nv + nq,
-                .independent = independent};
-    status = find(&s, t, q);
-  } else {
-    status = baum_i_fail_memory();
+  double *memory = baum_i_alloc(2 * nq + nv, sizeof *memory);
+  if (!memory) {
+    return baum_i_fail_memory();
   }
+  search s = {.w = workspace, .x = memory, .start = memory + nv, .q = memory + nv + nq};
+  baum_status status = find(&s, t, q);
   if (status != BAUM_OK) {
-    workspace->redundancy.count = 0;
+    keep_all(&workspace->rows, workspace->mechanism->nc);
   }
   baum_i_free(memory);
-  baum_i_free(independent);
   return status;
 }

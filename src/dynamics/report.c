@@ -28,8 +28,8 @@ static void report_sizes(const baum_workspace *w, bool assembled, baum_report *r
   report->forces = m->force_count;
   report->velocities = m->nv;
   report->rows = m->nc;
-  report->redundant_rows = w->redundancy.count;
-  report->degrees_of_freedom = assembled ? m->nv - (m->nc > 0 ? w->redundancy.rank : 0) : -1;
+  report->redundant_rows = w->rows.count;
+  report->degrees_of_freedom = assembled ? m->nv - (m->nc > 0 ? w->rows.rank : 0) : -1;
   for (int k = 0; k < m->joint_count; k++) {
     report->constant_rows += m->joints[k]->type->scleronomic ? m->joints[k]->rows : 0;
   }

@@ -12,7 +12,7 @@ typedef struct baum_i_row_set {
   int rank;                /* of J at the neighbours */
   int rank_at_start;       /* at the initial configuration; less: it is singular, or next to that */
   int count;               /* omitted rows */
-  unsigned char *omitted;  /* (nc) 1 where a row is omitted */
+  unsigned char *omitted;  /* (nc) 1 where a row is omitted; zeros where none is */
   unsigned char *selected; /* (nc) scratch: 1 where a row is in another set */
   double pivot_at_last_selection; /* relative; 0: as good as never */
 } baum_i_row_set;

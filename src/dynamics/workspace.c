@@ -32,11 +32,11 @@ static void list_arrays(baum_workspace *w, array list[ARRAY_COUNT])
     {&w->work_v, 2 * m->nv},
     {&w->work_c, 2 * m->nc},
     {&w->shift, m->nc},
-    {&w->redundancy.part, m->nc},
-    {&w->redundancy.weight, m->mass_size},
-    {&w->redundancy.mobility, m->nc},
-    {&w->redundancy.work, 4 * m->nc},
-    {&w->redundancy.system, 4 * (m->nv + m->nc)},
+    {&w->sharing.part, m->nc},
+    {&w->sharing.weight, m->mass_size},
+    {&w->sharing.mobility, m->nc},
+    {&w->sharing.work, 4 * m->nc},
+    {&w->sharing.system, 4 * (m->nv + m->nc)},
     {&w->work_q, 9 * m->nq},
     {&w->rate_q, m->mass_size},
     {&w->mass_q, m->mass_size},
@@ -67,8 +67,9 @@ static baum_status make_arrays(baum_workspace *w)
       return baum_i_fail_memory();
     }
   }
-  w->redundancy.omitted = baum_i_alloc((size_t)w->mechanism->nc, 1);
-  return w->redundancy.omitted ? BAUM_OK : baum_i_fail_memory();
+  w->rows.omitted = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  w->rows.selected = baum_i_alloc((size_t)w->mechanism->nc, 1);
+  return w->rows.omitted && w->rows.selected ? BAUM_OK : baum_i_fail_memory();
 }
 
 static baum_status make_structure(baum_workspace *w)
@@ -203,8 +204,8 @@ baum_i_kkt_counters baum_i_workspace_work(const baum_workspace *w)
 void baum_i_workspace_forget(baum_workspace *w)
 {
   baum_i_kkt_forget(w->kkt);
-  if (w->redundancy.kkt) {
-    baum_i_kkt_forget(w->redundancy.kkt);
+  if (w->sharing.kkt) {
+    baum_i_kkt_forget(w->sharing.kkt);
   }
 }
 
@@ -229,8 +230,9 @@ void baum_workspace_destroy(baum_workspace *workspace)
   }
   baum_i_point_release(&workspace->point);
   baum_i_paths_destroy(&(baum_i_paths){workspace->path, workspace->motion});
-  baum_i_free(workspace->redundancy.omitted);
-  baum_i_kkt_destroy(workspace->redundancy.kkt);
+  baum_i_free(workspace->rows.omitted);
+  baum_i_free(workspace->rows.selected);
+  baum_i_kkt_destroy(workspace->sharing.kkt);
   baum_i_kkt_destroy(workspace->kkt);
   baum_i_free(workspace->structure.mass_blocks);
   baum_i_free(workspace->structure.row_blocks);

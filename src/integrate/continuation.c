@@ -78,7 +78,7 @@ void baum_i_continuation_close(baum_i_continuation *path)
 
 static bool is_kept(const baum_workspace *w, int row)
 {
-  return w->redundancy.count == 0 || !w->redundancy.omitted[row];
+  return !w->rows.omitted[row];
 }
 
 /* Refusals are no failures: BAUM_OK, and the reason in the verdict. */
@@ -114,9 +114,8 @@ static baum_status sort_out_solution(baum_status status, baum_i_verdict *verdict
 /* J at the present point; its values must stay in place. */
 static baum_status factor(baum_workspace *w)
 {
-  const baum_i_kkt_values values = {.mass = w->mass,
-                                    .jacobian = w->jacobian,
-                                    .omitted = w->redundancy.count ? w->redundancy.omitted : NULL};
+  const baum_i_kkt_values values = {
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
   w->evaluations++;
   return baum_i_kkt_factor(w->kkt, &values);
 }
@@ -214,8 +213,7 @@ static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
 /* Rows that were left out must follow from the others. */
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
-  return path->workspace->redundancy.count == 0 ||
-         violation(path, false, &verdict->row) <= NEGLIGIBLE;
+  return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE;
 }
 
 /* Of size 1/2 to 1 and either sign. */

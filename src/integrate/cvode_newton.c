@@ -56,6 +56,7 @@ baum_status baum_i_cvode_newton_fill(baum_i_cvode_newton *newton, double t, cons
     baum_i_sundials_klu_fill(&newton->klu, &dae, newton->c, t, newton->y, newton->dy);
   memcpy(newton->mass, w->mass, (size_t)m->mass_size * sizeof *y);
   memcpy(newton->jacobian, w->jacobian, (size_t)m->jacobian_size * sizeof *y);
+  baum_i_clear_omitted_rows(w, newton->jacobian);
   return status;
 }
 
@@ -68,7 +69,7 @@ static int factor(SUNLinearSolver solver, SUNMatrix matrix)
   return baum_i_sundials_klu_factor(&newton->klu);
 }
 
-/* c (r_q, M r_v, J r_v); rows that are left out read dlambda = 0. */
+/* c (r_q, M r_v, J r_v); rows that were omitted when the matrix was made read dlambda = 0. */
 static void make_right_side(const baum_i_cvode_newton *newton, const double *r, double *right)
 {
   const baum_workspace *w = workspace_of(newton);
@@ -80,9 +81,6 @@ static void make_right_side(const baum_i_cvode_newton *newton, const double *r, 
   memset(forces, 0, (size_t)(m->nv + m->nc) * sizeof *r);
   baum_i_mass_times(&w->structure, newton->mass, r + m->nq, forces);
   baum_i_jacobian_times(&w->structure, newton->jacobian, r + m->nq, rows);
-  for (int i = 0; w->redundancy.count > 0 && i < m->nc; i++) {
-    rows[i] = w->redundancy.omitted[i] ? 0.0 : rows[i];
-  }
   for (int i = 0; i < 2 * m->nv + m->nc; i++) {
     right[i] *= newton->c;
   }

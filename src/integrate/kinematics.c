@@ -431,7 +431,7 @@ static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
 
 static baum_status check_freedom(const baum_workspace *w)
 {
-  int degrees_of_freedom = w->mechanism->nv - (w->mechanism->nc > 0 ? w->redundancy.rank : 0);
+  int degrees_of_freedom = w->mechanism->nv - (w->mechanism->nc > 0 ? w->rows.rank : 0);
   if (degrees_of_freedom == 0) {
     return BAUM_OK;
   }

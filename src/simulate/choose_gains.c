@@ -42,7 +42,7 @@ double baum_i_run_start_rate(const baum_simulation *run)
 static bool is_driven(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  return m->nc > 0 && run->workspace->redundancy.rank == m->nv;
+  return m->nc > 0 && run->workspace->rows.rank == m->nv;
 }
 
 /* The motion itself tells its rate, but for one that stands still or barely moves. */

@@ -26,7 +26,7 @@ static const char *formulation_text(baum_formulation formulation)
 static void say_mechanism(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  const baum_i_redundancy *r = &run->workspace->redundancy;
+  const baum_i_row_set *r = &run->workspace->rows;
   int rank = m->nc > 0 ? r->rank : 0;
   say(run,
       "mechanism     bodies %d, joints %d, forces %d; velocities %d, constraint rows %d, degrees "

@@ -68,7 +68,7 @@ static void observe_redundant(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
-  if (w->redundancy.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
+  if (w->rows.count == 0 || baum_i_run_has_warned(run, BAUM_WARNING_CONTRADICTION) ||
       baum_i_need_jacobian(w) != BAUM_OK) {
     return; /* a function of the user that fails now will soon be reported */
   }
@@ -79,7 +79,7 @@ static void observe_redundant(baum_simulation *run, double t)
   int row = 0;
   for (int i = 0; i < m->nc; i++) {
     double size = fabs(w->phi[i]) / distance[i];
-    if (!w->redundancy.omitted[i]) {
+    if (!w->rows.omitted[i]) {
       kept = fmax(kept, size);
     } else if (size > left_out) {
       left_out = size;
@@ -109,7 +109,7 @@ static const double TOLERANCES_KEPT = 1e3;
 /* Both Eulers may well have the steady violation that is predicted for their gains. */
 static const double PREDICTED = 3.0;
 
-static bool keeps_positions(baum_formulation formulation)
+bool baum_i_keeps_positions(baum_formulation formulation)
 {
   return formulation == BAUM_FORMULATION_PROJECTION || formulation == BAUM_FORMULATION_GGL ||
          formulation == BAUM_FORMULATION_INDEX3;
@@ -122,7 +122,7 @@ static double allowed_violation(const baum_simulation *run)
   if (baum_i_problem_has_fixed_step(&run->problem) || isnan(rtol)) {
     return LARGE;
   }
-  return fmin(LARGE, keeps_positions(run->problem.formulation)
+  return fmin(LARGE, baum_i_keeps_positions(run->problem.formulation)
                        ? fmax(KEPT, TOLERANCES_KEPT * rtol)
                        : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol));
 }

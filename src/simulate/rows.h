@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which redundant rows a run leaves out (dynamics/choose_rows.c), and all in it that hangs on them. */
+/* Which redundant rows a run leaves out (dynamics/row_set.c), and all in it that hangs on them. */
 #ifndef BAUM_I_SIMULATE_ROWS_H
 #define BAUM_I_SIMULATE_ROWS_H
 

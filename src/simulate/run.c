@@ -21,11 +21,7 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
 {
   const baum_workspace *w = run->workspace;
   BAUM_I_TRY(baum_i_workspace_create(w->mechanism, w->choice, out));
-  baum_i_redundancy *mine = &(*out)->redundancy;
-  mine->rank = w->redundancy.rank;
-  mine->rank_at_start = w->redundancy.rank_at_start;
-  mine->count = w->redundancy.count;
-  memcpy(mine->omitted, w->redundancy.omitted, (size_t)w->mechanism->nc);
+  baum_i_copy_rows(*out, w);
   (*out)->blocks_only = w->blocks_only;
   return baum_i_use_blocks(*out);
 }

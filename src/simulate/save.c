@@ -96,7 +96,7 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
     .numbers = {o->step, o->rtol, o->atol, o->max_step, o->tolerance_q, o->tolerance_v,
                 o->tolerance_lambda, o->gains.value[0], o->gains.value[1]},
     .integers = {o->gains.rule, o->row_gain_count, sum_of(run->row_gains, gains), o->solver,
-                 run->account != NULL, o->error_check, w->redundancy.rank, w->path != NULL,
+                 run->account != NULL, o->error_check, w->rows.rank, w->path != NULL,
                  run->events ? run->events->count : 0, sum_of_events(run->events)},
   };
   baum_i_print(identity.integrator, BAUM_I_SAVED_TEXT, "%s", run->integrator->name);
@@ -112,7 +112,7 @@ static void list_named(baum_simulation *run, baum_i_saved *list)
   baum_workspace *w = run->workspace;
   const baum_mechanism *m = w->mechanism;
   baum_i_saved_add(list, &list->identity, sizeof list->identity, 0);
-  baum_i_saved_add_all(list, w->redundancy.omitted, sizeof *w->redundancy.omitted, m->nc);
+  baum_i_saved_add_all(list, w->rows.omitted, sizeof *w->rows.omitted, m->nc);
   baum_i_saved_add_some(list, run->parameters, sizeof *run->parameters,
                         run->parameters ? m->parameter_count : 0, m->parameter_count);
   baum_i_saved_add_some(list, run->schedule.jumps, sizeof *run->schedule.jumps, run->schedule.count,
@@ -162,7 +162,7 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_add(list, &run->gains.amplification, sizeof run->gains.amplification, 0);
   baum_i_saved_add(list, &w->evaluations, sizeof w->evaluations, 1);
   baum_i_saved_add(list, &w->near_singular, sizeof w->near_singular, 1);
-  baum_i_saved_add(list, &w->redundancy.tried, sizeof w->redundancy.tried, 0);
+  baum_i_saved_add(list, &w->rows.pivot_at_last_selection, sizeof w->rows.pivot_at_last_selection, 0);
   baum_i_saved_add(list, &w->metric_ready, sizeof w->metric_ready, 0);
   baum_i_saved_add_state(list, m, &run->state);
   baum_i_saved_add_array(list, w->inputs, m->input_count);
@@ -493,7 +493,7 @@ static baum_status make_room(baum_simulation *run, const reader *r)
     BAUM_I_TRY(baum_i_run_own_parameters(run));
   }
   BAUM_I_TRY(baum_i_schedule_reserve(&run->schedule, (int)r->parts.count[BAUM_I_SAVED_JUMPS]));
-  if (run->workspace->redundancy.count == 0) {
+  if (run->workspace->rows.count == 0) {
     return BAUM_OK;
   }
   baum_status status = baum_i_run_omit_rows(run, r->parts.at[BAUM_I_SAVED_OMITTED]);

@@ -73,7 +73,7 @@ static baum_status choose_problem(baum_simulation *run)
 static baum_status warn_redundancy(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
-  const baum_i_redundancy *r = &w->redundancy;
+  const baum_i_row_set *r = &w->rows;
   const baum_i_state *start = &run->trial;
   if (r->count > 0) {
     char names[160];
@@ -143,7 +143,7 @@ static baum_status choose_solver(baum_simulation *run)
   baum_workspace *w = run->workspace;
   const baum_i_state *start = &run->trial;
   w->blocks_only = run->options.solver == BAUM_SOLVER_BLOCK;
-  BAUM_I_TRY(baum_i_find_redundancy(w, start->t, start->q));
+  BAUM_I_TRY(baum_i_find_rows(w, start->t, start->q));
   return baum_i_use_blocks(w);
 }
 

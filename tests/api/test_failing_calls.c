@@ -386,7 +386,7 @@ static void so_does_one_with_redundant_rows(void **state)
   baum_mechanism *m = make_bead((variant){.hoops = 2}, &f);
   baum_workspace *w = NULL;
   check(baum_workspace_create(m, &w));
-  assert_int_equal(w->redundancy.count, 1);
+  assert_int_equal(w->rows.count, 1);
   for (int i = 0; i < ASK_COUNT; i++) {
     check_ask(w, &f, i);
   }

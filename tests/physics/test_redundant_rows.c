@@ -72,7 +72,7 @@ static double compare_pose(int pair, int k)
   posed without = PAIRS[pair].pose(k, false);
   assert_int_equal(with.nv, without.nv);
   assert_int_equal(with.nc - without.nc, PAIRS[pair].more_rows);
-  assert_int_equal(with.workspace->redundancy.count, PAIRS[pair].redundant_rows);
+  assert_int_equal(with.workspace->rows.count, PAIRS[pair].redundant_rows);
   accelerate(&with);
   accelerate(&without);
   double apart = quad_error(with.nv, with.a, without.a);
@@ -104,7 +104,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
   for (int pair = 0; pair < PAIR_COUNT; pair++) {
     posed p = PAIRS[pair].pose(1, true);
     accelerate(&p);
-    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->redundancy.omitted,
+    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->rows.omitted,
                                   p.want_a, p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);

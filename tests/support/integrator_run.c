@@ -69,7 +69,7 @@ baum_status integrator_run_open(integrator_run *run, const integrator_setup *set
   check(baum_workspace_design(run->workspace, run->state_q, run->state_v));
   check(baum_workspace_assemble(run->workspace, 0.0, run->state_q, run->state_v, NULL, 0));
   run->state = (baum_i_state){.q = run->state_q, .v = run->state_v};
-  check(baum_i_find_redundancy(run->workspace, 0.0, run->state_q));
+  check(baum_i_find_rows(run->workspace, 0.0, run->state_q));
   define_problem(run, setup);
   find_rate(run);
   baum_status status = BAUM_OK;

@@ -266,8 +266,8 @@ static void rows_that_fix_a_body_are_kept(void **state)
   baum_simulation *run = start(m, &o);
   int32_t first = 0;
   check(baum_mechanism_rows(m, foot, &first, NULL));
-  const unsigned char *omitted = run->workspace->redundancy.omitted + first;
-  assert_int_equal(run->workspace->redundancy.count, 1);
+  const unsigned char *omitted = run->workspace->rows.omitted + first;
+  assert_int_equal(run->workspace->rows.count, 1);
   assert_int_equal(omitted[0] + omitted[1] + omitted[2], 0);
   assert_int_equal(left_out(run), 1);
   baum_simulation_destroy(run);

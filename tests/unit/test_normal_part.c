@@ -62,7 +62,7 @@ static void check_rows(baum_workspace *w, vectors *d)
   memset(d->out, 0, sizeof d->out);
   baum_i_jacobian_times(&w->structure, w->jacobian, rest, d->out);
   for (int i = 0; i < m->nc; i++) {
-    bool omitted = w->redundancy.count > 0 && w->redundancy.omitted[i];
+    bool omitted = w->rows.count > 0 && w->rows.omitted[i];
     /* Rounding of a solution that is not refined, for poses whose condition is below 1e4. */
     ASSERT_NEAR(omitted ? 0.0 : d->out[i], 0.0, 0.0, 1e-9 * (1.0 + largest(m->nv, d->normal)));
   }
@@ -123,7 +123,7 @@ static int check_by(baum_i_kkt_choice choice, bool blocks, const random_kind *ki
     random_mechanism_make(&random, seed, kind);
     baum_workspace *w = NULL;
     assert_int_equal(baum_i_workspace_create(random.mechanism, choice, &w), BAUM_OK);
-    assert_int_equal(baum_i_find_redundancy(w, 0.0, random.mechanism->design_q), BAUM_OK);
+    assert_int_equal(baum_i_find_rows(w, 0.0, random.mechanism->design_q), BAUM_OK);
     if (blocks) {
       assert_int_equal(baum_i_use_blocks(w), BAUM_OK);
     }

@@ -26,7 +26,7 @@ static double pivot_of(const baum_mechanism *m)
 {
   baum_workspace *w = NULL;
   check(baum_i_workspace_create(m, BAUM_I_KKT_AUTO, &w));
-  check(baum_i_find_redundancy(w, 0.0, m->design_q));
+  check(baum_i_find_rows(w, 0.0, m->design_q));
   check(baum_i_use_blocks(w));
   const double v[9] = {0.0};
   check(baum_i_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0));

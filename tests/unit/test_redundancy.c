@@ -82,7 +82,7 @@ static void solve(const baum_mechanism *m, const double *v, double *a, double *l
 {
   baum_workspace *w = NULL;
   assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-  assert_int_equal(baum_i_find_redundancy(w, 0.0, m->design_q), BAUM_OK);
+  assert_int_equal(baum_i_find_rows(w, 0.0, m->design_q), BAUM_OK);
   assert_int_equal(baum_workspace_acceleration(w, 0.0, m->design_q, v, 0.0, 0.0, a, lambda),
                    BAUM_OK);
   baum_workspace_destroy(w);
@@ -468,7 +468,7 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
     double q[3] = {cos(angle), sin(angle), angle + 1e-3};
     double v[3] = {0.0, 2.0, 2.0};
     assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
-    assert_int_equal(w->redundancy.count, 1);
+    assert_int_equal(w->rows.count, 1);
     if (cases[k].sentence) {
       const double before[6] = {q[0], q[1], q[2], v[0], v[1], v[2]};
       ASSERT_SAYS(baum_workspace_project(w, cases[k].t, q, v), BAUM_ERR_INCONSISTENT,
