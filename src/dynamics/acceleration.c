@@ -69,10 +69,7 @@ static baum_status fail_blocks(const baum_workspace *w)
 static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
                               double alpha, double beta)
 {
-  baum_status status = baum_i_velocity_stage(w, t, q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_velocity_stage(w, t, q, v));
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = w->gamma[i] - 2.0 * alpha * w->phi_rate[i] - beta * beta * w->phi[i];
   }

@@ -15,6 +15,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "base/text.h"
 #include "dynamics/dynamics.h"
 
@@ -203,10 +204,7 @@ static baum_status search(assembly *s, double before, bool *fell)
 static baum_status newton_step(assembly *s, double *size, bool *fell)
 {
   baum_workspace *w = s->w;
-  baum_status status = baum_i_position_stage(w, s->t, s->q);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_position_stage(w, s->t, s->q));
   clear_held_columns(w, s->held);
   baum_i_row_displacements(w, s->distance);
   s->fits = worst_displacement(s, w->phi) <= ROUNDING;
@@ -217,13 +215,8 @@ static baum_status newton_step(assembly *s, double *size, bool *fell)
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -w->phi[i];
   }
-  status = factor(s);
-  if (status == BAUM_OK) {
-    status = least_change(s);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(factor(s));
+  BAUM_I_TRY(least_change(s));
   *size = limit_step(s);
   return search(s, before, fell);
 }
@@ -252,10 +245,7 @@ static baum_status assemble_positions(assembly *s)
 static baum_status find_rate(const assembly *s, const double *v, double *worst)
 {
   baum_workspace *w = s->w;
-  baum_status status = baum_i_violation(w, s->t, s->q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_violation(w, s->t, s->q, v));
   clear_held_columns(w, s->held);
   baum_i_row_displacements(w, s->distance);
   for (int i = 0; i < w->mechanism->nc; i++) {
@@ -307,20 +297,10 @@ static baum_status complete_velocities(assembly *s, double *v, bool *given)
     v[i] = given[i] ? v[i] : 0.0;
   }
   s->held = given;
-  baum_status status = assemble_velocities(s, v);
-  if (status == BAUM_OK) {
-    status = baum_i_violation(w, s->t, s->q, v);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = baum_i_check_sizes(w, "velocity", v);
-  if (status == BAUM_OK) {
-    status = baum_i_check_rows(w, "velocity violation", w->phi_rate);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(assemble_velocities(s, v));
+  BAUM_I_TRY(baum_i_violation(w, s->t, s->q, v));
+  BAUM_I_TRY(baum_i_check_sizes(w, "velocity", v));
+  BAUM_I_TRY(baum_i_check_rows(w, "velocity violation", w->phi_rate));
   baum_i_row_displacements(w, s->distance);
   double size = fmax(baum_i_scaled_size(m, v), worst_displacement(s, w->nu));
   if (!(worst_displacement(s, w->phi_rate) <= CONSISTENT * size + NO_RATE)) {

@@ -184,10 +184,7 @@ static baum_status prepare_masses(baum_workspace *w, baum_i_block_verdict *verdi
 {
   path->mass_is_constant = w->mechanism->constant_mass;
   baum_i_point_set(&w->point, 0.0, w->mechanism->design_q, NULL);
-  baum_status status = baum_i_evaluate_mass(w);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_evaluate_mass(w));
   bool positive = baum_i_block_set_mass(path->block, w->mass);
   if (path->mass_is_constant) {
     positive = positive && baum_i_block_factor_dense(path->block, w->mass);
@@ -337,11 +334,9 @@ static baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *p
     return BAUM_OK;
   }
   memcpy(w->force, path->constant_force, (size_t)w->mechanism->nv * sizeof *w->force);
-  baum_status status = baum_i_mechanism_add_varying_forces(&w->point, w->force);
-  if (status == BAUM_OK) {
-    path->sides_kernel->set_force(path->block, w->force);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_add_varying_forces(&w->point, w->force));
+  path->sides_kernel->set_force(path->block, w->force);
+  return BAUM_OK;
 }
 
 static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *path)

@@ -39,8 +39,8 @@ static baum_status translate(const baum_workspace *w, baum_status status)
 static baum_status factor_whole(baum_workspace *w, double t, const double *q)
 {
   const baum_i_kkt_values values = values_of(w);
-  baum_status status = baum_i_position_stage(w, t, q);
-  return status == BAUM_OK ? translate(w, baum_i_kkt_factor(w->kkt, &values)) : status;
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
+  return translate(w, baum_i_kkt_factor(w->kkt, &values));
 }
 
 baum_status baum_i_chord_begin(baum_workspace *w, double t, const double *q, baum_i_chord *out)
@@ -77,10 +77,7 @@ baum_status baum_i_chord_change(baum_workspace *w, const baum_i_chord *chord, do
                                 const double *q)
 {
   baum_i_point_set(&w->point, t, q, NULL);
-  baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_mechanism_phi(&w->point, w->phi));
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -w->phi[i];
   }
@@ -93,10 +90,7 @@ static baum_status hold_by_whole(baum_workspace *w, double t, const double *q, c
                                  double rate)
 {
   const baum_i_kkt_values values = values_of(w);
-  baum_status status = baum_i_velocity_stage(w, t, q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_velocity_stage(w, t, q, v));
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -rate * w->phi_rate[i];
   }

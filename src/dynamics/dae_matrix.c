@@ -367,28 +367,18 @@ static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, c
   const double *dv = dy + nq;
   const baum_i_body_blocks bodies = {w->mass_q, w->body_force_q, w->body_force_v};
   const baum_i_force_blocks forces = {w->force_q, w->force_v};
-  baum_status status = baum_i_velocity_stage(w, t, y, v);
-  if (status == BAUM_OK) {
-    baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
-    status = baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies);
-  }
-  if (status == BAUM_OK) {
-    status = linearize_joints(w, dae, v, dv);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_mechanism_linearize_forces(&w->point, &forces);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_velocity_stage(w, t, y, v));
+  baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
+  BAUM_I_TRY(baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies));
+  BAUM_I_TRY(linearize_joints(w, dae, v, dv));
+  return baum_i_mechanism_linearize_forces(&w->point, &forces);
 }
 
 baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         baum_workspace *workspace, const baum_dae *dae, double c,
                                         double t, const double *y, const double *dy, double *values)
 {
-  baum_status status = linearize(workspace, dae, t, y, dy);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(linearize(workspace, dae, t, y, dy));
   memset(values, 0, (size_t)matrix->columns[matrix->size] * sizeof *values);
   const factors f = {.w = workspace, .dae = dae, .c = c};
   sink s = {.slot = matrix->slot, .values = values};

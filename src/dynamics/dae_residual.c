@@ -16,6 +16,7 @@
  */
 #include <string.h>
 
+#include "base/message.h"
 #include "dynamics/dynamics.h"
 
 static void acceleration_rows(const baum_workspace *w, const baum_dae *dae, const double *dv,
@@ -90,10 +91,7 @@ baum_status baum_i_residual(baum_workspace *w, const baum_dae *dae, double t, co
   double *newton = residual + nq;
   double *rows = newton + nv;
   w->evaluations++;
-  baum_status status = baum_i_velocity_stage(w, t, y, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_velocity_stage(w, t, y, v));
   for (int i = 0; i < nv; i++) {
     newton[i] = -w->force[i];
   }

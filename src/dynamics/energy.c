@@ -2,6 +2,7 @@
 /* Energy: kinetic v^T M v / 2, potential as the elements say. */
 #include <string.h>
 
+#include "base/message.h"
 #include "dynamics/dynamics.h"
 
 baum_status baum_i_energy(baum_workspace *w, double t, const double *q, const double *v,
@@ -9,10 +10,7 @@ baum_status baum_i_energy(baum_workspace *w, double t, const double *q, const do
 {
   int nv = w->mechanism->nv;
   baum_i_point_set(&w->point, t, q, v);
-  baum_status status = baum_i_evaluate_mass(w);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_evaluate_mass(w));
   double *momentum = w->work_v;
   memset(momentum, 0, (size_t)nv * sizeof *momentum);
   baum_i_mass_times(&w->structure, w->mass, v, momentum);

@@ -49,8 +49,8 @@ static baum_status check_point(const char *call, const baum_workspace *w, double
 static baum_status check_state(const char *call, const baum_workspace *w, double t, const double *q,
                                const double *v, const double *out)
 {
-  baum_status status = check_point(call, w, t, q, out);
-  return status == BAUM_OK ? check_finite(call, "v", v, w->mechanism->nv) : status;
+  BAUM_I_TRY(check_point(call, w, t, q, out));
+  return check_finite(call, "v", v, w->mechanism->nv);
 }
 
 /* ---- life ---- */
@@ -134,36 +134,21 @@ baum_status baum_workspace_difference(baum_workspace *workspace, const double *f
 
 baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q, double *phi)
 {
-  baum_status status = check_point("baum_workspace_phi", workspace, t, q, phi);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_point("baum_workspace_phi", workspace, t, q, phi));
   baum_i_point_set(&workspace->point, t, q, NULL);
-  status = baum_i_mechanism_phi(&workspace->point, workspace->phi);
-  if (status == BAUM_OK) {
-    status = baum_i_check_rows(workspace, "Phi", workspace->phi);
-  }
-  if (status == BAUM_OK) {
-    memcpy(phi, workspace->phi, (size_t)workspace->mechanism->nc * sizeof *phi);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_phi(&workspace->point, workspace->phi));
+  BAUM_I_TRY(baum_i_check_rows(workspace, "Phi", workspace->phi));
+  memcpy(phi, workspace->phi, (size_t)workspace->mechanism->nc * sizeof *phi);
+  return BAUM_OK;
 }
 
 baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                     double *jacobian)
 {
-  baum_status status = check_point("baum_workspace_jacobian", workspace, t, q, jacobian);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_point("baum_workspace_jacobian", workspace, t, q, jacobian));
   baum_i_point_set(&workspace->point, t, q, NULL);
-  status = baum_i_mechanism_jacobian(&workspace->point, workspace->jacobian);
-  if (status == BAUM_OK) {
-    status = baum_i_check_jacobian(workspace);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_mechanism_jacobian(&workspace->point, workspace->jacobian));
+  BAUM_I_TRY(baum_i_check_jacobian(workspace));
   size_t nv = (size_t)workspace->mechanism->nv;
   memset(jacobian, 0, (size_t)workspace->mechanism->nc * nv * sizeof *jacobian);
   for (int k = 0; k < workspace->structure.row_block_count; k++) {
@@ -180,32 +165,19 @@ baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const d
 
 baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q, double *nu)
 {
-  baum_status status = check_point("baum_workspace_nu", workspace, t, q, nu);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_point("baum_workspace_nu", workspace, t, q, nu));
   baum_i_point_set(&workspace->point, t, q, NULL);
-  status = baum_i_mechanism_nu(&workspace->point, workspace->nu);
-  if (status == BAUM_OK) {
-    status = baum_i_check_rows(workspace, "nu", workspace->nu);
-  }
-  if (status == BAUM_OK) {
-    memcpy(nu, workspace->nu, (size_t)workspace->mechanism->nc * sizeof *nu);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_nu(&workspace->point, workspace->nu));
+  BAUM_I_TRY(baum_i_check_rows(workspace, "nu", workspace->nu));
+  memcpy(nu, workspace->nu, (size_t)workspace->mechanism->nc * sizeof *nu);
+  return BAUM_OK;
 }
 
 baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q, double *mass)
 {
-  baum_status status = check_point("baum_workspace_mass", workspace, t, q, mass);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_point("baum_workspace_mass", workspace, t, q, mass));
   baum_i_point_set(&workspace->point, t, q, NULL);
-  status = baum_i_evaluate_mass(workspace);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_evaluate_mass(workspace));
   size_t nv = (size_t)workspace->mechanism->nv;
   memset(mass, 0, nv * nv * sizeof *mass);
   for (int k = 0; k < workspace->structure.mass_block_count; k++) {
@@ -223,37 +195,23 @@ baum_status baum_workspace_mass(baum_workspace *workspace, double t, const doubl
 baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *gamma)
 {
-  baum_status status = check_state("baum_workspace_gamma", workspace, t, q, v, gamma);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_state("baum_workspace_gamma", workspace, t, q, v, gamma));
   baum_i_point_set(&workspace->point, t, q, v);
-  status = baum_i_mechanism_gamma(&workspace->point, workspace->gamma);
-  if (status == BAUM_OK) {
-    status = baum_i_check_rows(workspace, "gamma", workspace->gamma);
-  }
-  if (status == BAUM_OK) {
-    memcpy(gamma, workspace->gamma, (size_t)workspace->mechanism->nc * sizeof *gamma);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_gamma(&workspace->point, workspace->gamma));
+  BAUM_I_TRY(baum_i_check_rows(workspace, "gamma", workspace->gamma));
+  memcpy(gamma, workspace->gamma, (size_t)workspace->mechanism->nc * sizeof *gamma);
+  return BAUM_OK;
 }
 
 baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                  const double *v, double *force)
 {
-  baum_status status = check_state("baum_workspace_force", workspace, t, q, v, force);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_state("baum_workspace_force", workspace, t, q, v, force));
   baum_i_point_set(&workspace->point, t, q, v);
-  status = baum_i_mechanism_force(&workspace->point, workspace->force);
-  if (status == BAUM_OK) {
-    status = baum_i_check_velocities(workspace, "force", workspace->force);
-  }
-  if (status == BAUM_OK) {
-    memcpy(force, workspace->force, (size_t)workspace->mechanism->nv * sizeof *force);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_force(&workspace->point, workspace->force));
+  BAUM_I_TRY(baum_i_check_velocities(workspace, "force", workspace->force));
+  memcpy(force, workspace->force, (size_t)workspace->mechanism->nv * sizeof *force);
+  return BAUM_OK;
 }
 
 baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
@@ -282,8 +240,8 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
 
 static baum_status check_gains(const char *call, double alpha, double beta)
 {
-  baum_status status = baum_i_check_finite(call, "alpha", "1/s", alpha);
-  return status == BAUM_OK ? baum_i_check_finite(call, "beta", "1/s", beta) : status;
+  BAUM_I_TRY(baum_i_check_finite(call, "alpha", "1/s", alpha));
+  return baum_i_check_finite(call, "beta", "1/s", beta);
 }
 
 /* After a solution: others than before, so that it is worth another one. */
@@ -329,20 +287,12 @@ baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const d
                                     const double *lambda, baum_joint_id joint, double *reaction)
 {
   const char *call = "baum_workspace_reaction";
-  baum_status status = check_point(call, workspace, t, q, reaction);
-  if (status == BAUM_OK) {
-    status = check_finite(call, "lambda", lambda, workspace->mechanism->nc);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_joint(workspace->mechanism, joint, call, "joint");
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_position_stage(workspace, t, q);
-  }
-  if (status == BAUM_OK) {
-    baum_i_reaction(workspace, baum_i_joint_index(workspace->mechanism, joint), lambda, reaction);
-  }
-  return status;
+  BAUM_I_TRY(check_point(call, workspace, t, q, reaction));
+  BAUM_I_TRY(check_finite(call, "lambda", lambda, workspace->mechanism->nc));
+  BAUM_I_TRY(baum_i_check_joint(workspace->mechanism, joint, call, "joint"));
+  BAUM_I_TRY(baum_i_position_stage(workspace, t, q));
+  baum_i_reaction(workspace, baum_i_joint_index(workspace->mechanism, joint), lambda, reaction);
+  return BAUM_OK;
 }
 
 /* ---- residual forms ---- */
@@ -434,10 +384,7 @@ static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, 
 static baum_status check_guess(const char *call, const baum_workspace *w, double t, const double *q,
                                const double *v)
 {
-  baum_status status = check_point(call, w, t, q, &t);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_point(call, w, t, q, &t));
   if (!v) {
     return fail_null(call, "v");
   }

@@ -412,11 +412,9 @@ baum_status baum_i_redundancy_text(baum_workspace *w, char *text, size_t size)
 {
   text[0] = '\0';
   double least = 0.0;
-  baum_status status = find_reach(w, &least);
-  if (status == BAUM_OK) {
-    list_joints(w, least, text, size);
-  }
-  return status;
+  BAUM_I_TRY(find_reach(w, &least));
+  list_joints(w, least, text, size);
+  return BAUM_OK;
 }
 
 baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)

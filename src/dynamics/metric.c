@@ -12,6 +12,7 @@
  */
 #include <math.h>
 
+#include "base/message.h"
 #include "dynamics/dynamics.h"
 
 static const double LEAST_SHARE = 1e-6;
@@ -40,9 +41,7 @@ baum_status baum_i_need_metric(baum_workspace *w)
   if (w->metric_ready) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_position_stage(w, 0.0, w->mechanism->design_q);
-  if (status == BAUM_OK) {
-    baum_i_choose_metric(w);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_position_stage(w, 0.0, w->mechanism->design_q));
+  baum_i_choose_metric(w);
+  return BAUM_OK;
 }

@@ -60,10 +60,7 @@ static baum_status change_of_positions(baum_workspace *w, double t, const double
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }
-  status = baum_i_position_stage(w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -w->phi[i];
   }
@@ -79,10 +76,7 @@ baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const doubl
   if (status != BAUM_ERR_SINGULAR) {
     return status;
   }
-  status = baum_i_position_stage(w, t, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
   memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
   baum_i_jacobian_times(&w->structure, w->jacobian, v, w->rhs);
   for (int i = 0; i < w->mechanism->nc; i++) {

@@ -122,16 +122,13 @@ static baum_status find_direction(const search *s, double *size)
   small_shift(w);
   memset(p, 0, (size_t)m->nv * sizeof *p);
   memcpy(w->rhs, w->nu, (size_t)m->nc * sizeof *w->rhs);
-  baum_status status = solve_direction(s, p, w->rhs);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(solve_direction(s, p, w->rhs));
   double driven = baum_i_scaled_size(m, s->x);
   double push = driven > 0.0 ? driven : 1.0;
   for (int i = 0; i < m->nv; i++) {
     p[i] = push * baum_i_golden(i + 1) * m->scale[i];
   }
-  status = solve_direction(s, p, w->rhs);
+  baum_status status = solve_direction(s, p, w->rhs);
   *size = baum_i_scaled_size(m, s->x);
   *size = *size > 1e-6 * push ? *size : 0.0;
   return status;

@@ -44,10 +44,7 @@ static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *lo
 baum_status baum_i_snapshot(const baum_mechanism *mechanism, baum_i_look *look,
                             const baum_i_snapshot_out *to)
 {
-  baum_status status = baum_i_check_sized(to->out, to->caller_size, to->call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_sized(to->out, to->caller_size, to->call));
   if (!mechanism) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", to->call);
   }

@@ -248,14 +248,10 @@ baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id id
   if (!workspace) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the workspace is NULL", call);
   }
-  baum_status status = baum_i_check_input_value(workspace->mechanism, id, call, value);
-  if (status == BAUM_OK) {
-    status = baum_i_check_idle(workspace, call, "the workspace");
-  }
-  if (status == BAUM_OK) {
-    workspace->inputs[id.index1 - 1] = value;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_check_input_value(workspace->mechanism, id, call, value));
+  BAUM_I_TRY(baum_i_check_idle(workspace, call, "the workspace"));
+  workspace->inputs[id.index1 - 1] = value;
+  return BAUM_OK;
 }
 
 double baum_workspace_input(const baum_workspace *workspace, baum_input_id id)
