@@ -162,7 +162,8 @@ void baum_i_saved_list(baum_simulation *run, baum_i_saved *list)
   baum_i_saved_add(list, &run->gains.amplification, sizeof run->gains.amplification, 0);
   baum_i_saved_add(list, &w->evaluations, sizeof w->evaluations, 1);
   baum_i_saved_add(list, &w->near_singular, sizeof w->near_singular, 1);
-  baum_i_saved_add(list, &w->rows.pivot_at_last_selection, sizeof w->rows.pivot_at_last_selection, 0);
+  baum_i_saved_add(list, &w->rows.pivot_at_last_selection, sizeof w->rows.pivot_at_last_selection,
+                   0);
   baum_i_saved_add(list, &w->metric_ready, sizeof w->metric_ready, 0);
   baum_i_saved_add_state(list, m, &run->state);
   baum_i_saved_add_array(list, w->inputs, m->input_count);
@@ -378,7 +379,7 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
 }
 
 /* As many as here, or all taken for independent here. */
-static baum_status check_omitted(const reader *r, const baum_i_redundancy *here)
+static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
 {
   const unsigned char *omitted = r->parts.at[BAUM_I_SAVED_OMITTED];
   int64_t count = 0;
@@ -465,7 +466,7 @@ static baum_status check_parts(reader *r, const baum_simulation *run, const baum
   if (wrong) {
     return refuse("%s", wrong);
   }
-  BAUM_I_TRY(check_omitted(r, &run->workspace->redundancy));
+  BAUM_I_TRY(check_omitted(r, &run->workspace->rows));
   BAUM_I_TRY(check_laws(r, m));
   if (!baum_i_schedule_is_sound(r->parts.at[BAUM_I_SAVED_JUMPS], r->parts.count[BAUM_I_SAVED_JUMPS],
                                 m->input_count)) {
