@@ -155,10 +155,12 @@ int baum_i_fields_bodies(const baum_i_definition *definition, const baum_mechani
 baum_status baum_i_check_number(const char *label, const char *field, const char *unit,
                                 baum_i_rule rule, double value);
 
+/* At the start of evaluations, too: without a call where all is well. */
 static inline baum_status baum_i_check_finite(const char *label, const char *field,
                                               const char *unit, double value)
 {
-  return baum_i_check_number(label, field, unit, BAUM_I_RULE_FINITE, value);
+  return isfinite(value) ? BAUM_OK
+                         : baum_i_check_number(label, field, unit, BAUM_I_RULE_FINITE, value);
 }
 
 static inline baum_status baum_i_check_positive(const char *label, const char *field,
