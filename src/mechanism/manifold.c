@@ -137,24 +137,23 @@ static void linearize_body(const baum_mechanism *m, const baum_i_body *body, con
 
 /* ---- the whole ---- */
 
-void baum_i_rate(const baum_mechanism *m, const double *q, const double *v, double *dq)
+void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v)
 {
-  if (m->flat) {
-    memcpy(dq, v, (size_t)m->nv * sizeof *v);
-    return;
-  }
+  memcpy(point->normalized, q, (size_t)point->mechanism->nq * sizeof *q);
+  baum_i_normalize_bodies(point->mechanism, point->normalized);
+  baum_i_point_set_vector(point, t, point->normalized, v);
+}
+
+void baum_i_rate_bodies(const baum_mechanism *m, const double *q, const double *v, double *dq)
+{
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     rate_body(body, q + body->q, v + body->v, dq + body->q);
   }
 }
 
-void baum_i_move(const baum_mechanism *m, double h, const double *v, double *q)
+void baum_i_move_bodies(const baum_mechanism *m, double h, const double *v, double *q)
 {
-  if (m->flat) {
-    move_vector(m->nv, h, v, q);
-    return;
-  }
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     move_body(body, h, v + body->v, q + body->q);
@@ -177,9 +176,9 @@ void baum_i_difference(const baum_mechanism *m, const double *from, const double
   }
 }
 
-void baum_i_normalize(const baum_mechanism *m, double *q)
+void baum_i_normalize_bodies(const baum_mechanism *m, double *q)
 {
-  for (int k = 1; k <= m->body_count && !m->flat; k++) {
+  for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     if (body->manifold) {
       body->manifold->normalize(body, q + body->q);
@@ -187,21 +186,9 @@ void baum_i_normalize(const baum_mechanism *m, double *q)
   }
 }
 
-const double *baum_i_rates(const baum_mechanism *m, const double *q, const double *v, double *room)
+const double *baum_i_second_rates_of_bodies(const baum_mechanism *m, const double *q,
+                                            const double *v, const double *a, double *room)
 {
-  if (m->flat) {
-    return v;
-  }
-  baum_i_rate(m, q, v, room);
-  return room;
-}
-
-const double *baum_i_second_rates(const baum_mechanism *m, const double *q, const double *v,
-                                  const double *a, double *room)
-{
-  if (m->flat) {
-    return a;
-  }
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     if (body->manifold) {
@@ -214,12 +201,9 @@ const double *baum_i_second_rates(const baum_mechanism *m, const double *q, cons
   return room;
 }
 
-const double *baum_i_tangent(const baum_mechanism *m, const double *q, const double *dq,
-                             double *room)
+const double *baum_i_tangent_of_bodies(const baum_mechanism *m, const double *q, const double *dq,
+                                       double *room)
 {
-  if (m->flat) {
-    return dq;
-  }
   for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     if (body->manifold) {

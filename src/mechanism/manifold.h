@@ -9,38 +9,88 @@
 #ifndef BAUM_I_MECHANISM_MANIFOLD_H
 #define BAUM_I_MECHANISM_MANIFOLD_H
 
+#include <string.h>
+
 #include "mechanism/mechanism.h"
 
+/* ---- body by body, where the mechanism is not flat; as those without `bodies` below ---- */
+
+void baum_i_rate_bodies(const baum_mechanism *mechanism, const double *q, const double *v,
+                        double *dq);
+void baum_i_move_bodies(const baum_mechanism *mechanism, double h, const double *v, double *q);
+void baum_i_normalize_bodies(const baum_mechanism *mechanism, double *q);
+const double *baum_i_second_rates_of_bodies(const baum_mechanism *mechanism, const double *q,
+                                            const double *v, const double *a, double *room);
+const double *baum_i_tangent_of_bodies(const baum_mechanism *mechanism, const double *q,
+                                       const double *dq, double *room);
+
+/* ---- the whole ---- */
+
 /* dq (nq) = N(q) v; q may be off the manifold as far as an integrator's stage. */
-void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v, double *dq);
+static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
+                               double *dq)
+{
+  if (mechanism->flat) {
+    memcpy(dq, v, (size_t)mechanism->nv * sizeof *v);
+  } else {
+    baum_i_rate_bodies(mechanism, q, v, dq);
+  }
+}
 
 /* q moves by h v, v of velocity size (nv): where it is after the time h at constant v, to second
- * order in h. */
-void baum_i_move(const baum_mechanism *mechanism, double h, const double *v, double *q);
+ * order in h; on the manifold. */
+static inline void baum_i_move(const baum_mechanism *mechanism, double h, const double *v,
+                               double *q)
+{
+  if (!mechanism->flat) {
+    baum_i_move_bodies(mechanism, h, v, q);
+    return;
+  }
+  for (int i = 0; i < mechanism->nv; i++) {
+    q[i] += h * v[i];
+  }
+}
 
-/* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. dx may be `to` where
- * the mechanism is flat. */
+/* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
 
 /* q becomes the nearest one on the manifold; nothing where the mechanism is flat. */
-void baum_i_normalize(const baum_mechanism *mechanism, double *q);
+static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
+{
+  if (!mechanism->flat) {
+    baum_i_normalize_bodies(mechanism, q);
+  }
+}
 
 /* The next three return what is asked for: in `room`, or the last vector given where the mechanism is
  * flat. */
 
 /* N(q) v (nq); room (nq). */
-const double *baum_i_rates(const baum_mechanism *mechanism, const double *q, const double *v,
-                           double *room);
+static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,
+                                         const double *v, double *room)
+{
+  if (mechanism->flat) {
+    return v;
+  }
+  baum_i_rate_bodies(mechanism, q, v, room);
+  return room;
+}
 
 /* q'' = N(q) a + (N v)_q N v (nq); room (4 nq). */
-const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q, const double *v,
-                                  const double *a, double *room);
+static inline const double *baum_i_second_rates(const baum_mechanism *mechanism, const double *q,
+                                                const double *v, const double *a, double *room)
+{
+  return mechanism->flat ? a : baum_i_second_rates_of_bodies(mechanism, q, v, a, room);
+}
 
 /* N^+ dq (nv), the velocities nearest to rates dq (nq), with q on the manifold; room (3 nq), not
  * dq. */
-const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q, const double *dq,
-                             double *room);
+static inline const double *baum_i_tangent(const baum_mechanism *mechanism, const double *q,
+                                           const double *dq, double *room)
+{
+  return mechanism->flat ? dq : baum_i_tangent_of_bodies(mechanism, q, dq, room);
+}
 
 /* N^+ (N v)_q N, how rates at constant v change with a displacement of q: blocks nv x nv at the
  * `mass` of bodies with a manifold. work (6 nq). */

@@ -156,9 +156,20 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
+/* The two of baum_i_point_set(): where the mechanism is flat, or else. */
+void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
+void baum_i_point_set_normalized(baum_i_point *point, double t, const double *q, const double *v);
+
 /* Set t, q (and v, may be NULL) and the frames. v is referred to, not copied, and so is q where
  * the mechanism is flat. */
-void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v);
+static inline void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
+{
+  if (point->normalized) {
+    baum_i_point_set_normalized(point, t, q, v);
+  } else {
+    baum_i_point_set_vector(point, t, q, v);
+  }
+}
 
 /* ---- types ---- */
 

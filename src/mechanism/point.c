@@ -1,12 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Points in state space and the frames of bodies there. */
 #include <math.h>
-#include <string.h>
 
 #include "base/alloc.h"
 #include "base/hot.h"
 #include "base/message.h"
-#include "mechanism/manifold.h"
 #include "mechanism/planar/frames.h"
 
 /* ---- frames ---- */
@@ -76,13 +74,8 @@ void baum_i_point_release(baum_i_point *point)
   baum_i_free(point->normalized);
 }
 
-void baum_i_point_set(baum_i_point *point, double t, const double *q, const double *v)
+void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v)
 {
-  if (point->normalized) {
-    memcpy(point->normalized, q, (size_t)point->mechanism->nq * sizeof *q);
-    baum_i_normalize(point->mechanism, point->normalized);
-    q = point->normalized;
-  }
   point->t = t;
   point->q = q;
   point->v = v;

@@ -12,6 +12,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hot.h"
+
 static const double SAME_STEP = 1e-6; /* share of a step by which equal ones may differ */
 
 size_t baum_i_local_error_size(const baum_mechanism *m)
@@ -28,9 +30,14 @@ void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m
   }
 }
 
-/* dq, as velocities, of dv. */
-static const double *find_position_error(const baum_i_local_error *e, const baum_simulation *run,
-                                         double h, const double *dv)
+BAUM_I_INLINE double error_of(double change, const double rates[3], const double bends[2], double h)
+{
+  return change - 0.5 * h * (rates[0] + rates[1] - rates[2]) - h * h / 12.0 * (bends[0] - bends[1]);
+}
+
+/* dq but for dv, as velocities, where q is no vector. */
+static const double *find_position_errors(const baum_i_local_error *e, const baum_simulation *run,
+                                          double h)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   const baum_i_state *now = &run->state;
@@ -39,36 +46,44 @@ static const double *find_position_error(const baum_i_local_error *e, const baum
   double *room = dq + nq;
   const double *v0 = baum_i_rates(m, e->q, e->v, room);
   const double *v1 = baum_i_rates(m, now->q, now->v, room + nq);
-  const double *v2 = baum_i_rates(m, now->q, dv, room + 2 * nq);
-  const double *a0 = baum_i_second_rates(m, e->q, e->v, e->a[0], room + 3 * nq);
-  const double *a1 = baum_i_second_rates(m, now->q, now->v, run->workspace->a, room + 4 * nq);
+  const double *a0 = baum_i_second_rates(m, e->q, e->v, e->a[0], room + 2 * nq);
+  const double *a1 = baum_i_second_rates(m, now->q, now->v, run->workspace->a, room + 3 * nq);
   for (int i = 0; i < m->nq; i++) {
     dq[i] =
-      now->q[i] - e->q[i] - 0.5 * h * (v0[i] + v1[i] - v2[i]) - h * h / 12.0 * (a0[i] - a1[i]);
+      error_of(now->q[i] - e->q[i], (double[3]){v0[i], v1[i], 0.0}, (double[2]){a0[i], a1[i]}, h);
   }
   return baum_i_tangent(m, now->q, dq, room);
 }
 
-/* Largest error of the step by h relative to the scales, that of velocities over a `period`. */
-static double largest_error(const baum_i_local_error *e, const baum_simulation *run, double h,
-                            double period)
+/* Largest error of the step by h relative to the scales, that of velocities over a `period`;
+ * turned: NULL where q is a vector. */
+BAUM_I_INLINE double largest_with(const baum_i_local_error *e, const baum_simulation *run, double h,
+                                  double period, const double *turned)
 {
   const baum_mechanism *m = run->workspace->mechanism;
-  const double *v = run->state.v;
+  const baum_i_state *now = &run->state;
   const double *a = run->workspace->a;
-  double *dv = run->workspace->work_v;
   double largest = 0.0;
   for (int i = 0; i < m->nv; i++) {
     double sum = 251.0 * a[i] + 646.0 * e->a[0][i] - 264.0 * e->a[1][i] + 106.0 * e->a[2][i] -
                  19.0 * e->a[3][i];
-    dv[i] = v[i] - e->v[i] - h / 720.0 * sum;
-  }
-  const double *dq = find_position_error(e, run, h, dv);
-  for (int i = 0; i < m->nv; i++) {
-    double error = (fabs(dq[i]) + period * fabs(dv[i])) / m->scale[i];
+    double dv = now->v[i] - e->v[i] - h / 720.0 * sum;
+    double dq = turned ? turned[i] + 0.5 * h * dv
+                       : error_of(now->q[i] - e->q[i], (double[3]){e->v[i], now->v[i], dv},
+                                  (double[2]){e->a[0][i], a[i]}, h);
+    double error = (fabs(dq) + period * fabs(dv)) / m->scale[i];
     largest = error > largest ? error : largest;
   }
   return largest;
+}
+
+static double largest_error(const baum_i_local_error *e, const baum_simulation *run, double h,
+                            double period)
+{
+  if (run->workspace->mechanism->flat) {
+    return largest_with(e, run, h, period, NULL);
+  }
+  return largest_with(e, run, h, period, find_position_errors(e, run, h));
 }
 
 static void remember(baum_i_local_error *e, const baum_simulation *run, double h)
