@@ -80,6 +80,9 @@ typedef struct scene {
   X(baum_mechanism_set_characteristic_length, (s->open.mechanism, 1.0))                      \
   X(baum_mechanism_set_input, (s->open.mechanism, s->open.throttle, 1.0))                    \
   X(baum_workspace_design, (s->w, s->q, NULL))                                               \
+  X(baum_workspace_rate, (s->w, s->q, s->v, s->x))                                           \
+  X(baum_workspace_difference, (s->w, s->q, s->q, s->x))                                     \
+  X(baum_workspace_move, (s->w, s->v, s->x))                                                 \
   X(baum_workspace_phi, (s->w, 0.0, s->q, s->x))                                             \
   X(baum_workspace_jacobian, (s->w, 0.0, s->q, s->x))                                        \
   X(baum_workspace_nu, (s->w, 0.0, s->q, s->x))                                              \
