@@ -7,22 +7,25 @@
 #include "base/alloc.h"
 #include "base/message.h"
 #include "linear/kkt.h"
+#include "linear/peel.h"
 #include "linear/sparse_qr.h"
 
 /* J^T in compressed columns. */
 typedef struct transposed {
-  int32_t *start;    /* (nc + 1) */
-  int32_t *velocity; /* (start[nc]) */
-  int32_t *order;    /* (nc) of preference */
-  double *value;     /* (start[nc]) */
+  unsigned char *peeled; /* (nc) rows of J that are known to be independent; here without entries */
+  int32_t *order;        /* (nc) of preference */
+  int32_t *start;        /* (nc + 1) */
+  int32_t *velocity;     /* (start[nc]) */
+  double *value;         /* (start[nc]) */
 } transposed;
 
-static void count_entries(const baum_i_kkt_structure *structure, int32_t *start)
+static void count_entries(const baum_i_kkt_structure *structure, const transposed *columns)
 {
+  int32_t *start = columns->start;
   for (int b = 0; b < structure->row_block_count; b++) {
     const baum_i_row_block *block = &structure->row_blocks[b];
     for (int i = 0; i < block->rows; i++) {
-      start[block->row + i + 1] = block->cols;
+      start[block->row + i + 1] = columns->peeled[block->row + i] ? 0 : block->cols;
     }
   }
   for (int i = 0; i < structure->nc; i++) {
@@ -47,14 +50,14 @@ static void make_unit(double *x, int count)
   }
 }
 
-/* False: a number is not finite. */
+/* False: a number is not finite, which peels no row. */
 static bool list_entries(const baum_i_kkt_structure *structure, const double *jacobian,
                          const double *column_scale, const transposed *columns)
 {
   for (int b = 0; b < structure->row_block_count; b++) {
     const baum_i_row_block *block = &structure->row_blocks[b];
     const double *number = jacobian + block->value;
-    for (int i = 0; i < block->rows; i++) {
+    for (int i = 0; i < block->rows && !columns->peeled[block->row + i]; i++) {
       int32_t *velocity = columns->velocity + columns->start[block->row + i];
       double *value = columns->value + columns->start[block->row + i];
       for (int k = 0; k < block->cols; k++) {
@@ -92,30 +95,46 @@ static baum_status find_rank(const baum_i_kkt_structure *structure, const transp
   BAUM_I_TRY(baum_i_sparse_qr_create(&pattern, columns->order, &qr));
   *rank = baum_i_sparse_qr_factor(qr, columns->value, tolerance, independent);
   baum_i_sparse_qr_destroy(qr);
+  for (int i = 0; i < structure->nc; i++) {
+    independent[i] |= columns->peeled[i];
+    *rank += columns->peeled[i];
+  }
   return BAUM_OK;
+}
+
+/* Room for the entries that are left. */
+static baum_status make_room(const baum_i_kkt_structure *structure, const double *jacobian,
+                             const double *column_scale, transposed *columns)
+{
+  size_t nc = (size_t)structure->nc;
+  columns->peeled = baum_i_alloc(nc, 1);
+  columns->order = baum_i_alloc(nc, sizeof *columns->order);
+  columns->start = baum_i_alloc(nc + 1, sizeof *columns->start);
+  if (!columns->peeled || !columns->order || !columns->start) {
+    return BAUM_ERR_MEMORY;
+  }
+  BAUM_I_TRY(baum_i_peel(structure, jacobian, column_scale, columns->peeled));
+  count_entries(structure, columns);
+  size_t entries = (size_t)columns->start[nc];
+  columns->velocity = baum_i_alloc(entries, sizeof *columns->velocity);
+  columns->value = baum_i_alloc(entries, sizeof *columns->value);
+  return columns->velocity && columns->value ? BAUM_OK : BAUM_ERR_MEMORY;
 }
 
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent)
 {
-  size_t nc = (size_t)structure->nc;
-  transposed columns = {.start = baum_i_alloc(nc + 1, sizeof *columns.start),
-                        .order = baum_i_alloc(nc, sizeof *columns.order)};
-  baum_status status = BAUM_ERR_MEMORY;
-  if (columns.start && columns.order) {
-    count_entries(structure, columns.start);
-    size_t entries = (size_t)columns.start[nc];
-    columns.velocity = baum_i_alloc(entries, sizeof *columns.velocity);
-    columns.value = baum_i_alloc(entries, sizeof *columns.value);
-  }
-  if (columns.velocity && columns.value) {
+  transposed columns = {0};
+  baum_status status = make_room(structure, jacobian, column_scale, &columns);
+  if (status == BAUM_OK) {
     status = list_entries(structure, jacobian, column_scale, &columns)
                ? find_rank(structure, &columns, tolerance, rank, independent)
                : BAUM_ERR_NOT_FINITE;
   }
-  baum_i_free(columns.start);
+  baum_i_free(columns.peeled);
   baum_i_free(columns.order);
+  baum_i_free(columns.start);
   baum_i_free(columns.velocity);
   baum_i_free(columns.value);
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "linear/peel.h"
+
+enum { MOST_JOINTS = 8, BODIES = 6, PIN_SIZE = 12 };
+
+/* Bodies of three velocities, joined by pins of two rows and motors of one. */
+typedef struct drawing {
+  baum_i_row_block blocks[MOST_JOINTS];
+  int columns[MOST_JOINTS][6];
+  double jacobian[MOST_JOINTS * PIN_SIZE];
+  double column_scale[3 * BODIES];
+  baum_i_kkt_structure structure;
+} drawing;
+
+static void begin(drawing *d)
+{
+  memset(d, 0, sizeof *d);
+  d->structure = (baum_i_kkt_structure){.nv = 3 * BODIES, .row_blocks = d->blocks};
+  for (int j = 0; j < 3 * BODIES; j++) {
+    d->column_scale[j] = 1.0;
+  }
+}
+
+static double *add(drawing *d, int rows, const int bodies[2])
+{
+  int b = d->structure.row_block_count++;
+  baum_i_row_block *block = &d->blocks[b];
+  *block = (baum_i_row_block){
+    .row = d->structure.nc, .rows = rows, .col = d->columns[b], .value = b * PIN_SIZE};
+  for (int side = 0; side < 2; side++) {
+    for (int j = 0; j < 3 && bodies[side] >= 0; j++) {
+      d->columns[b][block->cols++] = 3 * bodies[side] + j;
+    }
+  }
+  d->structure.nc += rows;
+  return d->jacobian + block->value;
+}
+
+/* A pin at an arm (x, y) from each of two bodies, or from one body and the ground, -1. */
+static void pin(drawing *d, int body_a, int body_b, double x, double y)
+{
+  double *value = add(d, 2, (const int[2]){body_a, body_b});
+  for (int row = 0; row < 2; row++) {
+    for (int side = 0; side < 2; side++) {
+      if ((side == 0 ? body_a : body_b) >= 0) {
+        double sign = side == 0 ? 1.0 : -1.0;
+        *value++ = row == 0 ? sign : 0.0;
+        *value++ = row == 1 ? sign : 0.0;
+        *value++ = row == 0 ? -y : x;
+      }
+    }
+  }
+}
+
+static void motor(drawing *d, int body_a, int body_b)
+{
+  double *value = add(d, 1, (const int[2]){body_a, body_b});
+  value[2] = 1.0;
+  value[5] = body_a >= 0 && body_b >= 0 ? -1.0 : 0.0;
+}
+
+/* How many rows are left. */
+static int peel(const drawing *d, unsigned char peeled[2 * MOST_JOINTS])
+{
+  int left = d->structure.nc;
+  memset(peeled, 0, 2 * MOST_JOINTS);
+  assert_int_equal(baum_i_peel(&d->structure, d->jacobian, d->column_scale, peeled), BAUM_OK);
+  for (int i = 0; i < d->structure.nc; i++) {
+    left -= peeled[i];
+  }
+  return left;
+}
+
+static void of_an_open_chain_with_motors_nothing_is_left(void **state)
+{
+  (void)state;
+  drawing d;
+  unsigned char peeled[2 * MOST_JOINTS];
+  begin(&d);
+  pin(&d, -1, 0, 0.5, 0.2);
+  motor(&d, -1, 0);
+  pin(&d, 0, 1, 0.3, -0.4);
+  pin(&d, 1, 2, 0.1, 0.7);
+  motor(&d, 1, 2);
+  pin(&d, 0, 3, 0.2, 0.2); /* a branch */
+  assert_int_equal(peel(&d, peeled), 0);
+}
+
+static void loops_are_left_and_what_hangs_on_them_is_not(void **state)
+{
+  (void)state;
+  drawing d;
+  unsigned char peeled[2 * MOST_JOINTS];
+  begin(&d);
+  pin(&d, 2, 3, 0.6, 0.1); /* rows 0, 1: hang on the loop */
+  pin(&d, -1, 0, 0.5, 0.2);
+  pin(&d, 0, 1, 0.3, -0.4);
+  pin(&d, 1, 2, 0.1, 0.7);
+  pin(&d, 2, -1, 0.4, 0.3);
+  pin(&d, 3, 4, 0.6, 0.6); /* rows 10, 11: hang on what hangs */
+  assert_int_equal(peel(&d, peeled), 8);
+  assert_true(peeled[0] && !peeled[2] && !peeled[9] && peeled[11]);
+}
+
+static void a_joint_added_twice_is_left_and_so_is_what_it_hangs_on(void **state)
+{
+  (void)state;
+  drawing d;
+  unsigned char peeled[2 * MOST_JOINTS];
+  begin(&d);
+  pin(&d, -1, 0, 0.5, 0.2);
+  pin(&d, 0, 1, 0.3, -0.4);
+  pin(&d, 0, 1, 0.3, -0.4);
+  assert_int_equal(peel(&d, peeled), 6);
+}
+
+static void rows_that_are_not_clearly_independent_are_left(void **state)
+{
+  (void)state;
+  drawing d;
+  unsigned char peeled[2 * MOST_JOINTS];
+  const double offsets[] = {1e-2, 1e-4, 0.0};
+  for (int k = 0; k < 3; k++) {
+    begin(&d);
+    double *value = add(&d, 2, (const int[2]){-1, 0});
+    value[0] = value[3] = 1.0;
+    value[4] = offsets[k];
+    assert_int_equal(peel(&d, peeled), k == 0 ? 0 : 2);
+  }
+  /* A row of zeros; one whose squares overflow. */
+  for (int k = 0; k < 2; k++) {
+    begin(&d);
+    double *value = add(&d, 1, (const int[2]){-1, 0});
+    value[0] = k == 0 ? 0.0 : 1e200;
+    assert_int_equal(peel(&d, peeled), 1);
+  }
+}
+
+static void rows_and_columns_may_have_any_size(void **state)
+{
+  (void)state;
+  drawing d;
+  unsigned char peeled[2 * MOST_JOINTS];
+  begin(&d);
+  pin(&d, -1, 0, 0.5, 0.2);
+  pin(&d, 0, 1, 0.3, -0.4);
+  for (int k = 0; k < 2 * PIN_SIZE; k++) {
+    d.jacobian[k] *= 1e-30;
+  }
+  for (int j = 0; j < 6; j++) {
+    d.column_scale[j] = pow(10.0, 10.0 + j / 3); /* equal within a body */
+  }
+  assert_int_equal(peel(&d, peeled), 0);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(of_an_open_chain_with_motors_nothing_is_left),
+    cmocka_unit_test(loops_are_left_and_what_hangs_on_them_is_not),
+    cmocka_unit_test(a_joint_added_twice_is_left_and_so_is_what_it_hangs_on),
+    cmocka_unit_test(rows_that_are_not_clearly_independent_are_left),
+    cmocka_unit_test(rows_and_columns_may_have_any_size),
+  };
+  return cmocka_run_group_tests_name("peel", tests, NULL, NULL);
+}
