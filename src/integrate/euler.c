@@ -14,9 +14,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)self;
   const baum_mechanism *m = problem->workspace->mechanism;
   baum_i_move(m, h, state->v, state->q);
-  for (int i = 0; i < m->nv; i++) {
-    state->v[i] += h * a[i];
-  }
+  baum_i_add_scaled(m->nv, h, a, state->v);
   return BAUM_OK;
 }
 

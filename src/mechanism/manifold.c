@@ -16,20 +16,13 @@ static void rate_body(const baum_i_body *body, const double *q, const double *v,
   }
 }
 
-static void move_vector(int count, double h, const double *v, double *q)
-{
-  for (int i = 0; i < count; i++) {
-    q[i] += h * v[i];
-  }
-}
-
 static void move_body(const baum_i_body *body, double h, const double *v, double *q)
 {
   if (body->manifold) {
     body->manifold->move(body, h, v, q);
     body->manifold->normalize(body, q); /* of many moves roundings add up */
   } else {
-    move_vector(body->nv, h, v, q);
+    baum_i_add_scaled(body->nv, h, v, q);
   }
 }
 

@@ -26,6 +26,14 @@ const double *baum_i_tangent_of_bodies(const baum_mechanism *mechanism, const do
 
 /* ---- the whole ---- */
 
+/* y += h x, apart from each other */
+static inline void baum_i_add_scaled(int n, double h, const double *restrict x, double *restrict y)
+{
+  for (int i = 0; i < n; i++) {
+    y[i] += h * x[i];
+  }
+}
+
 /* dq (nq) = N(q) v; q may be off the manifold as far as an integrator's stage. */
 static inline void baum_i_rate(const baum_mechanism *mechanism, const double *q, const double *v,
                                double *dq)
@@ -46,9 +54,7 @@ static inline void baum_i_move(const baum_mechanism *mechanism, double h, const 
     baum_i_move_bodies(mechanism, h, v, q);
     return;
   }
-  for (int i = 0; i < mechanism->nv; i++) {
-    q[i] += h * v[i];
-  }
+  baum_i_add_scaled(mechanism->nv, h, v, q);
 }
 
 /* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. */

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/hot.h"
 #include "simulate/account.h"
 #include "simulate/breaks.h"
 #include "simulate/companion.h"
@@ -19,7 +20,7 @@ static baum_status fail_not_finite(const baum_simulation *run, const baum_i_stat
                      run->state.t, state->t);
 }
 
-static baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
+BAUM_I_INLINE baum_status check_finite(const baum_simulation *run, const baum_i_state *state)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   for (int i = 0; i < m->nv; i++) {
