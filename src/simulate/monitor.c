@@ -109,7 +109,7 @@ static const double TOLERANCES_KEPT = 1e3;
 /* Both Eulers may well have the steady violation that is predicted for their gains. */
 static const double PREDICTED = 3.0;
 
-bool baum_i_keeps_positions(baum_formulation formulation)
+static bool keeps_positions(baum_formulation formulation)
 {
   return formulation == BAUM_FORMULATION_PROJECTION || formulation == BAUM_FORMULATION_GGL ||
          formulation == BAUM_FORMULATION_INDEX3;
@@ -122,7 +122,7 @@ static double allowed_violation(const baum_simulation *run)
   if (baum_i_problem_has_fixed_step(&run->problem) || isnan(rtol)) {
     return LARGE;
   }
-  return fmin(LARGE, baum_i_keeps_positions(run->problem.formulation)
+  return fmin(LARGE, keeps_positions(run->problem.formulation)
                        ? fmax(KEPT, TOLERANCES_KEPT * rtol)
                        : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol));
 }

@@ -169,9 +169,6 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Does the method keep Phi = 0 in every step? */
-bool baum_i_keeps_positions(baum_formulation formulation);
-
 /* Violation, gamma and near-singular poses from the workspace's last velocity stage,
  * which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);

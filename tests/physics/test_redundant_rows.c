@@ -104,8 +104,8 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
   for (int pair = 0; pair < PAIR_COUNT; pair++) {
     posed p = PAIRS[pair].pose(1, true);
     accelerate(&p);
-    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->rows.omitted,
-                                  p.want_a, p.want_lambda));
+    assert_true(quad_acceleration(p.workspace, 0.0, p.q, p.v, p.workspace->rows.omitted, p.want_a,
+                                  p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
     assert_true(error <= 1e-12); /* an ordinary pose, see test_acceleration_accuracy.c */

@@ -65,9 +65,8 @@ static bool make_common(common *c, scene *at)
 {
   baum_workspace *w = at->workspace;
   *c = (common){.at = at, .nv = w->mechanism->nv, .n = w->mechanism->nv + w->mechanism->nc};
-  c->values = (baum_i_kkt_values){.mass = w->mass,
-                                  .jacobian = w->jacobian,
-                                  .omitted = baum_i_omitted_rows(w)};
+  c->values = (baum_i_kkt_values){
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
   c->x = calloc((size_t)c->n + 1, sizeof *c->x);
   return c->x != NULL;
 }
