@@ -228,6 +228,9 @@ static manifold_body slider = {.mass = 1.0, .inertia = {1.0}};
 static pin main_pin = {.to_ground = true, .b = {-0.5, 0.0}};
 static pin crank_pin = {.a = {0.5, 0.0}, .b = {-1.0, 0.0}};
 static pin slider_pin = {.a = {1.0, 0.0}, .b = {0.0, 0.0}};
+/* Of a coupler as long as the crank: branches cross where the slider is at the main pin. */
+static pin short_crank_pin = {.a = {0.5, 0.0}, .b = {-0.5, 0.0}};
+static pin short_slider_pin = {.a = {0.5, 0.0}, .b = {0.0, 0.0}};
 /* Crank at 1 rad with 4 rad/s. */
 static const double CRANK = 1.0;
 static const double CRANK_V[3] = {(double)NAN, (double)NAN, 4.0};
@@ -238,13 +241,14 @@ typedef struct crank_place {
   double slider;
 } crank_place;
 
-static crank_place place_crank(void)
+/* Crank at an angle, coupler of half that length. */
+static crank_place place_crank(double angle, double half)
 {
-  crank_place p = {.crank = {0.5 * cos(CRANK), 0.5 * sin(CRANK)}};
-  p.coupler[2] = -asin(0.5 * sin(CRANK));
-  p.coupler[0] = cos(CRANK) + cos(p.coupler[2]);
-  p.coupler[1] = sin(CRANK) + sin(p.coupler[2]);
-  p.slider = cos(CRANK) + 2.0 * cos(p.coupler[2]);
+  crank_place p = {.crank = {0.5 * cos(angle), 0.5 * sin(angle)}};
+  p.coupler[2] = -asin(0.5 * sin(angle) / half);
+  p.coupler[0] = cos(angle) + half * cos(p.coupler[2]);
+  p.coupler[1] = sin(angle) + half * sin(p.coupler[2]);
+  p.slider = cos(angle) + 2.0 * half * cos(p.coupler[2]);
   return p;
 }
 
@@ -268,22 +272,64 @@ static void add_rail(baum_mechanism *mechanism, const baum_body_id *body)
   check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
 }
 
-static void build_crank(baum_mechanism *mechanism)
+/* Into ids. */
+static void build_crank_of(baum_mechanism *mechanism, double half, baum_body_id ids[3])
 {
-  crank_place p = place_crank();
-  baum_body_id ids[3] = {
-    manifold_add_turned(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V),
-    manifold_add_turned(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL),
-    manifold_add_turned(mechanism, &slider, p.slider, 0.0, 0.0, NULL)};
+  crank_place p = place_crank(CRANK, half);
+  ids[0] = manifold_add_turned(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V);
+  ids[1] = manifold_add_turned(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL);
+  ids[2] = manifold_add_turned(mechanism, &slider, p.slider, 0.0, 0.0, NULL);
   add_pin(mechanism, &main_pin, ids, true);
-  add_pin(mechanism, &crank_pin, ids, true);
-  add_pin(mechanism, &slider_pin, ids + 1, false);
+  add_pin(mechanism, half < 1.0 ? &short_crank_pin : &crank_pin, ids, true);
+  add_pin(mechanism, half < 1.0 ? &short_slider_pin : &slider_pin, ids + 1, half < 1.0);
   add_rail(mechanism, ids + 2);
 }
 
-static void build_crank_twin(baum_mechanism *mechanism)
+static void build_crank(baum_mechanism *mechanism)
 {
-  crank_place p = place_crank();
+  baum_body_id ids[3];
+  build_crank_of(mechanism, 1.0, ids);
+}
+
+static void build_short_crank(baum_mechanism *mechanism)
+{
+  baum_body_id ids[3];
+  build_crank_of(mechanism, 0.5, ids);
+}
+
+/* sin(crank - CRANK - 4 t) */
+static int driver_phi(double t, const double *q, double *out, void *user)
+{
+  (void)user;
+  double angle = CRANK + 4.0 * t;
+  out[0] = q[3] * cos(angle) - q[2] * sin(angle);
+  return 0;
+}
+
+static void build_driven_crank(baum_mechanism *mechanism)
+{
+  baum_body_id ids[3];
+  baum_user_constraint_def def = baum_user_constraint_def_default();
+  build_crank_of(mechanism, 1.0, ids);
+  def.bodies = ids;
+  def.body_count = 1;
+  def.row_count = 1;
+  def.phi = driver_phi;
+  check(baum_mechanism_add_user_constraint(mechanism, &def, NULL));
+}
+
+static void solve_driven_crank(double t, double *q)
+{
+  crank_place p = place_crank(CRANK + 4.0 * t, 1.0);
+  const double twin_q[9] = {p.crank[0],   p.crank[1],   CRANK + 4.0 * t,
+                            p.coupler[0], p.coupler[1], p.coupler[2],
+                            p.slider,     0.0,          0.0};
+  translate_bodies(twin_q, q, 3);
+}
+
+static void build_crank_twin_of(baum_mechanism *mechanism, double half)
+{
+  crank_place p = place_crank(CRANK, half);
   baum_body_id ids[3] = {
     add_ordinary(mechanism, &crank, p.crank[0], p.crank[1], CRANK, CRANK_V),
     add_ordinary(mechanism, &coupler, p.coupler[0], p.coupler[1], p.coupler[2], NULL),
@@ -298,6 +344,16 @@ static void build_crank_twin(baum_mechanism *mechanism)
   def.point[0] = p.slider;
   def.point[1] = 0.0;
   check(baum_mechanism_add_planar_translational(mechanism, &def, NULL));
+}
+
+static void build_crank_twin(baum_mechanism *mechanism)
+{
+  build_crank_twin_of(mechanism, 1.0);
+}
+
+static void build_short_crank_twin(baum_mechanism *mechanism)
+{
+  build_crank_twin_of(mechanism, 0.5);
 }
 
 static void translate_crank(const double *twin_q, double *q)
@@ -556,7 +612,16 @@ const manifold_scene manifold_scenes[MANIFOLD_SCENES] = {
   {"heavy top", build_heavy_top, NULL, NULL, solve_heavy_top, 3, true},
   {"heavy top with its Jacobian", build_given_top, NULL, NULL, solve_heavy_top, 3, true},
   {"ball", build_ball, NULL, NULL, solve_ball, 3, false},
+  {"driven slider-crank", build_driven_crank, NULL, NULL, solve_driven_crank, 0, false},
 };
+
+const manifold_scene manifold_crossing = {"slider-crank of equal lengths",
+                                          build_short_crank,
+                                          build_short_crank_twin,
+                                          translate_crank,
+                                          NULL,
+                                          1,
+                                          false};
 
 const manifold_scene *manifold_scene_find(const char *name)
 {

@@ -9,7 +9,7 @@
 
 #include <baum/baum.h>
 
-enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 8 /* nq, nv, nc */ };
+enum { MANIFOLD_SIZE = 24, MANIFOLD_SCENES = 9 /* nq, nv, nc */ };
 
 typedef struct manifold_scene {
   const char *name;
@@ -24,6 +24,9 @@ typedef struct manifold_scene {
 } manifold_scene;
 
 extern const manifold_scene manifold_scenes[MANIFOLD_SCENES];
+
+/* Not among them: its motion crosses singular configurations. */
+extern const manifold_scene manifold_crossing;
 
 /* By name; fails the test if there is none. */
 const manifold_scene *manifold_scene_find(const char *name);

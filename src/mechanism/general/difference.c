@@ -17,6 +17,8 @@
  * Steps are powers of two, and the step of each coordinate is rounded to the spacing of numbers at
  * q, so that q + k h is exact also after ten thousand turns of a crank.
  *
+ * Where q is no vector, a moved q is rounded, and F with it, however small F is itself.
+ *
  * Central differences look to both sides: in t, F is evaluated up to 3 h before and after the
  * present.
  */
@@ -217,6 +219,25 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
+/* F where q alone is moved by half a relevant change, whose size tells what the rounding of a moved q does to it: along a
+ * motion F may be zero all the way. What fails there tells nothing. */
+static void see_size(const probe *p, const baum_i_estimate *out, double *beside)
+{
+  baum_i_local there = *p->at;
+  if (!p->at->span || !p->ray->dq) {
+    return;
+  }
+  memcpy(p->q, p->at->q, (size_t)p->at->ql * sizeof *p->q);
+  baum_i_span_move(p->at->point->mechanism, p->at->span, 0.5 / p->ray->rate, p->ray->dq, p->q);
+  there.q = p->q;
+  there.free = p->free;
+  if (p->field->evaluate(p->field->context, &there, beside) == BAUM_OK) {
+    for (int i = 0; i < p->field->size; i++) {
+      out->noise[i] = fabs(beside[i]);
+    }
+  }
+}
+
 baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_field *field,
                                    const baum_i_ray *ray, const baum_i_local *at, double step,
                                    const baum_i_estimate *out)
@@ -228,6 +249,7 @@ baum_status baum_i_difference_once(const baum_i_stencil *stencil, const baum_i_f
   double *centre = stencil->order == 2 ? baum_i_take(&here, field->size) : NULL;
   p.free = here.free;
   begin(out, field->size);
+  see_size(&p, out, plus);
   BAUM_I_TRY(centre ? sample(&p, 0, centre) : BAUM_OK);
   for (int k = 0; k < 3; k++) {
     BAUM_I_TRY(sample(&p, k + 1, plus));
