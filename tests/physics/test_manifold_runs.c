@@ -111,31 +111,13 @@ static double allowed(const method *with)
   return wide * by_order[with->mode.fixed ? baum_integrator_order(with->mode.integrator) : 0];
 }
 
-/* The part of q that is of unit length: its first number, or -1 past the last. */
-static int unit_at(const manifold_scene *scene, int k, int *length)
-{
-  bool angle = strcmp(scene->name, "angle") == 0;
-  bool free_top = strcmp(scene->name, "free top") == 0;
-  bool mixed = strcmp(scene->name, "mixed double pendulum") == 0;
-  bool crank = strstr(scene->name, "slider-crank") != NULL;
-  bool top = scene->solve && !crank;
-  *length = top ? 4 : 2;
-  if (angle || top || mixed) {
-    int first = angle || free_top ? 0 : mixed ? 2 : 3;
-    return k == 0 ? first : -1;
-  }
-  int bodies = crank ? 3 : 1;
-  return k < bodies ? 4 * k + 2 : -1;
-}
-
 static double off_manifold(const manifold_scene *scene, const double *q)
 {
   double largest = 0.0;
-  int length;
-  for (int k = 0; unit_at(scene, k, &length) >= 0; k++) {
+  for (int k = 0; k < scene->units.count; k++) {
     double square = 0.0;
-    for (int i = 0; i < length; i++) {
-      double x = q[unit_at(scene, k, &length) + i];
+    for (int i = 0; i < scene->units.length; i++) {
+      double x = q[scene->units.first + 4 * k + i];
       square += x * x;
     }
     largest = fmax(largest, fabs(sqrt(square) - 1.0));

@@ -21,6 +21,11 @@ typedef struct manifold_scene {
   void (*solve)(double t, double *q);
   int degrees_of_freedom;
   bool gyroscopic; /* forces depend on velocities */
+  struct {
+    int first; /* of q */
+    int count; /* one every four numbers */
+    int length;
+  } units; /* parts of q of unit length */
 } manifold_scene;
 
 extern const manifold_scene manifold_scenes[MANIFOLD_SCENES];

@@ -1,0 +1,18 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rigid bodies that turn about a fixed point, with a unit quaternion: a free top, a heavy one held by
+ * three user constraints, with and without their Jacobian, and a ball. Their motion is integrated
+ * here. */
+#ifndef BAUM_TEST_MANIFOLD_TOPS_H
+#define BAUM_TEST_MANIFOLD_TOPS_H
+
+#include <baum/baum.h>
+
+void manifold_build_free_top(baum_mechanism *mechanism);
+void manifold_solve_free_top(double t, double *q);
+void manifold_build_heavy_top(baum_mechanism *mechanism);
+void manifold_build_given_top(baum_mechanism *mechanism);
+void manifold_solve_heavy_top(double t, double *q);
+void manifold_build_ball(baum_mechanism *mechanism);
+void manifold_solve_ball(double t, double *q);
+
+#endif
