@@ -93,6 +93,57 @@ class Values(unittest.TestCase):
         ):
             body(lambda t, q: [1, 1])
 
+    @staticmethod
+    def swing(**changed):
+        """A pendulum whose angle is (cos, sin)."""
+
+        def move(h, v, q):
+            c, s = np.cos(h * v[0]), np.sin(h * v[0])
+            return q[0] * c - q[1] * s, q[1] * c + q[0] * s
+
+        functions = dict(
+            mass=lambda t, q: 2.0,
+            force=lambda t, q, v: -9.81 * q[0],
+            rate=lambda q, v: (-q[1] * v[0], q[0] * v[0]),
+            move=move,
+            difference=lambda a, b: np.arctan2(a[0] * b[1] - a[1] * b[0], a @ b),
+            normalize=lambda q: q / np.hypot(*q),
+        )
+        m = baum.Mechanism()
+        m.coordinates(
+            "swing", 1, position_count=2, q=(1.0, 0.0), v=[-1.0], **{**functions, **changed}
+        )
+        return m.freeze()
+
+    def test_positions_need_not_be_a_vector(self):
+        m = self.swing()
+        self.assertEqual((m["swing"].nq, m["swing"].nv), (2, 1))
+        run = m.simulate([0.0, 1.0], "rk8", step=0.01)
+        plain = baum.Mechanism()
+        plain.coordinates(
+            "swing",
+            1,
+            v=[-1.0],
+            mass=lambda t, q: 2.0,
+            force=lambda t, q, v: -9.81 * np.cos(q[0]),
+        )
+        angle = plain.freeze().simulate([0.0, 1.0], "rk8", step=0.01).q[:, 0]
+        np.testing.assert_allclose(run.q, np.c_[np.cos(angle), np.sin(angle)], atol=1e-12)
+        workspace = baum.Workspace(m)
+        np.testing.assert_array_equal(workspace.rate((0.6, 0.8), [2.0]), (-1.6, 1.2))
+        moved = workspace.move([0.3], (1.0, 0.0))
+        np.testing.assert_allclose(moved, (np.cos(0.3), np.sin(0.3)), atol=1e-15)
+        np.testing.assert_allclose(workspace.difference((1.0, 0.0), moved), [0.3], atol=1e-15)
+
+    def test_an_exception_of_a_manifold_is_the_cause(self):
+        def rate(q, v):
+            raise LookupError("lost")
+
+        m = self.swing(rate=rate)
+        with self.assertRaises(baum.Error) as caught:
+            m.simulate([1.0], "rk4", step=0.01)
+        self.assertIsInstance(caught.exception.__cause__, LookupError)
+
     def test_a_single_row_of_a_jacobian_may_be_flat(self):
         m = pendulum(jacobian=lambda t, q: 2 * q)
         np.testing.assert_array_equal(baum.Workspace(m).jacobian(0, (3, 4)), [[6, 8]])

@@ -68,6 +68,26 @@ class Workspace:
         self._call(lib.baum_workspace_design, address(q), address(v))
         return q, v
 
+    def rate(self, q, v):
+        """Rates of positions q' = N(q) v (nq): v itself unless positions are not a vector."""
+        out = np.empty(self._sizes.nq)
+        q, v = self._q(q), self._v(v)
+        self._call(lib.baum_workspace_rate, address(q), address(v), address(out))
+        return out
+
+    def move(self, dx, q):
+        """q (nq) moved by a displacement dx (nv): q + dx unless positions are not a vector."""
+        dx, moved = self._v(dx), np.array(self._q(q))
+        self._call(lib.baum_workspace_move, address(dx), address(moved))
+        return moved
+
+    def difference(self, start, end):
+        """The displacement (nv) by which move() leads from one configuration to another."""
+        out = np.empty(self._sizes.nv)
+        start, end = self._q(start), self._q(end)
+        self._call(lib.baum_workspace_difference, address(start), address(end), address(out))
+        return out
+
     def phi(self, t, q):
         """Constraint residual Phi (nc)."""
         return self._evaluate(lib.baum_workspace_phi, self._sizes.nc, t, q)
