@@ -149,12 +149,10 @@ static baum_status look(const baum_i_continuation *path, const baum_i_pose *pose
 {
   baum_workspace *w = path->workspace;
   int row = 0;
-  baum_status status = baum_i_position_stage(w, pose->t, pose->q);
-  if (status == BAUM_OK) {
-    baum_i_row_displacements(w, path->distance);
-    *worst = violation(path, true, &row);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_position_stage(w, pose->t, pose->q));
+  baum_i_row_displacements(w, path->distance);
+  *worst = violation(path, true, &row);
+  return BAUM_OK;
 }
 
 /* dq into path->image. */
@@ -164,8 +162,8 @@ static baum_status correct(const baum_i_continuation *path)
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = -w->phi[i];
   }
-  baum_status status = factor(w);
-  return status == BAUM_OK ? solve(path, w->rhs, path->image) : status;
+  BAUM_I_TRY(factor(w));
+  return solve(path, w->rhs, path->image);
 }
 
 /* Is a correction of this size on its way to zero? */
@@ -298,12 +296,10 @@ static void keep_jacobian(const baum_workspace *w, baum_i_pose *pose)
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose)
 {
   baum_workspace *w = path->workspace;
-  baum_status status = baum_i_position_stage(w, pose->t, pose->q);
-  if (status == BAUM_OK) {
-    memset(pose->turn, 0, (size_t)w->mechanism->nv * sizeof *pose->turn);
-    keep_jacobian(w, pose);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_position_stage(w, pose->t, pose->q));
+  memset(pose->turn, 0, (size_t)w->mechanism->nv * sizeof *pose->turn);
+  keep_jacobian(w, pose);
+  return BAUM_OK;
 }
 
 static bool goes_on(baum_status status, const baum_i_verdict *verdict)
@@ -360,10 +356,7 @@ static baum_status iterate(const baum_i_continuation *path)
     path->image[i] = path->probe[i] / (size * m->scale[i] * m->scale[i]);
   }
   memset(w->rhs, 0, (size_t)m->nc * sizeof *w->rhs);
-  baum_status status = baum_i_kkt_solve(w->kkt, path->image, w->rhs, path->probe, path->left);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_kkt_solve(w->kkt, path->image, w->rhs, path->probe, path->left));
   normalize_left(path);
   for (int i = 0; i < m->nc; i++) {
     w->rhs[i] = path->left[i] * path->distance[i] * path->distance[i];
@@ -410,16 +403,10 @@ baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_
 {
   double worst = 0.0;
   *impasse = (baum_i_impasse){.gain = (double)INFINITY, .driver = -1, .resister = -1};
-  baum_status status = look(path, pose, &worst);
-  if (status == BAUM_OK) {
-    status = factor(path->workspace);
-  }
-  if (status == BAUM_OK) {
-    status = find_critical(path);
-  }
-  if (status == BAUM_OK) {
-    impasse->gain = baum_i_scaled_size(path->workspace->mechanism, path->probe);
-    name_joints(path, impasse);
-  }
-  return status;
+  BAUM_I_TRY(look(path, pose, &worst));
+  BAUM_I_TRY(factor(path->workspace));
+  BAUM_I_TRY(find_critical(path));
+  impasse->gain = baum_i_scaled_size(path->workspace->mechanism, path->probe);
+  name_joints(path, impasse);
+  return BAUM_OK;
 }

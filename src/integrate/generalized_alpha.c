@@ -97,10 +97,7 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   double h = problem->direction * problem->step;
   baum_workspace *w = problem->workspace;
   size_t nv = (size_t)run->nv;
-  baum_status status = baum_i_problem_acceleration(problem, state->t, state->q, state->v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_problem_acceleration(problem, state->t, state->q, state->v));
   memcpy(run->now.rate, w->a, nv * sizeof *w->a);
   memcpy(run->now.lambda, w->lambda, (size_t)run->nc * sizeof *w->lambda);
   double shift = SHIFT * h;
@@ -112,10 +109,7 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   }
   memcpy(q, state->q, (size_t)run->nq * sizeof *q);
   baum_i_move(w->mechanism, shift, run->moved, q);
-  status = baum_i_problem_acceleration(problem, state->t + shift, q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_problem_acceleration(problem, state->t + shift, q, v));
   for (size_t i = 0; i < nv; i++) {
     run->now.a[i] = run->now.rate[i] + (ALPHA_M - ALPHA_F) * (w->a[i] - run->now.rate[i]) / SHIFT;
   }
@@ -195,15 +189,12 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
-  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   const double *rest = run->residual + run->nq;
   for (int i = 0; i < run->nv + run->nc; i++) {
     run->x[i] = -(i < run->nv ? ratios->scale : 1.0) * rest[i];
   }
-  status = baum_i_step_matrix_factor(run->matrix, w, ratios, t, run->y, run->dy);
+  baum_status status = baum_i_step_matrix_factor(run->matrix, w, ratios, t, run->y, run->dy);
   if (status == BAUM_ERR_SINGULAR) {
     return baum_i_fail(status, "t = %.9g s: generalized_alpha: the matrix of the step is singular",
                        t);
@@ -337,14 +328,9 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  baum_status status = prepare(run, problem, state);
-  if (status == BAUM_OK) {
-    predict(run, problem->workspace->mechanism, state, h);
-    status = iterate(run, problem, state, h);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(prepare(run, problem, state));
+  predict(run, problem->workspace->mechanism, state, h);
+  BAUM_I_TRY(iterate(run, problem, state, h));
   run->trial = h;
   const double *v = run->y + run->nq;
   for (int i = 0; i < nv; i++) {

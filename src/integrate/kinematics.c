@@ -364,18 +364,12 @@ static baum_status advance(void *self, const baum_i_problem *problem, baum_i_sta
 {
   kinematics_run *run = self;
   const baum_mechanism *m = problem->workspace->mechanism;
-  baum_status status = run->forgotten ? restart(self, problem, state) : BAUM_OK;
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(run->forgotten ? restart(self, problem, state) : BAUM_OK);
   double h = fmin(fmin(run->h, problem->max_step), LONGEST / problem->rate);
   h = fmax(h, 2.0 * shortest_step(problem, run->right->t));
   double left = problem->stops ? fabs(problem->stop - run->right->t) : (double)INFINITY;
   double end = h < left ? run->right->t + problem->direction * h : problem->stop;
-  status = step(run, problem, run->right, run->trial, end, &h);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(step(run, problem, run->right, run->trial, end, &h));
   run->h = h;
   swap(&run->left, &run->right);
   swap(&run->right, &run->trial);
@@ -447,25 +441,20 @@ static baum_status check_freedom(const baum_workspace *w)
 static baum_status set_up(kinematics_run *run, const baum_i_problem *problem,
                           const baum_i_state *start)
 {
-  baum_status status = baum_i_continuation_open(&run->path, problem->workspace);
-  if (status == BAUM_OK) {
-    status = make_poses(run, problem->workspace->mechanism);
-  }
-  return status == BAUM_OK ? restart(run, problem, start) : status;
+  BAUM_I_TRY(baum_i_continuation_open(&run->path, problem->workspace));
+  BAUM_I_TRY(make_poses(run, problem->workspace->mechanism));
+  return restart(run, problem, start);
 }
 
 static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
 {
   *out = NULL;
-  baum_status status = check_freedom(problem->workspace);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_freedom(problem->workspace));
   kinematics_run *run = baum_i_alloc(1, sizeof *run);
   if (!run) {
     return baum_i_fail_memory();
   }
-  status = set_up(run, problem, start);
+  baum_status status = set_up(run, problem, start);
   if (status != BAUM_OK) {
     destroy(run);
     return status;

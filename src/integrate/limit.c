@@ -16,8 +16,8 @@ static baum_status look_behind(const baum_i_problem *problem, const baum_i_state
   memcpy(room, state->q, (size_t)m->nq * sizeof *room);
   memcpy(v, state->v, (size_t)m->nv * sizeof *v);
   baum_i_move(m, dt, v, room);
-  baum_status status = baum_i_project(problem->workspace, state->t + dt, room, v);
-  return status == BAUM_OK ? baum_i_problem_motion(problem, state->t + dt, room, v) : status;
+  BAUM_I_TRY(baum_i_project(problem->workspace, state->t + dt, room, v));
+  return baum_i_problem_motion(problem, state->t + dt, room, v);
 }
 
 bool baum_i_limit_acceleration(const baum_i_problem *problem, const baum_i_state *state,

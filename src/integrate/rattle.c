@@ -110,14 +110,8 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
     run->v[i] = state->v[i] + 0.5 * h * a[i];
   }
   move_end(run, w->mechanism, state, h);
-  baum_status status = w->mechanism->nc > 0 ? find_positions(run, w, state, h) : BAUM_OK;
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = baum_i_hold_velocities(w, state->t + h, run->q, run->v, 2.0 / h);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(w->mechanism->nc > 0 ? find_positions(run, w, state, h) : BAUM_OK);
+  BAUM_I_TRY(baum_i_hold_velocities(w, state->t + h, run->q, run->v, 2.0 / h));
   memcpy(state->q, run->q, (size_t)w->mechanism->nq * sizeof *run->q);
   for (int i = 0; i < nv; i++) {
     state->v[i] = run->v[i] + 0.5 * h * w->a[i];

@@ -40,11 +40,9 @@ static void keep(const baum_i_rk *rk, const baum_mechanism *m, int stage, const 
 baum_status baum_i_rk_evaluate(const baum_i_rk *rk, const baum_i_problem *problem, double t,
                                const double *y, int stage)
 {
-  baum_status status = baum_i_problem_motion(problem, t, y, y + rk->nq);
-  if (status == BAUM_OK) {
-    keep(rk, problem->workspace->mechanism, stage, y, y + rk->nq, problem->workspace->a);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_problem_motion(problem, t, y, y + rk->nq));
+  keep(rk, problem->workspace->mechanism, stage, y, y + rk->nq, problem->workspace->a);
+  return BAUM_OK;
 }
 
 void baum_i_rk_combine(const baum_i_rk *rk, int count, const double *weights, double h, double *out)
@@ -56,13 +54,12 @@ baum_status baum_i_rk_stages(const baum_i_rk *rk, const baum_i_problem *problem,
 {
   const baum_i_rk_table *table = rk->table;
   const double *row = table->a;
-  baum_status status = BAUM_OK;
-  for (int i = 1; i < table->stages && status == BAUM_OK; i++) {
+  for (int i = 1; i < table->stages; i++) {
     baum_i_rk_combine(rk, i, row, h, rk->point);
-    status = baum_i_rk_evaluate(rk, problem, t + table->c[i] * h, rk->point, i);
+    BAUM_I_TRY(baum_i_rk_evaluate(rk, problem, t + table->c[i] * h, rk->point, i));
     row += i;
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
@@ -73,14 +70,12 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
   memcpy(rk->start, state->q, (size_t)rk->nq * sizeof *a);
   memcpy(rk->start + rk->nq, state->v, (size_t)rk->nv * sizeof *a);
   keep(rk, m, 0, state->q, state->v, a);
-  baum_status status = baum_i_rk_stages(rk, problem, state->t, h);
-  if (status == BAUM_OK) {
-    baum_i_rk_combine(rk, rk->table->stages, rk->table->b, h, rk->point);
-    baum_i_normalize(m, rk->point);
-    memcpy(state->q, rk->point, (size_t)rk->nq * sizeof *a);
-    memcpy(state->v, rk->point + rk->nq, (size_t)rk->nv * sizeof *a);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_rk_stages(rk, problem, state->t, h));
+  baum_i_rk_combine(rk, rk->table->stages, rk->table->b, h, rk->point);
+  baum_i_normalize(m, rk->point);
+  memcpy(state->q, rk->point, (size_t)rk->nq * sizeof *a);
+  memcpy(state->v, rk->point + rk->nq, (size_t)rk->nv * sizeof *a);
+  return BAUM_OK;
 }
 
 baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,

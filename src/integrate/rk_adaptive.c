@@ -390,14 +390,14 @@ static baum_status evaluate_extra(const adaptive_run *run, const baum_i_problem 
   const baum_i_rk *rk = &run->rk;
   const baum_i_rk_pair *pair = run->pair;
   const double *row = pair->extra_a;
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < pair->extra && status == BAUM_OK; i++) {
+  for (int i = 0; i < pair->extra; i++) {
     int stage = rk->table->stages + 1 + i;
     baum_i_rk_combine(rk, stage, row, run->h, rk->point);
-    status = baum_i_rk_evaluate(rk, problem, run->t + pair->extra_c[i] * run->h, rk->point, stage);
+    BAUM_I_TRY(
+      baum_i_rk_evaluate(rk, problem, run->t + pair->extra_c[i] * run->h, rk->point, stage));
     row += stage;
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* F of the step. */
@@ -427,12 +427,10 @@ static baum_status prepare_dense(adaptive_run *run, const baum_i_problem *proble
   if (run->has_dense) {
     return BAUM_OK;
   }
-  baum_status status = evaluate_extra(run, problem);
-  if (status == BAUM_OK) {
-    fill_dense(run);
-    run->has_dense = true;
-  }
-  return status;
+  BAUM_I_TRY(evaluate_extra(run, problem));
+  fill_dense(run);
+  run->has_dense = true;
+  return BAUM_OK;
 }
 
 /* Nested form of the head of this file, at coordinate i of (q, v). */
@@ -454,10 +452,7 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
     return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
                        run->pair->name);
   }
-  baum_status status = prepare_dense(run, problem);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(prepare_dense(run, problem));
   double x = (t - run->t) / run->h;
   for (int i = 0; i < run->rk.nq; i++) {
     q[i] = value_at(run, x, i);

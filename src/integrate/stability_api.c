@@ -22,10 +22,7 @@ static baum_status check_integrator(const baum_integrator *integrator)
 /* Has it a region? */
 static baum_status check_fixed_step(const baum_integrator *integrator)
 {
-  baum_status status = check_integrator(integrator);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_integrator(integrator));
   if (integrator->without_freedom) {
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "%s solves positions from the constraints, so there is nothing to stabilize "
@@ -64,8 +61,8 @@ static baum_status check_positive(double value, const char *name)
 
 static baum_status check_point(double alpha_h, double beta2_h2)
 {
-  baum_status status = check_finite(alpha_h, "alpha_h");
-  return status == BAUM_OK ? check_finite(beta2_h2, "beta2_h2") : status;
+  BAUM_I_TRY(check_finite(alpha_h, "alpha_h"));
+  return check_finite(beta2_h2, "beta2_h2");
 }
 
 static baum_status check_out(const void *out, const char *name)
@@ -79,8 +76,8 @@ static baum_status check_out(const void *out, const char *name)
 static baum_status check_pair(const void *first, const char *first_name, const void *second,
                               const char *second_name)
 {
-  baum_status status = check_out(first, first_name);
-  return status == BAUM_OK ? check_out(second, second_name) : status;
+  BAUM_I_TRY(check_out(first, first_name));
+  return check_out(second, second_name);
 }
 
 /* Two arrays of `capacity` and their count. */
@@ -90,19 +87,13 @@ static baum_status check_arrays(int32_t capacity, const void *first, const char 
   if (capacity < 0) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "capacity is %d, must be >= 0", (int)capacity);
   }
-  baum_status status = check_out(count, "count");
-  if (status == BAUM_OK && capacity > 0) {
-    status = check_pair(first, first_name, second, second_name);
-  }
-  return status;
+  BAUM_I_TRY(check_out(count, "count"));
+  return capacity > 0 ? check_pair(first, first_name, second, second_name) : BAUM_OK;
 }
 
 static baum_status check_range(const double range[2], const char *name)
 {
-  baum_status status = check_out(range, name);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_out(range, name));
   if (isfinite(range[0]) && isfinite(range[1])) {
     return BAUM_OK;
   }
@@ -114,16 +105,9 @@ static baum_status check_range(const double range[2], const char *name)
 baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h, double beta2_h2,
                               baum_amplification *out, size_t caller_size)
 {
-  baum_status status = check_integrator(integrator);
-  if (status == BAUM_OK) {
-    status = check_point(alpha_h, beta2_h2);
-  }
-  if (status == BAUM_OK) {
-    status = check_out(out, "out");
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_integrator(integrator));
+  BAUM_I_TRY(check_point(alpha_h, beta2_h2));
+  BAUM_I_TRY(check_out(out, "out"));
   if (caller_size < sizeof(size_t)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "caller_size is %zu, must be sizeof *out", caller_size);
   }
@@ -150,8 +134,8 @@ const char *baum_stability_statement(const baum_integrator *integrator)
 
 static baum_status check_ray(const baum_integrator *integrator, double damping_ratio)
 {
-  baum_status status = check_fixed_step(integrator);
-  return status == BAUM_OK ? check_positive(damping_ratio, "damping_ratio") : status;
+  BAUM_I_TRY(check_fixed_step(integrator));
+  return check_positive(damping_ratio, "damping_ratio");
 }
 
 typedef double alpha_h_of_ray(const baum_i_method *method, double damping_ratio);
@@ -159,14 +143,10 @@ typedef double alpha_h_of_ray(const baum_i_method *method, double damping_ratio)
 static baum_status answer_ray(const baum_integrator *integrator, double damping_ratio,
                               alpha_h_of_ray *find, double *alpha_h)
 {
-  baum_status status = check_ray(integrator, damping_ratio);
-  if (status == BAUM_OK) {
-    status = check_out(alpha_h, "alpha_h");
-  }
-  if (status == BAUM_OK) {
-    *alpha_h = find(&integrator->method, damping_ratio);
-  }
-  return status;
+  BAUM_I_TRY(check_ray(integrator, damping_ratio));
+  BAUM_I_TRY(check_out(alpha_h, "alpha_h"));
+  *alpha_h = find(&integrator->method, damping_ratio);
+  return BAUM_OK;
 }
 
 baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
@@ -184,14 +164,10 @@ baum_status baum_stability_best_on_ray(const baum_integrator *integrator, double
 baum_status baum_stability_intervals(const baum_integrator *integrator, double damping_ratio,
                                      int32_t capacity, double *from, double *to, int32_t *count)
 {
-  baum_status status = check_ray(integrator, damping_ratio);
-  if (status == BAUM_OK) {
-    status = check_arrays(capacity, from, "from", to, "to", count);
-  }
-  if (status == BAUM_OK) {
-    *count = baum_i_stability_intervals(&integrator->method, damping_ratio, capacity, from, to);
-  }
-  return status;
+  BAUM_I_TRY(check_ray(integrator, damping_ratio));
+  BAUM_I_TRY(check_arrays(capacity, from, "from", to, "to", count));
+  *count = baum_i_stability_intervals(&integrator->method, damping_ratio, capacity, from, to);
+  return BAUM_OK;
 }
 
 /* ---- in the plane ---- */
@@ -199,18 +175,16 @@ baum_status baum_stability_intervals(const baum_integrator *integrator, double d
 static baum_status check_point_out(const baum_integrator *integrator, const double *alpha_h,
                                    const double *beta2_h2)
 {
-  baum_status status = check_fixed_step(integrator);
-  return status == BAUM_OK ? check_pair(alpha_h, "alpha_h", beta2_h2, "beta2_h2") : status;
+  BAUM_I_TRY(check_fixed_step(integrator));
+  return check_pair(alpha_h, "alpha_h", beta2_h2, "beta2_h2");
 }
 
 baum_status baum_stability_best(const baum_integrator *integrator, double *alpha_h,
                                 double *beta2_h2)
 {
-  baum_status status = check_point_out(integrator, alpha_h, beta2_h2);
-  if (status == BAUM_OK) {
-    baum_i_stability_best(&integrator->method, alpha_h, beta2_h2);
-  }
-  return status;
+  BAUM_I_TRY(check_point_out(integrator, alpha_h, beta2_h2));
+  baum_i_stability_best(&integrator->method, alpha_h, beta2_h2);
+  return BAUM_OK;
 }
 
 baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
@@ -229,31 +203,23 @@ baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *a
 baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
                                    double beta2_h2, double *good_alpha_h, double *good_beta2_h2)
 {
-  baum_status status = check_fixed_step(integrator);
-  if (status == BAUM_OK) {
-    status = check_point(alpha_h, beta2_h2);
-  }
-  if (status == BAUM_OK) {
-    status = check_pair(good_alpha_h, "good_alpha_h", good_beta2_h2, "good_beta2_h2");
-  }
-  if (status == BAUM_OK) {
-    baum_i_stability_nearest(&integrator->method, alpha_h, beta2_h2, good_alpha_h, good_beta2_h2);
-  }
-  return status;
+  BAUM_I_TRY(check_fixed_step(integrator));
+  BAUM_I_TRY(check_point(alpha_h, beta2_h2));
+  BAUM_I_TRY(check_pair(good_alpha_h, "good_alpha_h", good_beta2_h2, "good_beta2_h2"));
+  baum_i_stability_nearest(&integrator->method, alpha_h, beta2_h2, good_alpha_h, good_beta2_h2);
+  return BAUM_OK;
 }
 
 static baum_status check_grid(const double alpha_h[2], const double beta2_h2[2], int32_t columns,
                               int32_t rows, const double *radius)
 {
-  baum_status status = check_range(alpha_h, "alpha_h");
-  if (status == BAUM_OK) {
-    status = check_range(beta2_h2, "beta2_h2");
+  BAUM_I_TRY(check_range(alpha_h, "alpha_h"));
+  BAUM_I_TRY(check_range(beta2_h2, "beta2_h2"));
+  if (!(columns >= 1 && rows >= 1)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "columns is %d and rows is %d, must be >= 1",
+                       (int)columns, (int)rows);
   }
-  if (status == BAUM_OK && !(columns >= 1 && rows >= 1)) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "columns is %d and rows is %d, must be >= 1",
-                         (int)columns, (int)rows);
-  }
-  return status == BAUM_OK ? check_out(radius, "radius") : status;
+  return check_out(radius, "radius");
 }
 
 /* Point k of n, both ends included; their difference may be beyond double. */
@@ -267,35 +233,27 @@ baum_status baum_stability_grid(const baum_integrator *integrator, const double 
                                 const double beta2_h2[2], int32_t columns, int32_t rows,
                                 double *radius)
 {
-  baum_status status = check_fixed_step(integrator);
-  if (status == BAUM_OK) {
-    status = check_grid(alpha_h, beta2_h2, columns, rows, radius);
-  }
-  for (int32_t j = 0; status == BAUM_OK && j < rows; j++) {
+  BAUM_I_TRY(check_fixed_step(integrator));
+  BAUM_I_TRY(check_grid(alpha_h, beta2_h2, columns, rows, radius));
+  for (int32_t j = 0; j < rows; j++) {
     for (int32_t i = 0; i < columns; i++) {
       radius[(size_t)j * (size_t)columns + (size_t)i] =
         1.0 + baum_i_amplification_growth(&integrator->method, share(alpha_h, i, columns),
                                           share(beta2_h2, j, rows));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_stability_outline(const baum_integrator *integrator, double radius,
                                    int32_t capacity, double *alpha_h, double *beta2_h2,
                                    int32_t *count)
 {
-  baum_status status = check_fixed_step(integrator);
-  if (status == BAUM_OK) {
-    status = check_positive(radius, "radius");
-  }
-  if (status == BAUM_OK) {
-    status = check_arrays(capacity, alpha_h, "alpha_h", beta2_h2, "beta2_h2", count);
-  }
-  if (status == BAUM_OK) {
-    baum_i_outline out = {.capacity = capacity, .alpha_h = alpha_h, .beta2_h2 = beta2_h2};
-    baum_i_stability_outline(&integrator->method, radius - 1.0, &out);
-    *count = out.count;
-  }
-  return status;
+  BAUM_I_TRY(check_fixed_step(integrator));
+  BAUM_I_TRY(check_positive(radius, "radius"));
+  BAUM_I_TRY(check_arrays(capacity, alpha_h, "alpha_h", beta2_h2, "beta2_h2", count));
+  baum_i_outline out = {.capacity = capacity, .alpha_h = alpha_h, .beta2_h2 = beta2_h2};
+  baum_i_stability_outline(&integrator->method, radius - 1.0, &out);
+  *count = out.count;
+  return BAUM_OK;
 }

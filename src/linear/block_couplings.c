@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "linear/block_builder.h"
 
 /* Block below the diagonal of two nodes at their places. */
@@ -75,37 +76,38 @@ baum_status baum_i_block_make_pairs(baum_i_block_builder *u)
 {
   const baum_i_raw_side *sides = u->sides.items;
   u->is_set = baum_i_alloc((size_t)u->block->off_count, 1);
-  baum_status status = u->is_set ? BAUM_OK : BAUM_ERR_MEMORY;
+  if (!u->is_set) {
+    return BAUM_ERR_MEMORY;
+  }
   for (int t = 1; t < u->block->body_block_count; t++) {
     bool couples = !baum_i_block_is_fixed(u, t);
     for (int32_t i = u->sorted_start[t]; couples && i < u->sorted_start[t + 1]; i++) {
-      for (int32_t k = u->sorted_start[t]; k < i && status == BAUM_OK; k++) {
-        status = add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]);
+      for (int32_t k = u->sorted_start[t]; k < i; k++) {
+        BAUM_I_TRY(add_pair(u, &sides[u->sorted[i]], &sides[u->sorted[k]]));
       }
     }
   }
-  for (int32_t i = 0; i < u->block->off_count && status == BAUM_OK; i++) {
-    status = u->is_set[i] ? BAUM_OK : baum_i_vector_append_number(&u->zeros, i);
+  for (int32_t i = 0; i < u->block->off_count; i++) {
+    BAUM_I_TRY(u->is_set[i] ? BAUM_OK : baum_i_vector_append_number(&u->zeros, i));
   }
   sort_pairs(&u->alike);
   sort_pairs(&u->opposite);
   sort_pairs(&u->first_pairs);
   sort_pairs(&u->full_pairs);
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_block_make_targets(baum_i_block_builder *u)
 {
   baum_i_block *b = u->block;
   const baum_i_elimination *order = &b->order;
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < b->node_count && status == BAUM_OK; k++) {
+  for (int k = 0; k < b->node_count; k++) {
     const int32_t *later = order->later;
     for (int f = order->start[k] + 1; f < order->start[k + 1]; f++) {
-      for (int e = order->start[k]; e < f && status == BAUM_OK; e++) {
-        status = baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f]));
+      for (int e = order->start[k]; e < f; e++) {
+        BAUM_I_TRY(baum_i_vector_append_number(&u->targets, find_off(order, later[e], later[f])));
       }
     }
   }
-  return status;
+  return BAUM_OK;
 }

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "linear/block_builder.h"
 
 /* A body with more sides than the first makes a clique, and so many couplings for each node make
@@ -129,8 +130,8 @@ static baum_status add_pin(baum_i_block_builder *u, int row, const baum_i_block_
   int32_t arm = 2 * u->raw_pins++;
   int32_t a = pin->body_a < 0 ? 0 : u->body_block_of[pin->body_a];
   int32_t b = pin->body_b < 0 ? 0 : u->body_block_of[pin->body_b];
-  baum_status status = add_side(u, a, ~arm);
-  return status == BAUM_OK ? add_side(u, b, ~(arm + 1)) : status;
+  BAUM_I_TRY(add_side(u, a, ~arm));
+  return add_side(u, b, ~(arm + 1));
 }
 
 /* The full side of the present node on a body block, made when there is none. */
@@ -145,8 +146,8 @@ static baum_status find_side(baum_i_block_builder *u, int32_t body_block, int32_
     }
   }
   *number = u->full_sides.count;
-  baum_status status = baum_i_vector_append_number(&u->full_sides, body_block);
-  return status == BAUM_OK ? add_side(u, body_block, *number) : status;
+  BAUM_I_TRY(baum_i_vector_append_number(&u->full_sides, body_block));
+  return add_side(u, body_block, *number);
 }
 
 /* A dense body's sides are made together, so that they stand one after the other. */
@@ -157,9 +158,7 @@ static baum_status find_dense_sides(baum_i_block_builder *u, int32_t body)
   int size = u->layout->structure->mass_blocks[body].size;
   for (int k = 0; k < triples_for(size); k++) {
     int32_t number;
-    if (find_side(u, u->body_block_of[body] + k, &number) != BAUM_OK) {
-      return BAUM_ERR_MEMORY;
-    }
+    BAUM_I_TRY(find_side(u, u->body_block_of[body] + k, &number));
     first = k == 0 ? number : first;
   }
   if (u->full_sides.count == before) {
@@ -178,13 +177,11 @@ static baum_status add_column(baum_i_block_builder *u, const baum_i_row_block *r
 {
   int32_t body = u->column_body[rows->col[c]];
   int j = rows->col[c] - u->layout->structure->mass_blocks[body].first;
-  baum_status status = u->dense_of[body] >= 0 ? find_dense_sides(u, body) : BAUM_OK;
   int32_t number = 0;
-  if (status == BAUM_OK) {
-    status = find_side(u, u->body_block_of[body] + j / 3, &number);
-  }
+  BAUM_I_TRY(u->dense_of[body] >= 0 ? find_dense_sides(u, body) : BAUM_OK);
+  BAUM_I_TRY(find_side(u, u->body_block_of[body] + j / 3, &number));
   const baum_i_raw_node *node = (baum_i_raw_node *)u->nodes.items + u->nodes.count - 1;
-  baum_i_side_entry *entry = status == BAUM_OK ? baum_i_vector_append(&u->entries) : NULL;
+  baum_i_side_entry *entry = baum_i_vector_append(&u->entries);
   if (!entry) {
     return BAUM_ERR_MEMORY;
   }
@@ -205,11 +202,10 @@ static baum_status add_full(baum_i_block_builder *u, const baum_i_row_block *row
   }
   node->row[0] = row[0];
   node->row[1] = row[1];
-  baum_status status = BAUM_OK;
-  for (int c = 0; c < rows->cols && status == BAUM_OK; c++) {
-    status = add_column(u, rows, c);
+  for (int c = 0; c < rows->cols; c++) {
+    BAUM_I_TRY(add_column(u, rows, c));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Rows that are left, two by two. */
@@ -217,33 +213,31 @@ static baum_status add_rows(baum_i_block_builder *u, const baum_i_row_block *row
 {
   int32_t pair[2] = {-1, -1};
   int have = 0;
-  baum_status status = BAUM_OK;
-  for (int r = rows->row; r < rows->row + rows->rows && status == BAUM_OK; r++) {
+  for (int r = rows->row; r < rows->row + rows->rows; r++) {
     if (!is_omitted(u, r)) {
       pair[have++] = r;
     }
     bool last = r == rows->row + rows->rows - 1;
     if (have == 2 || (have == 1 && last)) {
-      status = add_full(u, rows, pair);
+      BAUM_I_TRY(add_full(u, rows, pair));
       pair[0] = -1;
       pair[1] = -1;
       have = 0;
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status make_nodes(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;
-  baum_status status = BAUM_OK;
-  for (int i = 0; i < s->row_block_count && status == BAUM_OK; i++) {
+  for (int i = 0; i < s->row_block_count; i++) {
     const baum_i_row_block *rows = &s->row_blocks[i];
     const baum_i_block_pin *pin = &u->layout->pins[i];
     bool whole = pin->is_pin && !is_omitted(u, rows->row) && !is_omitted(u, rows->row + 1);
-    status = whole ? add_pin(u, rows->row, pin) : add_rows(u, rows);
+    BAUM_I_TRY(whole ? add_pin(u, rows->row, pin) : add_rows(u, rows));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Whether three entries from here on are all of a side, its columns and J's in the same order. */
@@ -339,9 +333,7 @@ static baum_status add_neighbours(baum_i_block_builder *u, int32_t node, int32_t
       int32_t other = sides[u->sorted[k]].node;
       if (mark[other] != node + 1) {
         mark[other] = node + 1;
-        if (baum_i_vector_append_number(&u->neighbours, other) != BAUM_OK) {
-          return BAUM_ERR_MEMORY;
-        }
+        BAUM_I_TRY(baum_i_vector_append_number(&u->neighbours, other));
       }
     }
   }
@@ -367,12 +359,10 @@ static baum_status find_order(baum_i_block_builder *u)
   baum_i_block *b = u->block;
   const baum_i_graph graph = {u->nodes.count, u->graph_start, u->neighbours.items};
   int most = MOST_COUPLINGS * (u->nodes.count + SMALL);
-  baum_status status = baum_i_elimination_create(&graph, most, &b->order);
-  if (status == BAUM_OK) {
-    b->node_count = u->nodes.count;
-    b->off_count = b->order.start[b->node_count];
-  }
-  return status;
+  BAUM_I_TRY(baum_i_elimination_create(&graph, most, &b->order));
+  b->node_count = u->nodes.count;
+  b->off_count = b->order.start[b->node_count];
+  return BAUM_OK;
 }
 
 /* ---- nodes at their places ---- */

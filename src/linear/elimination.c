@@ -12,6 +12,7 @@
 #include <stdlib.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 
 /* A growing list of nodes. */
 typedef struct list {
@@ -121,13 +122,12 @@ static baum_status couple(search *s, int32_t node, int32_t other)
     }
   }
   mine->count = kept;
-  baum_status status = BAUM_OK;
-  for (int32_t i = 0; i < gone->count && status == BAUM_OK; i++) {
+  for (int32_t i = 0; i < gone->count; i++) {
     if (s->mark[gone->item[i]] != s->stamp) {
-      status = push(mine, gone->item[i]);
+      BAUM_I_TRY(push(mine, gone->item[i]));
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Out of its bucket until the next round. */
@@ -145,52 +145,45 @@ static baum_status eliminate(search *s, int32_t node)
 {
   baum_i_elimination *out = s->out;
   list *gone = &s->coupled[node];
-  baum_status status = BAUM_OK;
-  for (int32_t i = 0; i < gone->count && status == BAUM_OK; i++) {
+  for (int32_t i = 0; i < gone->count; i++) {
     int32_t other = gone->item[i];
-    status = touch(s, other);
-    if (status == BAUM_OK) {
-      status = couple(s, node, other);
-    }
-    if (status == BAUM_OK) {
-      status = push(&s->later, other);
-    }
+    BAUM_I_TRY(touch(s, other));
+    BAUM_I_TRY(couple(s, node, other));
+    BAUM_I_TRY(push(&s->later, other));
   }
   out->place[node] = out->count;
   out->node[out->count++] = node;
   out->start[out->count] = s->later.count;
   baum_i_free(gone->item);
   *gone = (list){0};
-  return status == BAUM_OK && s->later.count > s->most ? BAUM_ERR_SINGULAR : status;
+  return s->later.count > s->most ? BAUM_ERR_SINGULAR : BAUM_OK;
 }
 
 static baum_status take_round(search *s, int32_t bucket)
 {
-  baum_status status = BAUM_OK;
   s->round++;
   s->waiting.count = 0;
-  while (s->head[bucket] >= 0 && status == BAUM_OK) {
+  while (s->head[bucket] >= 0) {
     int32_t node = s->head[bucket];
     leave(s, node);
-    status = eliminate(s, node);
+    BAUM_I_TRY(eliminate(s, node));
   }
   for (int32_t i = 0; i < s->waiting.count; i++) {
     enter(s, s->waiting.item[i]);
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status take_rounds(search *s)
 {
-  baum_status status = BAUM_OK;
-  while (s->out->count < s->count && status == BAUM_OK) {
+  while (s->out->count < s->count) {
     int32_t bucket = 0;
     while (s->head[bucket] < 0) {
       bucket++;
     }
-    status = take_round(s, bucket);
+    BAUM_I_TRY(take_round(s, bucket));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- before and after ---- */
@@ -202,9 +195,7 @@ static baum_status begin(search *s, const baum_i_graph *graph)
   }
   for (int32_t i = 0; i < s->count; i++) {
     for (int32_t k = graph->start[i]; k < graph->start[i + 1]; k++) {
-      if (push(&s->coupled[i], graph->neighbour[k]) != BAUM_OK) {
-        return BAUM_ERR_MEMORY;
-      }
+      BAUM_I_TRY(push(&s->coupled[i], graph->neighbour[k]));
     }
   }
   /* The last to enter a bucket is the first to leave it. */

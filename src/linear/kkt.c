@@ -349,19 +349,17 @@ baum_status baum_i_kkt_solve(baum_i_kkt *kkt, const double *f, const double *r, 
   if (!are_finite(kkt->b, kkt->n)) {
     return BAUM_ERR_NOT_FINITE;
   }
-  baum_status status = solve_climbing(kkt);
-  if (status == BAUM_OK) {
-    copy(kkt->x, kkt->structure->nv, a);
-    copy(kkt->x + kkt->structure->nv, kkt->structure->nc, lambda);
-  }
-  return report(status);
+  BAUM_I_TRY(report(solve_climbing(kkt)));
+  copy(kkt->x, kkt->structure->nv, a);
+  copy(kkt->x + kkt->structure->nv, kkt->structure->nc, lambda);
+  return BAUM_OK;
 }
 
 baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values *values,
                                         const double *f, const double *r, double *a, double *lambda)
 {
-  baum_status status = baum_i_kkt_factor(kkt, values);
-  return status == BAUM_OK ? baum_i_kkt_solve(kkt, f, r, a, lambda) : status;
+  BAUM_I_TRY(baum_i_kkt_factor(kkt, values));
+  return baum_i_kkt_solve(kkt, f, r, a, lambda);
 }
 
 void baum_i_kkt_forget(baum_i_kkt *kkt)

@@ -270,15 +270,10 @@ static baum_status check_draft(const rule_type *rule, const baum_i_gain_draft *g
 static baum_status make_draft(const rule_type *rule, const double value[2],
                               const baum_i_gain_context *context, baum_i_gain_draft *out)
 {
-  baum_status status = check_numbers(rule, value);
-  if (status == BAUM_OK) {
-    status = check_needs(rule, context);
-  }
-  if (status == BAUM_OK) {
-    rule->apply(value, context, out);
-    status = check_draft(rule, out);
-  }
-  return status;
+  BAUM_I_TRY(check_numbers(rule, value));
+  BAUM_I_TRY(check_needs(rule, context));
+  rule->apply(value, context, out);
+  return check_draft(rule, out);
 }
 
 static bool is_without_step(const baum_i_gain_context *context)
