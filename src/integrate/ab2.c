@@ -14,21 +14,17 @@ static const double WEIGHTS[] = {
 
 static const baum_i_adams_table TABLE = {.steps = 2, .weights = WEIGHTS};
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  return baum_i_adams_create(&TABLE, problem, start, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "ab2",
+  .table = &TABLE,
   .order = 2,
-  .formulations = baum_i_adams_formulations,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 2,
              .coefficients = {3.0 / 2.0, -1.0 / 2.0},
              .best = {2.0 / 3.0, 4.0 / 9.0}},
-  .create = create,
+  .create = baum_i_adams_create,
   .destroy = baum_i_adams_destroy,
   .step = baum_i_adams_step,
   .accept = baum_i_adams_accept,

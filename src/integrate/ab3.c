@@ -17,21 +17,17 @@ static const double WEIGHTS[] = {
 
 static const baum_i_adams_table TABLE = {.steps = 3, .weights = WEIGHTS};
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  return baum_i_adams_create(&TABLE, problem, start, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "ab3",
+  .table = &TABLE,
   .order = 3,
-  .formulations = baum_i_adams_formulations,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 3,
              .coefficients = {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0},
              .best = {33.0 / 92.0, 33.0 / 92.0 * 33.0 / 92.0}},
-  .create = create,
+  .create = baum_i_adams_create,
   .destroy = baum_i_adams_destroy,
   .step = baum_i_adams_step,
   .accept = baum_i_adams_accept,

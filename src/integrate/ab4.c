@@ -19,21 +19,17 @@ static const double WEIGHTS[] = {
 
 static const baum_i_adams_table TABLE = {.steps = 4, .weights = WEIGHTS};
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  return baum_i_adams_create(&TABLE, problem, start, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "ab4",
+  .table = &TABLE,
   .order = 4,
-  .formulations = baum_i_adams_formulations,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 4,
              .coefficients = {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0},
              .best = {0.21464433859629878, 0.21464433859629878 * 0.21464433859629878}},
-  .create = create,
+  .create = baum_i_adams_create,
   .destroy = baum_i_adams_destroy,
   .step = baum_i_adams_step,
   .accept = baum_i_adams_accept,

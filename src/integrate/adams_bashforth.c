@@ -34,12 +34,6 @@ typedef struct adams_run {
   double *slots; /* (steps x (nq + nv)) N v and a of a point */
 } adams_run;
 
-const baum_formulation baum_i_adams_formulations[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 /* ---- the past ---- */
 
 /* N v and a of the point j steps back. */
@@ -130,7 +124,7 @@ void baum_i_adams_forget(void *self)
 
 /* ---- memory ---- */
 
-baum_status baum_i_adams_create(const baum_i_adams_table *table, const baum_i_problem *problem,
+baum_status baum_i_adams_create(const void *table, const baum_i_problem *problem,
                                 const baum_i_state *start, void **out)
 {
   *out = NULL;
@@ -141,10 +135,11 @@ baum_status baum_i_adams_create(const baum_i_adams_table *table, const baum_i_pr
   run->table = table;
   run->nq = problem->workspace->mechanism->nq;
   run->nv = problem->workspace->mechanism->nv;
-  baum_status status = baum_rk4()->create(problem, start, &run->starter);
+  const baum_integrator *rk4 = baum_rk4();
+  baum_status status = rk4->create(rk4->table, problem, start, &run->starter);
   if (status == BAUM_OK) {
     run->slots =
-      baum_i_alloc((size_t)table->steps * (size_t)(run->nq + run->nv), sizeof *run->slots);
+      baum_i_alloc((size_t)run->table->steps * (size_t)(run->nq + run->nv), sizeof *run->slots);
     status = run->slots ? BAUM_OK : baum_i_fail_memory();
   }
   if (status != BAUM_OK) {

@@ -14,11 +14,8 @@ typedef struct baum_i_adams_table {
   const double *weights; /* (k x k) */
 } baum_i_adams_table;
 
-/* Formulations of all of them. */
-extern const baum_formulation baum_i_adams_formulations[];
-
-/* As in baum_integrator; create also takes the table, which must stay. */
-baum_status baum_i_adams_create(const baum_i_adams_table *table, const baum_i_problem *problem,
+/* As in baum_integrator; the table is a baum_i_adams_table. */
+baum_status baum_i_adams_create(const void *table, const baum_i_problem *problem,
                                 const baum_i_state *start, void **out);
 void baum_i_adams_destroy(void *self);
 baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_state *state,

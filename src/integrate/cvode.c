@@ -210,29 +210,20 @@ static const baum_i_sundials_package PACKAGE = {
   .close = close_run,
 };
 
-static baum_status create_adams(const baum_i_problem *problem, const baum_i_state *start,
-                                void **out)
-{
-  static const baum_i_sundials_method METHOD = {
-    .name = "cvode_adams",
-    .package = &PACKAGE,
-    .multistep = CV_ADAMS,
-    .attach = attach_adams,
-  };
-  return baum_i_sundials_create(&METHOD, problem, start, out);
-}
+static const baum_i_sundials_method ADAMS_METHOD = {
+  .name = "cvode_adams",
+  .package = &PACKAGE,
+  .multistep = CV_ADAMS,
+  .attach = attach_adams,
+};
 
-static baum_status create_bdf(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  static const baum_i_sundials_method METHOD = {
-    .name = "cvode_bdf",
-    .package = &PACKAGE,
-    .open = open_bdf,
-    .multistep = CV_BDF,
-    .attach = attach_bdf,
-  };
-  return baum_i_sundials_create(&METHOD, problem, start, out);
-}
+static const baum_i_sundials_method BDF_METHOD = {
+  .name = "cvode_bdf",
+  .package = &PACKAGE,
+  .open = open_bdf,
+  .multistep = CV_BDF,
+  .attach = attach_bdf,
+};
 
 /* ---- for tests ---- */
 
@@ -255,39 +246,27 @@ baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, dou
 
 /* ---- the two integrators ---- */
 
-static const baum_formulation ADAMS_FORMULATIONS[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_DEFAULT,
-};
-
-static const baum_formulation BDF_FORMULATIONS[] = {
-  BAUM_FORMULATION_PROJECTION,
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator ADAMS = {
   .name = "cvode_adams",
-  .formulations = ADAMS_FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
   .why_no_projection = "CVODE projects only within BDF",
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_ADAMS,
 #if BAUM_HAVE_SUNDIALS
-  .create = create_adams,
+  .table = &ADAMS_METHOD,
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };
 
 static const baum_integrator BDF = {
   .name = "cvode_bdf",
-  .formulations = BDF_FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
+                   BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_BDF,
   .seen = 60.0 / 137.0,
 #if BAUM_HAVE_SUNDIALS
-  .create = create_bdf,
+  .table = &BDF_METHOD,
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };

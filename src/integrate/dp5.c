@@ -36,7 +36,7 @@ static const double DENSE[] = {
   69997945.0 / 29380423.0,
 };
 
-const baum_i_rk_pair baum_i_dp5_pair = {
+static const baum_i_rk_pair PAIR = {
   .name = "dp5",
   .table = {.stages = 6, .c = C, .a = A, .b = B},
   .error_order = 5,
@@ -46,22 +46,18 @@ const baum_i_rk_pair baum_i_dp5_pair = {
   .dense_row = DENSE,
 };
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  (void)start;
-  return baum_i_rk_adaptive_create(&baum_i_dp5_pair, problem, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "dp5",
+  .table = &PAIR,
   .order = 5,
-  .formulations = baum_i_rk_formulations,
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
+                   BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 6,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0,
                               1.0 / 600.0}},
-  .create = create,
+  .create = baum_i_rk_adaptive_create,
   .destroy = baum_i_rk_adaptive_destroy,
   .step = baum_i_rk_step,
   .advance = baum_i_rk_adaptive_advance,

@@ -18,17 +18,11 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_PROJECTION,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator EULER = {
   .name = "euler",
   .order = 1,
-  .formulations = FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+                   BAUM_FORMULATION_PROJECTION},
   .gains = BAUM_GAINS_DEADBEAT,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 1, .coefficients = {1.0, 1.0}},
   .predicts_violation = true,

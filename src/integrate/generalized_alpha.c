@@ -415,8 +415,10 @@ static bool make_memory(alpha_run *run)
   return true;
 }
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+static baum_status create(const void *table, const baum_i_problem *problem,
+                          const baum_i_state *start, void **out)
 {
+  (void)table;
   (void)start;
   *out = NULL;
   alpha_run *run = baum_i_alloc(1, sizeof *run);
@@ -453,15 +455,10 @@ const double *baum_i_generalized_alpha_multipliers(const void *run)
   return self->now.lambda;
 }
 
-static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_INDEX3,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator GENERALIZED_ALPHA = {
   .name = "generalized_alpha",
   .order = 2,
-  .formulations = FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_INDEX3},
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .solves_residuals = true,

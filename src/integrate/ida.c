@@ -348,29 +348,25 @@ static const baum_i_sundials_package PACKAGE = {
   .close = close_run,
 };
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  static const baum_i_sundials_method METHOD = {
-    .name = "ida",
-    .package = &PACKAGE,
-    .open = open_with_klu,
-    .attach = attach_klu,
-  };
-  return baum_i_sundials_create(&METHOD, problem, start, out);
-}
+static const baum_i_sundials_method METHOD = {
+  .name = "ida",
+  .package = &PACKAGE,
+  .open = open_with_klu,
+  .attach = attach_klu,
+};
 
 /* ---- for tests ---- */
 
 baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
                                                const baum_i_state *start, void **out)
 {
-  static const baum_i_sundials_method METHOD = {
+  static const baum_i_sundials_method DIFFERENCES = {
     .name = "ida",
     .package = &PACKAGE,
     .open = open_run,
     .attach = attach_dense,
   };
-  return baum_i_sundials_create(&METHOD, problem, start, out);
+  return baum_i_sundials_create(&DIFFERENCES, problem, start, out);
 }
 
 const double *baum_i_ida_multipliers(const void *run)
@@ -384,21 +380,17 @@ const double *baum_i_ida_multipliers(const void *run)
 
 /* ---- the integrator ---- */
 
-static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_GGL,    BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_INDEX2, BAUM_FORMULATION_INDEX3,    BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator IDA = {
   .name = "ida",
-  .formulations = FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_GGL, BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+                   BAUM_FORMULATION_INDEX2, BAUM_FORMULATION_INDEX3},
   .gains = BAUM_GAINS_AUTO,
   .family = BAUM_I_FAMILY_BDF,
   .seen = 1.0,
   .tests_multipliers = true,
   .solves_residuals = true,
 #if BAUM_HAVE_SUNDIALS
-  .create = create,
+  .table = &METHOD,
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };

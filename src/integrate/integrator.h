@@ -53,11 +53,12 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  int order;                            /* 0: variable */
-  const baum_formulation *formulations; /* default first, ends with BAUM_FORMULATION_DEFAULT */
-  baum_gain_rule gains;                 /* what BAUM_GAINS_DEFAULT means */
-  baum_i_method method;                 /* amplification */
-  baum_i_method_family family;          /* of methods without one */
+  const void *table;                /* what create() takes; of a method of a family */
+  int order;                        /* 0: variable */
+  baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
+  baum_gain_rule gains;             /* what BAUM_GAINS_DEFAULT means */
+  baum_i_method method;             /* amplification */
+  baum_i_method_family family;      /* of methods without one */
   double seen; /* BDF: share of what a step adds to the error of a motion, that is tested */
   bool
     predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
@@ -68,7 +69,8 @@ struct baum_integrator {
   bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
 
   /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
-  baum_status (*create)(const baum_i_problem *problem, const baum_i_state *start, void **out);
+  baum_status (*create)(const void *table, const baum_i_problem *problem, const baum_i_state *start,
+                        void **out);
   void (*destroy)(void *self); /* NULL is fine */
 
   /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by

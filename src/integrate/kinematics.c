@@ -446,8 +446,10 @@ static baum_status set_up(kinematics_run *run, const baum_i_problem *problem,
   return restart(run, problem, start);
 }
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+static baum_status create(const void *table, const baum_i_problem *problem,
+                          const baum_i_state *start, void **out)
 {
+  (void)table;
   *out = NULL;
   BAUM_I_TRY(check_freedom(problem->workspace));
   kinematics_run *run = baum_i_alloc(1, sizeof *run);
@@ -465,11 +467,8 @@ static baum_status create(const baum_i_problem *problem, const baum_i_state *sta
 
 /* ---- the integrator ---- */
 
-static const baum_formulation FORMULATIONS[] = {BAUM_FORMULATION_DEFAULT};
-
 static const baum_integrator KINEMATICS = {
   .name = "kinematics",
-  .formulations = FORMULATIONS,
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .without_freedom = true,

@@ -190,8 +190,10 @@ static baum_status make_run(const baum_i_problem *problem, void **out)
   return BAUM_OK;
 }
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
+static baum_status create(const void *table, const baum_i_problem *problem,
+                          const baum_i_state *start, void **out)
 {
+  (void)table;
   (void)start;
   *out = NULL;
   BAUM_I_TRY(check_mechanism(problem->workspace->mechanism));
@@ -204,15 +206,10 @@ static void count(const void *self, baum_i_statistics *out)
   *out = (baum_i_statistics){.nonlinear_iterations = run->iterations};
 }
 
-static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_INDEX3,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator RATTLE = {
   .name = "rattle",
   .order = 2,
-  .formulations = FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_INDEX3},
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .create = create,

@@ -16,13 +16,6 @@
 #include "base/hot.h"
 #include "base/message.h"
 
-const baum_formulation baum_i_rk_formulations[] = {
-  BAUM_FORMULATION_PROJECTION,
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 double *baum_i_rk_rate(const baum_i_rk *rk, int stage)
 {
   return rk->rates + (size_t)stage * (size_t)rk->size;
@@ -98,16 +91,18 @@ baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
   return BAUM_OK;
 }
 
-baum_status baum_i_rk_create(const baum_i_rk_table *table, const baum_i_problem *problem,
-                             void **out)
+baum_status baum_i_rk_create(const void *table, const baum_i_problem *problem,
+                             const baum_i_state *start, void **out)
 {
+  (void)start;
   *out = NULL;
   double *more = NULL;
   baum_i_rk *rk = baum_i_alloc(1, sizeof *rk);
   if (!rk) {
     return baum_i_fail_memory();
   }
-  baum_status status = baum_i_rk_open(rk, table, problem, table->stages, 0, &more);
+  const baum_i_rk_table *of = table;
+  baum_status status = baum_i_rk_open(rk, of, problem, of->stages, 0, &more);
   if (status != BAUM_OK) {
     baum_i_rk_destroy(rk);
     return status;

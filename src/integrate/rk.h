@@ -28,12 +28,9 @@ typedef struct baum_i_rk {
   double *point; /* (size) (Q_i, V_i) of the present stage */
 } baum_i_rk;
 
-/* Formulations of every Runge-Kutta method. */
-extern const baum_formulation baum_i_rk_formulations[];
-
-/* As in baum_integrator; create also takes the table, which must stay. */
-baum_status baum_i_rk_create(const baum_i_rk_table *table, const baum_i_problem *problem,
-                             void **out);
+/* As in baum_integrator; the table is a baum_i_rk_table. */
+baum_status baum_i_rk_create(const void *table, const baum_i_problem *problem,
+                             const baum_i_state *start, void **out);
 void baum_i_rk_destroy(void *self);
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                            const double *a);

@@ -15,19 +15,15 @@ static const double B[] = {0.0, 1.0};
 
 static const baum_i_rk_table TABLE = {.stages = 2, .c = C, .a = A, .b = B};
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  (void)start;
-  return baum_i_rk_create(&TABLE, problem, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "rk2",
+  .table = &TABLE,
   .order = 2,
-  .formulations = baum_i_rk_formulations,
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
+                   BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP, .degree = 2, .coefficients = {1.0, 1.0, 1.0 / 2.0}},
-  .create = create,
+  .create = baum_i_rk_create,
   .destroy = baum_i_rk_destroy,
   .step = baum_i_rk_step,
 };

@@ -16,21 +16,17 @@ static const double B[] = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0};
 
 static const baum_i_rk_table TABLE = {.stages = 3, .c = C, .a = A, .b = B};
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  (void)start;
-  return baum_i_rk_create(&TABLE, problem, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "rk3",
+  .table = &TABLE,
   .order = 3,
-  .formulations = baum_i_rk_formulations,
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
+                   BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 3,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0}},
-  .create = create,
+  .create = baum_i_rk_create,
   .destroy = baum_i_rk_destroy,
   .step = baum_i_rk_step,
 };

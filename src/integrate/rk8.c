@@ -82,7 +82,7 @@ static const double DENSE[] = {
 };
 /* clang-format on */
 
-const baum_i_rk_pair baum_i_rk8_pair = {
+static const baum_i_rk_pair PAIR = {
   .name = "rk8",
   .table = {.stages = 12, .c = C, .a = A, .b = B},
   .error_order = 8,
@@ -96,23 +96,19 @@ const baum_i_rk_pair baum_i_rk8_pair = {
   .dense_row = DENSE,
 };
 
-static baum_status create(const baum_i_problem *problem, const baum_i_state *start, void **out)
-{
-  (void)start;
-  return baum_i_rk_adaptive_create(&baum_i_rk8_pair, problem, out);
-}
-
 static const baum_integrator INTEGRATOR = {
   .name = "rk8",
+  .table = &PAIR,
   .order = 8,
-  .formulations = baum_i_rk_formulations,
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
+                   BAUM_FORMULATION_UNSTABILIZED},
   .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 12,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0,
                               1.0 / 5040.0, 1.0 / 40320.0, 2.691692200169086e-06,
                               2.34134510820978e-07, 1.4947364854591546e-08, 3.613324578128244e-10}},
-  .create = create,
+  .create = baum_i_rk_adaptive_create,
   .destroy = baum_i_rk_adaptive_destroy,
   .step = baum_i_rk_step,
   .advance = baum_i_rk_adaptive_advance,

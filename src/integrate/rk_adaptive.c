@@ -472,10 +472,12 @@ void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
   *out = (baum_i_statistics){.rejected = run->rejected, .forced = run->forced};
 }
 
-baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,
-                                      void **out)
+baum_status baum_i_rk_adaptive_create(const void *table, const baum_i_problem *problem,
+                                      const baum_i_state *start, void **out)
 {
+  (void)start;
   *out = NULL;
+  const baum_i_rk_pair *pair = table;
   adaptive_run *run = baum_i_alloc(1, sizeof *run);
   if (!run) {
     return baum_i_fail_memory();

@@ -22,12 +22,9 @@ typedef struct baum_i_rk_pair {
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 
-extern const baum_i_rk_pair baum_i_dp5_pair;
-extern const baum_i_rk_pair baum_i_rk8_pair;
-
-/* As in baum_integrator; create also takes the pair, which must stay. */
-baum_status baum_i_rk_adaptive_create(const baum_i_rk_pair *pair, const baum_i_problem *problem,
-                                      void **out);
+/* As in baum_integrator; the table is a baum_i_rk_pair. */
+baum_status baum_i_rk_adaptive_create(const void *table, const baum_i_problem *problem,
+                                      const baum_i_state *start, void **out);
 void baum_i_rk_adaptive_destroy(void *self);
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,
                                        baum_i_state *state);

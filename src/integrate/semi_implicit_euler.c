@@ -19,17 +19,11 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-static const baum_formulation FORMULATIONS[] = {
-  BAUM_FORMULATION_BAUMGARTE,
-  BAUM_FORMULATION_UNSTABILIZED,
-  BAUM_FORMULATION_PROJECTION,
-  BAUM_FORMULATION_DEFAULT,
-};
-
 static const baum_integrator SEMI_IMPLICIT_EULER = {
   .name = "semi_implicit_euler",
   .order = 1,
-  .formulations = FORMULATIONS,
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED,
+                   BAUM_FORMULATION_PROJECTION},
   .gains = BAUM_GAINS_DEADBEAT,
   .method = {.kind = BAUM_I_METHOD_SEMI_IMPLICIT},
   .predicts_violation = true,

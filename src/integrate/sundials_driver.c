@@ -328,16 +328,16 @@ static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
   return flag == 0 ? BAUM_OK : fail(run, flag, 0.0);
 }
 
-baum_status baum_i_sundials_create(const baum_i_sundials_method *method,
-                                   const baum_i_problem *problem, const baum_i_state *start,
-                                   void **out)
+baum_status baum_i_sundials_create(const void *method, const baum_i_problem *problem,
+                                   const baum_i_state *start, void **out)
 {
   *out = NULL;
-  baum_i_sundials *run = baum_i_alloc(1, method->package->run_size);
+  const baum_i_sundials_method *of = method;
+  baum_i_sundials *run = baum_i_alloc(1, of->package->run_size);
   if (!run) {
     return baum_i_fail_memory();
   }
-  run->method = method;
+  run->method = of;
   baum_status status = set_up(run, problem, start);
   if (status != BAUM_OK) {
     baum_i_sundials_destroy(run);

@@ -84,9 +84,8 @@ typedef struct baum_i_sundials_method {
 /* clang-format on */
 
 /* As create() of an integrator. */
-baum_status baum_i_sundials_create(const baum_i_sundials_method *method,
-                                   const baum_i_problem *problem, const baum_i_state *start,
-                                   void **out);
+baum_status baum_i_sundials_create(const void *method, const baum_i_problem *problem,
+                                   const baum_i_state *start, void **out);
 
 /* ---- operations of an integrator ---- */
 
@@ -99,9 +98,9 @@ baum_status baum_i_sundials_restart(void *self, const baum_i_problem *problem,
 void baum_i_sundials_forget(void *self);
 void baum_i_sundials_count(const void *self, baum_i_statistics *out);
 
-/* All but create(). */
 /* clang-format off */
 #define BAUM_I_SUNDIALS_OPERATIONS              \
+  .create = baum_i_sundials_create,             \
   .destroy = baum_i_sundials_destroy,           \
   .advance = baum_i_sundials_advance,           \
   .interpolate = baum_i_sundials_interpolate,   \

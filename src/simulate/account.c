@@ -471,7 +471,8 @@ static baum_status make_stepper(baum_simulation *run)
   bool wanted = method->step && method->advance &&
                 run->problem.formulation == BAUM_FORMULATION_PROJECTION &&
                 !baum_i_problem_has_fixed_step(&run->problem);
-  return wanted ? method->create(&account->problem, &run->trial, &account->stepper) : BAUM_OK;
+  return wanted ? method->create(method->table, &account->problem, &run->trial, &account->stepper)
+                : BAUM_OK;
 }
 
 baum_status baum_i_account_create(baum_simulation *run)

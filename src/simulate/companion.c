@@ -138,7 +138,7 @@ baum_status baum_i_companion_create(baum_simulation *run)
   BAUM_I_TRY(make_memory(c));
   run->beside[1] = c->workspace;
   choose_problem(run, c);
-  return c->method->create(&c->problem, &run->trial, &c->self);
+  return c->method->create(c->method->table, &c->problem, &run->trial, &c->self);
 }
 
 void baum_i_companion_destroy(baum_i_companion *c)

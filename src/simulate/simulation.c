@@ -171,8 +171,8 @@ static baum_status make_crossings(baum_simulation *run)
 
 static baum_status make_integrator(baum_simulation *run)
 {
-  return run->integrator->create ? run->integrator->create(&run->problem, &run->trial, &run->self)
-                                 : BAUM_OK;
+  const baum_integrator *of = run->integrator;
+  return of->create ? of->create(of->table, &run->problem, &run->trial, &run->self) : BAUM_OK;
 }
 
 static baum_status accept_start(baum_simulation *run)

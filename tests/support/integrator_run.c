@@ -74,7 +74,8 @@ baum_status integrator_run_open(integrator_run *run, const integrator_setup *set
   find_rate(run);
   baum_status status = BAUM_OK;
   if (run->integrator->create) {
-    status = run->integrator->create(&run->problem, &run->state, &run->self);
+    status =
+      setup->integrator->create(setup->integrator->table, &run->problem, &run->state, &run->self);
   }
   if (status != BAUM_OK) {
     assert_null(run->self);

@@ -55,7 +55,8 @@ static void open_solver(solver *s, const baum_mechanism *m, baum_formulation for
   double q[SIZE];
   memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
   const baum_i_state start = {.q = q, .v = v};
-  assert_int_equal(baum_cvode_bdf()->create(&s->problem, &start, &s->run), BAUM_OK);
+  assert_int_equal(baum_cvode_bdf()->create(baum_cvode_bdf()->table, &s->problem, &start, &s->run),
+                   BAUM_OK);
 }
 
 static void close_solver(solver *s)

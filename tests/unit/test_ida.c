@@ -342,7 +342,8 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
   assert_int_equal(integrator_run_open(&run, &setup), BAUM_OK);
   baum_ida()->destroy(run.self);
   run.problem.tolerance_lambda = factor;
-  assert_int_equal(baum_ida()->create(&run.problem, &run.state, &run.self), BAUM_OK);
+  assert_int_equal(baum_ida()->create(baum_ida()->table, &run.problem, &run.state, &run.self),
+                   BAUM_OK);
   while (run.state.t < 2.0) {
     const double *exact = run.workspace->lambda;
     const double *found = baum_i_ida_multipliers(run.self);
@@ -525,7 +526,8 @@ static void a_start_that_cannot_be_evaluated_is_refused(void **state)
   run.state.t = 2.0;
   int unwanted = 0;
   void *self = &unwanted;
-  assert_int_equal(baum_ida()->create(&run.problem, &run.state, &self), BAUM_ERR_CALLBACK);
+  assert_int_equal(baum_ida()->create(baum_ida()->table, &run.problem, &run.state, &self),
+                   BAUM_ERR_CALLBACK);
   assert_null(self);
   assert_non_null(strstr(baum_message(), "faulty"));
   assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
