@@ -197,8 +197,6 @@ static const baum_i_catalog_parameter PARAMETERS[1] = {
   {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS[1] = {ANDREWS_START};
-
 const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .name = "andrews_angles",
   .title = "Andrews' squeezing mechanism in 7 angles by functions of the user",
@@ -207,7 +205,7 @@ const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .note = "rates up to 1500 rad/s within 0.03 s",
   .parameter_count = 1,
   .parameters = PARAMETERS,
-  .defaults = DEFAULTS,
+  .defaults = (const double[1]){ANDREWS_START},
   .end = 0.03,
   .digits_q = 15,
   .digits_v = 15,
@@ -215,9 +213,5 @@ const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .build = build,
   .units = "uuuuuuu",
   .bodies = 1,
-  .samples = ANDREWS_SAMPLES,
-  .t = ANDREWS_T,
-  .columns = ANDREWS_WIDTH,
-  .q = ANDREWS_Q[0],
-  .v = ANDREWS_V[0],
+  BAUM_I_CATALOG_STORED(ANDREWS),
 };

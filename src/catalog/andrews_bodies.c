@@ -160,11 +160,7 @@ const baum_i_catalog_mechanism baum_i_andrews_bodies = {
   .end = 0.03,
   .digits_q = 15,
   .digits_v = 15,
-  .samples = ANDREWS_SAMPLES,
-  .t = ANDREWS_T,
-  .columns = ANDREWS_WIDTH,
-  .q = ANDREWS_Q[0],
-  .v = ANDREWS_V[0],
+  BAUM_I_CATALOG_STORED(ANDREWS),
 };
 
 const baum_i_catalog_mechanism baum_i_andrews_a03 = {
@@ -178,9 +174,5 @@ const baum_i_catalog_mechanism baum_i_andrews_a03 = {
   .end = 0.05,
   .digits_q = 14,
   .digits_v = 14,
-  .samples = ANDREWS_A03_SAMPLES,
-  .t = ANDREWS_A03_T,
-  .columns = ANDREWS_A03_WIDTH,
-  .q = ANDREWS_A03_Q[0],
-  .v = ANDREWS_A03_V[0],
+  BAUM_I_CATALOG_STORED(ANDREWS_A03),
 };

@@ -135,9 +135,5 @@ const baum_i_catalog_mechanism baum_i_car_axis = {
   .build = build,
   .units = "uuuu",
   .bodies = 1,
-  .samples = CAR_AXIS_SAMPLES,
-  .t = CAR_AXIS_T,
-  .columns = CAR_AXIS_WIDTH,
-  .q = CAR_AXIS_Q[0],
-  .v = CAR_AXIS_V[0],
+  BAUM_I_CATALOG_STORED(CAR_AXIS),
 };

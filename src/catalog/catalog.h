@@ -60,6 +60,11 @@ typedef struct baum_i_catalog_mechanism {
                 double *body_v);
 } baum_i_catalog_mechanism;
 
+/* The reference stored in data/. */
+#define BAUM_I_CATALOG_STORED(NAME)                                                    \
+  .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = NAME##_WIDTH, .q = NAME##_Q[0], \
+  .v = NAME##_V[0]
+
 extern const baum_i_catalog_mechanism baum_i_pendulum_a01;
 extern const baum_i_catalog_mechanism baum_i_pendulum_sundials;
 extern const baum_i_catalog_mechanism baum_i_pendulum_mebdf;

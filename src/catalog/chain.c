@@ -69,8 +69,6 @@ static const baum_i_catalog_parameter PARAMETERS_3[1] = {
   {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS_3[1] = {9.81};
-
 const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .name = "chain_3",
   .title = "chain of three different uniform rods, from rest",
@@ -80,7 +78,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .note = "",
   .parameter_count = 1,
   .parameters = PARAMETERS_3,
-  .defaults = DEFAULTS_3,
+  .defaults = (const double[1]){9.81},
   .end = 2.0,
   .digits_q = 15,
   .digits_v = 15,
@@ -88,11 +86,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .build = build_3,
   .units = "mmr",
   .bodies = 3,
-  .samples = CHAIN_SAMPLES,
-  .t = CHAIN_T,
-  .columns = CHAIN_WIDTH,
-  .q = CHAIN_Q[0],
-  .v = CHAIN_V[0],
+  BAUM_I_CATALOG_STORED(CHAIN),
 };
 
 enum { LINKS, MASS, LENGTH, ANGLE, RATE, GRAVITY, COUNT };
@@ -119,8 +113,6 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS[COUNT] = {10.0, 1.0, 1.0, 0.0, 0.0, 9.81};
-
 const baum_i_catalog_mechanism baum_i_chain_of_n = {
   .name = "chain",
   .title = "open chain of N equal uniform rods, level and at rest",
@@ -129,7 +121,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_n = {
   .note = "chaotic: errors grow with time",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
-  .defaults = DEFAULTS,
+  .defaults = (const double[COUNT]){10.0, 1.0, 1.0, 0.0, 0.0, 9.81},
   .end = 1.0,
   .smooth = true,
   .build = build,

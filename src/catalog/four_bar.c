@@ -37,8 +37,6 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS[COUNT] = {1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0};
-
 /* A uniform rod between two points. */
 static baum_planar_body_def rod(const char *name, double mass, double length, const double from[2],
                                 const double to[2])
@@ -90,7 +88,7 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .note = "",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
-  .defaults = DEFAULTS,
+  .defaults = (const double[COUNT]){1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0},
   .end = 5.0,
   .digits_q = 15,
   .digits_v = 15,
@@ -98,9 +96,5 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .build = build,
   .units = "mmr",
   .bodies = 3,
-  .samples = FOUR_BAR_SAMPLES,
-  .t = FOUR_BAR_T,
-  .columns = FOUR_BAR_WIDTH,
-  .q = FOUR_BAR_Q[0],
-  .v = FOUR_BAR_V[0],
+  BAUM_I_CATALOG_STORED(FOUR_BAR),
 };

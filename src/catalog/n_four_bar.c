@@ -28,8 +28,6 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS[COUNT] = {2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81};
-
 static int count(const double *p)
 {
   return 2 * (int)p[WINDOWS] + 1;
@@ -110,7 +108,7 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .note = "J loses N rows twice a turn; the reference is the branch of parallel cranks",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
-  .defaults = DEFAULTS,
+  .defaults = (const double[COUNT]){2.0, QUARTER, -1.0, 1.0, 1.0, 1.0, 9.81},
   .end = 10.0,
   .digits_q = 11,
   .digits_v = 11,

@@ -26,8 +26,6 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [FORCE] = {"force", "N", "on the end of the rod, to the right", BAUM_I_CATALOG_ANY},
 };
 
-static const double DEFAULTS[COUNT] = {0.5, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0};
-
 /* Crank and rod from crank angle, x of the rod, rod angle. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
@@ -120,7 +118,7 @@ const baum_i_catalog_mechanism baum_i_slider_crank_sundials = {
   .note = "",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
-  .defaults = DEFAULTS,
+  .defaults = (const double[COUNT]){0.5, 1.0, 1.0, 2.0, 1.0, 1.0, 1.0, 1.0},
   .end = 10.0,
   .digits_q = 15,
   .digits_v = 15,
@@ -128,10 +126,6 @@ const baum_i_catalog_mechanism baum_i_slider_crank_sundials = {
   .build = build,
   .units = "mmr",
   .bodies = 2,
-  .samples = SUNDIALS_SLIDER_CRANK_SAMPLES,
-  .t = SUNDIALS_SLIDER_CRANK_T,
-  .columns = SUNDIALS_SLIDER_CRANK_WIDTH,
-  .q = SUNDIALS_SLIDER_CRANK_Q[0],
-  .v = SUNDIALS_SLIDER_CRANK_V[0],
+  BAUM_I_CATALOG_STORED(SUNDIALS_SLIDER_CRANK),
   .state = state,
 };
