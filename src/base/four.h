@@ -63,7 +63,7 @@ BAUM_I_INLINE baum_i_four baum_i_four_times(baum_i_four x, baum_i_four y)
   return x * y;
 }
 
-/* As baum_i_rounded(). */
+/* A product that is rounded before it is added, also where the compiler would fuse both. */
 BAUM_I_INLINE baum_i_four baum_i_four_rounded(baum_i_four product)
 {
   __asm__("" : "+x"(product));

@@ -24,15 +24,6 @@ static inline baum_i_pair baum_i_both(double x)
   return (baum_i_pair){x, x};
 }
 
-/* A product that is rounded before it is added to something, also where the compiler would fuse both. */
-static inline baum_i_pair baum_i_rounded(baum_i_pair product)
-{
-#if defined(BAUM_I_WIDE)
-  __asm__("" : "+x"(product));
-#endif
-  return product;
-}
-
 /* (-y, x): turned by a right angle, k x p. */
 static inline baum_i_pair baum_i_turned(baum_i_pair p)
 {

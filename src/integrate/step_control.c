@@ -61,9 +61,3 @@ void baum_i_step_control_refuse(baum_i_step_control *control, double taken, doub
   control->step = taken * clamp(factor, LARGEST_REFUSED);
   control->refused = true;
 }
-
-void baum_i_step_control_halve(baum_i_step_control *control, double taken)
-{
-  control->step = 0.5 * taken;
-  control->refused = true;
-}

@@ -22,7 +22,4 @@ void baum_i_step_control_accept(baum_i_step_control *control, double taken, doub
 /* It is refused for an error > 1, or one that is no number. */
 void baum_i_step_control_refuse(baum_i_step_control *control, double taken, double error);
 
-/* It is refused for another reason, of which no size is known. */
-void baum_i_step_control_halve(baum_i_step_control *control, double taken);
-
 #endif

@@ -193,7 +193,6 @@ typedef struct baum_i_outcome {
   char message[BAUM_I_NOTE_SIZE];
 } baum_i_outcome;
 
-double baum_i_thread_seconds(void);
 double baum_i_wall_seconds(void);
 
 /* What is run, and from where through which samples. */

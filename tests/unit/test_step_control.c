@@ -60,8 +60,6 @@ static void steps_change_within_bounds(void **state)
   ASSERT_NEAR(control.step, 0.12 * 0.85, 1e-7, 0.0);
   baum_i_step_control_refuse(&control, 0.1, (double)NAN);
   ASSERT_NEAR(control.step, 0.05, 1e-15, 0.0);
-  baum_i_step_control_halve(&control, 0.05);
-  ASSERT_NEAR(control.step, 0.025, 1e-15, 0.0);
 }
 
 static void after_a_refusal_steps_do_not_grow_at_once(void **state)

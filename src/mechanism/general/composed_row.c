@@ -32,8 +32,8 @@ static void add(const baum_i_inner *inner, double factor, const double six[6], d
   }
 }
 
-void baum_i_composed_gradient(const baum_i_inner x[2], const baum_i_outer *g,
-                              double wide[BAUM_I_COMPOSED_COLUMNS])
+static void find_gradient(const baum_i_inner x[2], const baum_i_outer *g,
+                          double wide[BAUM_I_COMPOSED_COLUMNS])
 {
   memset(wide, 0, BAUM_I_COMPOSED_COLUMNS * sizeof *wide);
   for (int i = 0; i < 2; i++) {
@@ -41,7 +41,7 @@ void baum_i_composed_gradient(const baum_i_inner x[2], const baum_i_outer *g,
   }
 }
 
-double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g)
+static double find_gamma(const baum_i_inner x[2], const baum_i_outer *g)
 {
   double sum = 0.0;
   for (int i = 0; i < 2; i++) {
@@ -116,11 +116,11 @@ void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *poin
   }
   if (out->jacobian) {
     double wide[BAUM_I_COMPOSED_COLUMNS];
-    baum_i_composed_gradient(x, g, wide);
+    find_gradient(x, g, wide);
     baum_i_columns_pack(point->mechanism, &joint->span, 1, wide, out->jacobian + joint->jacobian);
   }
   if (out->gamma) {
-    out->gamma[joint->row] = baum_i_composed_gamma(x, g);
+    out->gamma[joint->row] = find_gamma(x, g);
   }
 }
 

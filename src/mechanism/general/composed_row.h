@@ -38,12 +38,6 @@ typedef struct baum_i_composed_blocks {
 /* The six columns of a coordinate from those of the row. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
 
-/* Sets all columns of the struct's size. */
-void baum_i_composed_gradient(const baum_i_inner x[2], const baum_i_outer *g,
-                              double wide[BAUM_I_COMPOSED_COLUMNS]);
-
-double baum_i_composed_gamma(const baum_i_inner x[2], const baum_i_outer *g);
-
 /* w (columns); out is set. */
 void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, int columns,
                                const double *w, double lambda, baum_i_composed_blocks *out);
