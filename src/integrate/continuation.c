@@ -371,11 +371,11 @@ static baum_status find_critical(const baum_i_continuation *path)
   for (int i = 0; i < w->mechanism->nc; i++) {
     w->rhs[i] = is_kept(w, i) ? scatter(i) * path->distance[i] : 0.0;
   }
-  baum_status status = solve(path, w->rhs, path->probe);
-  for (int k = 0; k < INVERSE_ITERATIONS && status == BAUM_OK; k++) {
-    status = iterate(path);
+  BAUM_I_TRY(solve(path, w->rhs, path->probe));
+  for (int k = 0; k < INVERSE_ITERATIONS; k++) {
+    BAUM_I_TRY(iterate(path));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static void name_joints(const baum_i_continuation *path, baum_i_impasse *out)

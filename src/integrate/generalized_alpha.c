@@ -123,9 +123,8 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
 static baum_status prepare(alpha_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   bool begins = !run->known || run->first;
-  baum_status status =
-    begins ? baum_i_project(problem->workspace, state->t, state->q, state->v) : BAUM_OK;
-  return status == BAUM_OK && !run->known ? begin(run, problem, state) : status;
+  BAUM_I_TRY(begins ? baum_i_project(problem->workspace, state->t, state->q, state->v) : BAUM_OK);
+  return run->known ? BAUM_OK : begin(run, problem, state);
 }
 
 /* ---- one step ---- */
@@ -199,13 +198,12 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
     return baum_i_fail(status, "t = %.9g s: generalized_alpha: the matrix of the step is singular",
                        t);
   }
-  if (status == BAUM_OK) {
-    baum_i_step_matrix_solve(run->matrix, run->x);
-    apply(run, w->mechanism, state, ratios);
-    run->iterations++;
-    *size = baum_i_scaled_size(w->mechanism, run->x);
-  }
-  return status;
+  BAUM_I_TRY(status);
+  baum_i_step_matrix_solve(run->matrix, run->x);
+  apply(run, w->mechanism, state, ratios);
+  run->iterations++;
+  *size = baum_i_scaled_size(w->mechanism, run->x);
+  return BAUM_OK;
 }
 
 /* All unknowns up by some roundings; they are kept in `next`, which the end of the step fills. */
@@ -242,21 +240,18 @@ static baum_status find_noise(alpha_run *run, const baum_i_problem *problem,
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
   const double *rest = run->residual + run->nq;
-  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
+  BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
-  if (status == BAUM_OK) {
-    nudge(run);
-    status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
-    take_back(run, w->mechanism, state);
+  nudge(run);
+  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
+  take_back(run, w->mechanism, state);
+  BAUM_I_TRY(status);
+  for (int i = 0; i < run->nv + run->nc; i++) {
+    run->x[i] = (i < run->nv ? ratios->scale : 1.0) * fabs(rest[i] - run->x[i]);
   }
-  if (status == BAUM_OK) {
-    for (int i = 0; i < run->nv + run->nc; i++) {
-      run->x[i] = (i < run->nv ? ratios->scale : 1.0) * fabs(rest[i] - run->x[i]);
-    }
-    baum_i_step_matrix_solve(run->matrix, run->x);
-    *noise = baum_i_scaled_size(w->mechanism, run->x);
-  }
-  return status;
+  baum_i_step_matrix_solve(run->matrix, run->x);
+  *noise = baum_i_scaled_size(w->mechanism, run->x);
+  return BAUM_OK;
 }
 
 /* Changes of positions that need no further one. */
@@ -301,18 +296,15 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     double before = size;
-    baum_status status = improve(run, problem, state, state->t + h, &ratios, &size);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(improve(run, problem, state, state->t + h, &ratios, &size));
     bool done = is_last(&last, size, before);
     if (!done && k > 1 && size > 0.5 * before && size <= LARGEST_NOISE) {
       double noise = 0.0;
-      status = find_noise(run, problem, state, state->t + h, &ratios, &noise);
+      BAUM_I_TRY(find_noise(run, problem, state, state->t + h, &ratios, &noise));
       done = size <= NOISES * noise;
     }
-    if (status != BAUM_OK || done) {
-      return status;
+    if (done) {
+      return BAUM_OK;
     }
     /* The first may be larger than the prediction was wrong. */
     if (!isfinite(size) || (k > 1 && size > 2.0 * before)) {

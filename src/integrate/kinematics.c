@@ -257,10 +257,7 @@ static baum_status walk(kinematics_run *run, const baum_i_problem *problem, doub
                          run->trial->t, (int)MOST_PIECES, t);
     }
     h = fmax(h, shortest_step(problem, t));
-    baum_status status = step(run, problem, run->trial, run->spare, t, &h);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(step(run, problem, run->trial, run->spare, t, &h));
     swap(&run->trial, &run->spare);
   }
   return BAUM_OK;
@@ -290,10 +287,7 @@ static baum_status interpolate(void *self, const baum_i_problem *problem, double
   }
   const baum_i_pose *pose = t == run->right->t ? run->right : run->left;
   if (t != pose->t) {
-    baum_status status = solve_inside(run, problem, t);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(solve_inside(run, problem, t));
     pose = run->trial;
   }
   memcpy(q, pose->q, (size_t)m->nq * sizeof *q);

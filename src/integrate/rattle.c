@@ -74,13 +74,10 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
 {
   const baum_mechanism *m = w->mechanism;
   baum_i_chord chord;
-  baum_status status = baum_i_chord_begin(w, state->t, state->q, &chord);
+  BAUM_I_TRY(baum_i_chord_begin(w, state->t, state->q, &chord));
   double size = INFINITY;
-  for (int k = 0; k < ITERATIONS && status == BAUM_OK; k++) {
-    status = baum_i_chord_change(w, &chord, state->t + h, run->q);
-    if (status != BAUM_OK) {
-      break;
-    }
+  for (int k = 0; k < ITERATIONS; k++) {
+    BAUM_I_TRY(baum_i_chord_change(w, &chord, state->t + h, run->q));
     run->iterations++;
     for (int i = 0; i < run->nv; i++) {
       run->v[i] += w->a[i] / h;
@@ -95,7 +92,7 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
       break;
     }
   }
-  return status == BAUM_OK ? fail(state->t, size) : status;
+  return fail(state->t, size);
 }
 
 /* ---- one step ---- */

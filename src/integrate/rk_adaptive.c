@@ -212,17 +212,13 @@ static void go_on(adaptive_run *run, const baum_i_problem *problem)
 static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
                          const baum_i_state *state)
 {
-  baum_status status = BAUM_OK;
   if (run->unfinished) {
-    status = baum_i_rk_adaptive_restart(run, problem, state);
+    BAUM_I_TRY(baum_i_rk_adaptive_restart(run, problem, state));
   } else if (run->has_step) {
     go_on(run, problem);
   }
-  if (status == BAUM_OK) {
-    weigh(run, problem);
-    status = check_tolerances(run, problem);
-  }
-  return status;
+  weigh(run, problem);
+  return check_tolerances(run, problem);
 }
 
 /* ---- one step ---- */
@@ -258,10 +254,8 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
   if (problem->distrusts_projection) {
     *error = fmax(*error, moved / MOST_MOVED);
   }
-  if (status == BAUM_OK) {
-    status = baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
-  }
-  return status;
+  BAUM_I_TRY(status);
+  return baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
 }
 
 /* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most `most`. */
@@ -271,22 +265,19 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
   const baum_i_rk *rk = &run->rk;
   const baum_i_rk_table *table = rk->table;
   bool needs_end = run->pair->error_count > table->stages;
-  baum_status status = baum_i_rk_stages(rk, problem, run->t, run->h);
   *error = 0.0;
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_rk_stages(rk, problem, run->t, run->h));
   if (!needs_end) {
     *error = estimate(run, run->h);
   }
   if (*error <= most) {
     baum_i_rk_combine(rk, table->stages, table->b, run->h, run->end);
-    status = finish_end(run, problem, error);
+    BAUM_I_TRY(finish_end(run, problem, error));
   }
-  if (status == BAUM_OK && needs_end) {
+  if (needs_end) {
     *error = fmax(*error, estimate(run, run->h));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* The one place where a step is accepted. One cut to `length` for a pose ahead says nothing against what was wanted, which
@@ -346,12 +337,9 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
     bool forced = false;
     double length = baum_i_rk_crossing_length(&run->crossing, &run->rk, problem, run->t,
                                               run->control.step, &forced);
-    baum_status status = choose_end(run, problem, length);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(choose_end(run, problem, length));
     double most = largest_error(run, problem, forced);
-    status = try_step(run, problem, most, &error);
+    baum_status status = try_step(run, problem, most, &error);
     if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
       run->forced += error > 1.0;
       accept(run, fmin(error, 1.0), length, state);

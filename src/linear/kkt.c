@@ -314,14 +314,11 @@ static bool is_nearly_met(const baum_i_kkt *kkt)
 /* BAUM_ERR_SINGULAR if the residual stays large. */
 static baum_status solve_refined(baum_i_kkt *kkt)
 {
-  baum_status status = solve_once(kkt);
+  BAUM_I_TRY(solve_once(kkt));
   bool done = is_at_rounding(kkt);
-  for (int k = 0; k < MOST_REFINEMENTS && status == BAUM_OK && !done; k++) {
-    status = refine(kkt);
+  for (int k = 0; k < MOST_REFINEMENTS && !done; k++) {
+    BAUM_I_TRY(refine(kkt));
     done = is_at_rounding(kkt);
-  }
-  if (status != BAUM_OK) {
-    return status;
   }
   done = is_least_squares(kkt) ? is_nearly_met(kkt) : done || is_at_noise(kkt);
   return done ? BAUM_OK : BAUM_ERR_SINGULAR;

@@ -319,19 +319,13 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
     return BAUM_ERR_ARGUMENT;
   }
   baum_i_gain_draft numbers = {.note = ""};
-  baum_status status = make_draft(rule, gains->value, context, &numbers);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(make_draft(rule, gains->value, context, &numbers));
   baum_i_gain_choice choice = {.alpha = numbers.alpha, .beta = numbers.beta};
   amplify(context, &numbers, &choice.amplification);
   choice.rule = (baum_gain_rule)(rule - rules);
   choice.max_step = largest_step(context, &numbers);
   if (choice.rule == BAUM_GAINS_DEADBEAT) {
-    status = check_deadbeat(context, &numbers, choice.amplification.spectral_radius);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(check_deadbeat(context, &numbers, choice.amplification.spectral_radius));
   }
   if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
     return baum_i_gain_refuse(context, &numbers, choice.amplification.spectral_radius);
