@@ -24,14 +24,14 @@ set bmargin 10
 unset key
 set title "what an error costs"
 set ylabel "CPU time [ms]"
-plot data index "rows" using 2:4 with points pt 7 ps 0.3 lc rgb "#b8c0c8" notitle, \
-     for [k=1:10] data index "rows" using (has(k, strcol(7), strcol(8)) ? $2 : NaN):4 \
+plot data index "entries" using 2:4 with points pt 7 ps 0.3 lc rgb "#b8c0c8" notitle, \
+     for [k=1:10] data index "entries" using (has(k, strcol(7), strcol(8)) ? $2 : NaN):4 \
      with linespoints lc rgb colour(k) pt mark(k) lw 1.5 notitle
 set title "a small violation is not a small error"
 set yrange [1e-17:1e-1]
 set ylabel "largest violation |{/Symbol F}| [m]"
 set key at screen 0.5,0.02 center bottom maxrows 4 samplen 2 width -8
-plot data index "rows" using 2:5 with points pt 7 ps 0.3 lc rgb "#b8c0c8" notitle, \
-     for [k=1:10] data index "rows" using (has(k, strcol(7), strcol(8)) ? $2 : NaN):5 \
+plot data index "entries" using 2:5 with points pt 7 ps 0.3 lc rgb "#b8c0c8" notitle, \
+     for [k=1:10] data index "entries" using (has(k, strcol(7), strcol(8)) ? $2 : NaN):5 \
      with linespoints lc rgb colour(k) pt mark(k) lw 1.5 title word(methods, k) noenhanced
 unset multiplot

@@ -79,7 +79,7 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
   say(report, "%d %s, %d coordinates, %d constraint rows.", report->degrees_of_freedom,
-      report->degrees_of_freedom == 1 ? "freedom" : "degrees_of_freedom", m->nv, m->nc);
+      report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
   if (r->count > 0) {
     char names[512] = "";
     status = baum_i_position_stage(w, 0.0, q);
