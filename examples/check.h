@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* CHECK(call) prints the message of a warning; after a failure it prints the message and ends the program. */
+/* CHECK(call) prints the message of a warning; after a failure it prints the message and ends the
+ * program. */
 #ifndef CHECK_H
 #define CHECK_H
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A control loop: every millisecond a controller looks at the crank of the slider-crank and sets the torque of its
- * motor, so that the speed stays what it is when a brake comes on. Fixed steps make the work of an interval
- * bounded: ten steps, which allocate nothing; the table of wall times tells how well the bound is kept. */
+/* A control loop: every millisecond a controller looks at the crank of the slider-crank and sets
+ * the torque of its motor, so that the speed stays what it is when a brake comes on. Fixed steps
+ * make the work of an interval bounded: ten steps, which allocate nothing; the table of wall times
+ * tells how well the bound is kept. */
 #include <time.h>
 
 #include "slider_crank_model.h"

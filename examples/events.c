@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What happens at times: a pendulum that falls against a stop and bounces, at times that the run finds, and one that is
- * kicked by a torque at times that are known before. */
+/* What happens at times: a pendulum that falls against a stop and bounces, at times that the run
+ * finds, and one that is kicked by a torque at times that are known before. */
 #include <baum/baum.h>
 
 #include "example_util.h"
@@ -93,7 +93,8 @@ static void bounce(baum_simulation *run)
   CHECK(baum_simulation_set_state(run, baum_simulation_time(run), baum_simulation_q(run), v));
 }
 
-/* Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into 1 - cos(angle). */
+/* Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into 1 -
+ * cos(angle). */
 static double tell_bounces(baum_simulation *run)
 {
   static const example_column columns[] = {{"bounce", "bounce", 'd', 0},

@@ -6,8 +6,8 @@
  *   example_expect()  a check, which decides the exit code; checks come after all tables
  *   example_end()     closes the files and gives the exit code
  *
- * A table goes to the screen, to the JSON file as  "name": {"columns": {key: title}, "rows": [{key: value}]},
- * and to the data file as a block that gnuplot finds with  index "name".
+ * A table goes to the screen, to the JSON file as  "name": {"columns": {key: title}, "rows": [{key:
+ * value}]}, and to the data file as a block that gnuplot finds with  index "name".
  */
 #ifndef EXAMPLE_UTIL_H
 #define EXAMPLE_UTIL_H
@@ -206,7 +206,8 @@ static inline void example_text(const char *text)
   example_close_cell();
 }
 
-/* The next cell of a row. What is not a number is shown as a dash, null in JSON, NaN for gnuplot. */
+/* The next cell of a row. What is not a number is shown as a dash, null in JSON, NaN for
+ * gnuplot. */
 static inline void example_number(double value)
 {
   const example_column *column = example_next_cell();

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a formulation and an integrator cost and give: the undriven slider-crank, let go at 150 rad/s, for 0.2 s.
- * Error: the largest difference from the reference at its samples, angles in radians, lengths by the length scale.
- * Violations: of all rows; that of the guide's angle is in radians. */
+/* What a formulation and an integrator cost and give: the undriven slider-crank, let go at 150
+ * rad/s, for 0.2 s. Error: the largest difference from the reference at its samples, angles in
+ * radians, lengths by the length scale. Violations: of all rows; that of the guide's angle is in
+ * radians. */
 #include "slider_crank_reference.h"
 
 enum { SETTINGS = 3, SHOWN = 1 }; /* coarse, as in the table, fine */

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaper's quick-return motion by kinematics: its motor leaves no freedom, so that every pose
+"""A shaper's quick-return motion by kinematics: its motor leaves no freedom, so that every configuration
 follows from the constraints alone, and the torque of the motor from the accelerations.
 
 A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps

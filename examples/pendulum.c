@@ -40,8 +40,9 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* The exact motion. With s = sin(angle / 2), angle from the lowest point and k^2 = 1/2, s = k sn(K - sqrt(g/l) t, k),
- * sn by the arithmetic-geometric mean (Abramowitz, Stegun 1964, 16.4), K = pi / (2 agm(1, sqrt(1 - k^2))). */
+/* The exact motion. With s = sin(angle / 2), angle from the lowest point and k^2 = 1/2, s = k sn(K
+ * - sqrt(g/l) t, k), sn by the arithmetic-geometric mean (Abramowitz, Stegun 1964, 16.4), K = pi /
+ * (2 agm(1, sqrt(1 - k^2))). */
 static void exact(double t, double *x, double *y)
 {
   enum { LEVELS = 6 };

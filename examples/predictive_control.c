@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rollback: every two milliseconds a controller tries two torques on the run itself, a turn of the crank ahead each,
- * goes back to where it was by what it has saved, and takes the torque whose end has the better speed. Saving and
- * restoring allocate nothing, and with a one-step method and blocks the run goes on as if nothing had been tried. */
+/* Rollback: every two milliseconds a controller tries two torques on the run itself, a turn of the
+ * crank ahead each, goes back to where it was by what it has saved, and takes the torque whose end
+ * has the better speed. Saving and restoring allocate nothing, and with a one-step method and
+ * blocks the run goes on as if nothing had been tried. */
 #include <time.h>
 
 #include "slider_crank_model.h"

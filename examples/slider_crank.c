@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 3 of Flores et al. 2008: the eccentric slider-crank, its crank driven at constant speed, by explicit Euler
- * with eight sets of Baumgarte's gains: what becomes of Phi_3.
+/* Fig. 3 of Flores et al. 2008: the eccentric slider-crank, its crank driven at constant speed, by
+ * explicit Euler with eight sets of Baumgarte's gains: what becomes of Phi_3.
  *
- * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e; what was there before goes on
- * by (6), so that
+ * Predicted: one step of Euler from the exact motion misses Phi_3 by d and Phi_3' by e; what was
+ * there before goes on by (6), so that
  *   Phi_3+ = Phi_3 + h Phi_3' + d,   Phi_3'+ = Phi_3' - h (2 alpha Phi_3' + beta^2 Phi_3) + e,
  * the recursion with the characteristic equation (19). */
 #include "slider_crank_model.h"

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The eccentric slider-crank of the examples.
  *
- * Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165, Table 1, without
- * clearance. The eccentricity of 0.05 m is a choice made here, and so are the other numbers of the runs: the
- * figures of the paper on Baumgarte's method (Flores et al. 2008) come without their data.
+ * Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 23 (2010) 165,
+ * Table 1, without clearance. The eccentricity of 0.05 m is a choice made here, and so are the
+ * other numbers of the runs: the figures of the paper on Baumgarte's method (Flores et al. 2008)
+ * come without their data.
  *
  *   rows of Phi   1, 2 pin A   3, 4 pin B   5, 6 pin C   7, 8 guide   9 motor, when driven
  */
@@ -78,7 +79,8 @@ static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
   CHECK(baum_mechanism_add_planar_body(s->mechanism, &body, &s->slider));
 }
 
-/* Driven: the crank turns at constant speed and no freedom is left. Else only its speed at start is given. */
+/* Driven: the crank turns at constant speed and no freedom is left. Else only its speed at start is
+ * given. */
 static inline slider_crank slider_crank_build(bool driven)
 {
   const double r = SLIDER_CRANK_R;

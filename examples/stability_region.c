@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fig. 1 of Flores et al. 2008, for every integrator of fixed step: for which gains does it keep constraints? The
- * library says so before any run: inside the outline of its region in the plane of alpha h and beta^2 h^2, which
- * is equation (19)'s triangle for explicit Euler, and how fast violations decay there. A slider-crank says what it
- * does: it starts with all rows violated, and gains are good when the largest violation never gets out of hand and
- * is smaller in the last quarter of the run than in the first. */
+/* Fig. 1 of Flores et al. 2008, for every integrator of fixed step: for which gains does it keep
+ * constraints? The library says so before any run: inside the outline of its region in the plane of
+ * alpha h and beta^2 h^2, which is equation (19)'s triangle for explicit Euler, and how fast
+ * violations decay there. A slider-crank says what it does: it starts with all rows violated, and
+ * gains are good when the largest violation never gets out of hand and is smaller in the last
+ * quarter of the run than in the first. */
 #include "slider_crank_model.h"
 
 enum { CELLS = 22, STEPS = 1500, NQ = 9, NC = 8, OUTLINE = 2000 };
@@ -223,7 +224,8 @@ static void show(const summary *all)
   }
 }
 
-/* With Taylor's gains explicit Euler has z^2 = -1: a violation comes back every fourth step and stays.
+/* With Taylor's gains explicit Euler has z^2 = -1: a violation comes back every fourth step and
+ * stays.
  * @return its relative change in 1000 steps */
 static double taylor(const bench *b)
 {

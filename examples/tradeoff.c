@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What accuracy costs: a study of the undriven slider-crank, let go at 150 rad/s, for 0.2 s. Every integrator with every
- * formulation, and what to take for an error. With --page FILE all of it as a page for a browser. */
+/* What accuracy costs: a study of the undriven slider-crank, let go at 150 rad/s, for 0.2 s. Every
+ * integrator with every formulation, and what to take for an error. With --page FILE all of it as a
+ * page for a browser. */
 #include "slider_crank_reference.h"
 
 static const char TITLE[] = "Undriven slider-crank, let go at 150 rad/s";

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Named mechanisms whose motion is known: to try methods on, to compare them with others, and as examples. A library of
- *  its own, baum_catalog, made from what baum offers to everybody. docs/mechanisms.md lists them.
+ *  Named mechanisms whose motion is known: to try methods on, to compare them with others, and as
+ *  examples. A library of its own, baum_catalog, made from what baum offers to everybody.
+ *  docs/mechanisms.md lists them.
  *
  *    baum_catalog_choice choice = {.name = "slider_crank"};
  *    baum_catalog_build(&choice, &mechanism);
  *
- *  Data, results and samples are in SI units. Angles are against the x axis, counterclockwise, unless a text says otherwise.
- *  A reference is either stored samples, which hold for the default parameters alone, or formulas (`exact`), which hold
- *  for all parameters, and for all times at which rounding leaves them their digits. Nothing is ever compared with a reference that does not hold.
- *  Threads: everything here may be called from any thread. Mechanisms made here need nothing to be kept beside them.
- *  Texts are constant.
+ *  Data, results and samples are in SI units. Angles are against the x axis, counterclockwise,
+ *  unless a text says otherwise. A reference is either stored samples, which hold for the default
+ *  parameters alone, or formulas (`exact`), which hold for all parameters, and for all times at
+ *  which rounding leaves them their digits. Nothing is ever compared with a reference that does not
+ *  hold. Threads: everything here may be called from any thread. Mechanisms made here need nothing
+ *  to be kept beside them. Texts are constant.
  */
 #ifndef BAUM_CATALOG_H
 #define BAUM_CATALOG_H
@@ -49,7 +51,7 @@ typedef struct baum_catalog_entry {
                                 max(1, |q|); NaN without one. */
   double digits_v;         /**< [-] likewise of velocities. */
   bool exact;              /**< The reference is formulas. */
-  bool smooth;             /**< Stays away from singular poses with the default parameters. */
+  bool smooth; /**< Stays away from singular configurations with the default parameters. */
 } baum_catalog_entry;
 
 /** A number that a mechanism of the catalogue depends on. */
@@ -91,7 +93,7 @@ BAUM_CATALOG_API baum_status baum_catalog_entry_at(int32_t k, baum_catalog_entry
 /** Read an entry by its name.
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (an unknown name: the sentence lists those there are)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (an unknown name: the message lists those there are)
  */
 BAUM_CATALOG_API baum_status baum_catalog_find(const char *name, baum_catalog_entry *out,
                                                size_t caller_size);
@@ -109,10 +111,11 @@ BAUM_CATALOG_API baum_status baum_catalog_parameter_at(const char *name, int32_t
 
 /* ---- mechanisms ------------------------------------------------------------------------------ */
 
-/** Build a mechanism, in the pose and with the velocities of its start at t = 0.
+/** Build a mechanism, in the configuration and with the velocities of its start at t = 0.
  *  @param[in]  choice  what, with which parameters
  *  @param[out] out     receives it, frozen; NULL on failure; release with baum_mechanism_destroy()
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also for parameters with which it cannot be put together), BAUM_ERR_MEMORY
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also for parameters with which it cannot be put
+ *              together), BAUM_ERR_MEMORY
  */
 BAUM_CATALOG_API baum_status baum_catalog_build(const baum_catalog_choice *choice,
                                                 baum_mechanism **out);
@@ -128,11 +131,13 @@ BAUM_CATALOG_API baum_status baum_catalog_times(const char *name, double *times)
 
 /** The state by the reference.
  *  @param[in]  choice  what, with which parameters
- *  @param      t       [s] a time of baum_catalog_times(); any finite one where the reference is exact, before 0 too
+ *  @param      t       [s] a time of baum_catalog_times(); any finite one where the reference is
+ *                      exact, before 0 too
  *  @param[out] q       (nq) positions in the order of the mechanism; NULL: not wanted
  *  @param[out] v       (nv) velocities; NULL: not wanted
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED (there is no reference,
- *              none for these parameters, or formulas are not known to their digits so far away)
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also for a time without a sample), BAUM_ERR_UNSUPPORTED
+ *              (there is no reference, none for these parameters, or formulas are not known to
+ *              their digits so far away)
  */
 BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t,
                                                     double *q, double *v);
@@ -147,10 +152,10 @@ BAUM_CATALOG_API baum_status baum_catalog_reference(const baum_catalog_choice *c
 BAUM_CATALOG_API int baum_catalog_solution(double t, double *q, double *v, double *lambda,
                                            void *user);
 
-/** How far states are from the reference. Errors of positions are relative to the characteristic length of the mechanism, those of
- *  angles and user coordinates in their own unit; those of velocities likewise, and relative to the largest velocity of the
- *  reference so measured. An error below its floor says nothing but that it is below it: the reference is not known
- *  better. */
+/** How far states are from the reference. Errors of positions are relative to the characteristic
+ *  length of the mechanism, those of angles and user coordinates in their own unit; those of
+ *  velocities likewise, and relative to the largest velocity of the reference so measured. An error
+ *  below its floor says nothing but that it is below it: the reference is not known better. */
 typedef struct baum_catalog_error {
   size_t struct_size; /**< Set by baum_catalog_compare(). */
   double q;       /**< [-] largest of positions over all times; NaN where a state is not finite. */

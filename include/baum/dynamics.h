@@ -10,8 +10,8 @@
  *  Threads: one workspace is used by one thread at a time; any number may share a mechanism.
  *  NULL: q, v and every array are required unless an argument says otherwise.
  *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
- *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (from a function of the user that
- *  the workspace is calling), and what its own text adds.
+ *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (from a function of the user
+ *  that the workspace is calling), and what its own text adds.
  */
 #ifndef BAUM_DYNAMICS_H
 #define BAUM_DYNAMICS_H
@@ -25,8 +25,8 @@ extern "C" {
 /** Memory for evaluating one mechanism. */
 typedef struct baum_workspace baum_workspace;
 
-/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the design configuration
- *  at t = 0.
+/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the design
+ *  configuration at t = 0.
  *  @param[in]  mechanism  frozen
  *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY
@@ -142,10 +142,10 @@ BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t
                                              double *reaction);
 
 /** Which equations baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and
- *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - N (v - W^-1 J^T mu) instead of the first,
- *  and with mu as many unknowns more; mu is zero but for the errors of a method. W is constant and
- *  diagonal: the diagonal of M in the design configuration at t = 0, for coordinates of scale s with less than
- *  a millionth of the largest M_kk s_k^2 that millionth over s^2. */
+ *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - N (v - W^-1 J^T mu) instead of the
+ *  first, and with mu as many unknowns more; mu is zero but for the errors of a method. W is
+ *  constant and diagonal: the diagonal of M in the design configuration at t = 0, for coordinates
+ *  of scale s with less than a millionth of the largest M_kk s_k^2 that millionth over s^2. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
@@ -189,8 +189,9 @@ BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const double *y, const double *dy,
                                                       baum_sparse *out);
 
-/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v. Each Newton step
- *  is the least, so that a move over which J turns is near the least only: give `held` what must stay.
+/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v. Each Newton
+ *  step is the least, so that a move over which J turns is near the least only: give `held` what
+ *  must stay.
  *  @param[in,out] q     (nq) a guess on entry; unchanged on failure
  *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints
  *                       and are least where undetermined; unchanged on failure

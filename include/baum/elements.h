@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  What a mechanism consists of, frozen or not: bodies, joints, forces and inputs in the order of adding, and by name. For
- *  mechanisms that somebody else has put together, such as those of the catalogue.
- *  Ground is not among the bodies, drivers and user constraints are joints. An id that is not there is "none", all-zero.
+ *  What a mechanism consists of, frozen or not: bodies, joints, forces and inputs in the order of
+ *  adding, and by name. For mechanisms that somebody else has put together, such as those of the
+ *  catalogue. Ground is not among the bodies, drivers and user constraints are joints. An id that
+ *  is not there is "none", all-zero.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H

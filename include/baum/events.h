@@ -1,20 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Events of a run: times at which a function of the state, or the coordinate of a joint, passes zero
- *  or a value.
+ *  Events of a run: times at which a function of the state, or the coordinate of a joint, passes
+ *  zero or a value.
  *
- *  A run looks at its events after every step: at the end, at the quarters of the step and at outputs.
- *  Where one has changed sign, the time is found in the motion as outputs see it: inside the last step
- *  of a variable-step method by its interpolant, inside a step of fixed length by shorter steps from
- *  its start. It is the same search for every integrator. A function that passes zero twice between
- *  two looks goes unseen: max_step, or a smaller step, helps.
- *  An event that is zero at the start, after baum_simulation_set_state() or where a run turns is not
- *  triggered by leaving zero, but by coming back. Zero is what is reached within 1e-10 of the time T
- *  that baum_simulation_explain() tells, or within the event's tolerance; for IDA, which begins on the
- *  constraints, within 10 rtol T. baum_simulation_set_input() and _set_driver() trigger nothing: a
- *  function that jumps there is seen on its new side.
- *  Events never alter the motion, but for a fixed-step run that stops: it stands at the event, and its
- *  grid begins there, as with a target off the grid.
+ *  A run looks at its events after every step: at the end, at the quarters of the step and at
+ *  outputs. Where one has changed sign, the time is found in the motion as outputs see it: inside
+ *  the last step of a variable-step method by its interpolant, inside a step of fixed length by
+ *  shorter steps from its start. It is the same search for every integrator. A function that passes
+ *  zero twice between two looks goes unseen: max_step, or a smaller step, helps.
+ *  An event that is zero at the start, after baum_simulation_set_state() or where a run turns is
+ *  not triggered by leaving zero, but by coming back. Zero is what is reached within 1e-10 of the
+ *  time T that baum_simulation_explain() tells, or within the event's tolerance; for IDA, which
+ *  begins on the constraints, within 10 rtol T. baum_simulation_set_input() and _set_driver()
+ *  trigger nothing: a function that jumps there is seen on its new side.
+ *  Events never alter the motion, but for a fixed-step run that stops: it stands at the event, and
+ *  its grid begins there, as with a target off the grid.
  */
 #ifndef BAUM_EVENTS_H
 #define BAUM_EVENTS_H
@@ -56,13 +56,13 @@ static inline baum_event_def baum_event_def_default(void)
   return def;
 }
 
-/** Add an event to a run, from the present state on. A run that stops at one returns BAUM_STOP_EVENT, stands exactly
- *  at it, and the next call goes on; of baum_simulation_sample() the rows before it are done. Events
- *  at one time are all recorded before the run stops. One at the end of a call is found by that call,
- *  and the run stands there all the same.
+/** Add an event to a run, from the present state on. A run that stops at one returns
+ *  BAUM_STOP_EVENT, stands exactly at it, and the next call goes on; of baum_simulation_sample()
+ *  the rows before it are done. Events at one time are all recorded before the run stops. One at
+ *  the end of a call is found by that call, and the run stands there all the same.
  *  @param[in]  def    copied
- *  @param[out] index  receives its number, 0, 1, ... in the order of adding; left as it is on failure.
- *                     May be NULL.
+ *  @param[out] index  receives its number, 0, 1, ... in the order of adding; left as it is on
+ *                     failure. May be NULL.
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
  *              BAUM_ERR_NOT_FINITE; the run is unchanged on failure
  */
@@ -81,7 +81,8 @@ typedef struct baum_event_record {
 BAUM_API int64_t baum_simulation_event_count(const baum_simulation *simulation);
 
 /** Read an event that has happened. The last 1024 are kept; a longer run reads them as it goes.
- *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they happened
+ *  @param      k            0 to baum_simulation_event_count() - 1, in the order in which they
+ *                           happened
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT

@@ -5,8 +5,8 @@
  *  A mechanism is made by `add` calls, then frozen, then constant; a frozen one may be shared
  *  between threads. *Bodies* are anything with coordinates (planar.h, or user coordinates below),
  *  *joints* anything with constraint rows (planar.h, planar_joints.h, drivers, couplings, or user
- *  constraints), *forces* the rest. A mechanism that is given wholly by functions of the user is one
- *  body of user coordinates and one user constraint.
+ *  constraints), *forces* the rest. A mechanism that is given wholly by functions of the user is
+ *  one body of user coordinates and one user constraint.
  *
  *  Equations (Flores et al. 2008, numbers in brackets): constraints Phi(q, t) = 0 (1), their rate
  *  Phi' = J v - nu (3), their second derivative J a - gamma (4), and M a + J^T lambda = g (2).
@@ -20,8 +20,8 @@
  *  They may call the library, but not with the workspace or the run that is calling them: what
  *  returns a status fails there (BAUM_ERR_STATE), and it cannot be destroyed; time, q, v, inputs
  *  and texts can be read, and the run be cancelled.
- *  Names of elements, inputs and events are labels in messages: NULL stands for the default; empty ones and ones with
- *  control characters, such as line breaks, are refused.
+ *  Names of elements, inputs and events are labels in messages: NULL stands for the default; empty
+ *  ones and ones with control characters, such as line breaks, are refused.
  *  Definitions: start from baum_<what>_def_default(); an all-zero struct is refused. Fields are
  *  only ever appended: a struct of a program that was compiled with an older version is smaller,
  *  and what it lacks has its default. A larger one, of a newer version, is refused
@@ -90,38 +90,39 @@ typedef int baum_qv_fn(double t, const double *q, const double *v, double *out, 
 typedef int baum_force_fn(double t, const double *q, const double *v, const double *inputs,
                           double *out, void *user);
 
-/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. Rate and
- *  acceleration must be the derivatives of the value (baum_mechanism_check_derivatives()). It is also
- *  called at times outside of the run: by the check of derivatives, and where the constraints
- *  around the start are explored. */
+/** Law of a driver: s[0] value, s[1] rate, s[2] acceleration at time t; return as baum_q_fn. Rate
+ *  and acceleration must be the derivatives of the value (baum_mechanism_check_derivatives()). It
+ *  is also called at times outside of the run: by the check of derivatives, and where the
+ *  constraints around the start are explored. */
 typedef int baum_law_fn(double t, double s[3], void *user);
 
 /* ---- a body given by functions --------------------------------------------------------------- */
 
-/** Rates of positions, linear in v: dq = N(q) v. It is also called with a q that is off the manifold by
- *  as much as a step may leave it; scaling q scales dq. */
+/** Rates of positions, linear in v: dq = N(q) v. It is also called with a q that is off the
+ *  manifold by as much as a step may leave it; scaling q scales dq. */
 typedef void baum_rate_fn(const double *q, const double *v, double *dq, void *user);
 
-/** Moves q, in place, to where it is after the time h at constant v, at least to second order in h. With
- *  h = 1, v is a displacement of velocity size. */
+/** Moves q, in place, to where it is after the time h at constant v, at least to second order in h.
+ *  With h = 1, v is a displacement of velocity size. */
 typedef void baum_move_fn(double h, const double *v, double *q, void *user);
 
-/** The displacement dx, of velocity size, by which baum_move_fn leads with h = 1 from one position to
- *  another. */
+/** The displacement dx, of velocity size, by which baum_move_fn leads with h = 1 from one position
+ *  to another. */
 typedef void baum_difference_fn(const double *from, const double *to, double *dx, void *user);
 
 /** Replaces q by the nearest one on the manifold. */
 typedef void baum_normalize_fn(double *q, void *user);
 
-/** Generalized coordinates with mass and force given by functions. v = q', or, where positions are not a
- *  vector (a unit quaternion, say), q' = N(q) v with the last fields. Every other function then sees a
- *  normalized q; derivatives by q, as those of constraints on these coordinates, are those along
- *  displacements of velocity size: (Phi_q N) in place of Phi_q. Functions that cannot answer give NaN. */
+/** Generalized coordinates with mass and force given by functions. v = q', or, where positions are
+ *  not a vector (a unit quaternion, say), q' = N(q) v with the last fields. Every other function
+ *  then sees a normalized q; derivatives by q, as those of constraints on these coordinates, are
+ *  those along displacements of velocity size: (Phi_q N) in place of Phi_q. Functions that cannot
+ *  answer give NaN. */
 typedef struct baum_coordinates_def {
   size_t struct_size; /**< Set by the default. Do not write. */
   const char *name;   /**< Label in messages. Copied. Default: NULL, "body<k>". */
   int32_t size;       /**< [-] > 0, number of velocities. Default: 0, must be set. */
-  const double *q;    /**< (position_count) drawn positions, on the manifold. Copied.
+  const double *q;    /**< (position_count) design positions, on the manifold. Copied.
                            Default: NULL, zeros; with `rate` it must be set. */
   const double *v; /**< (size) velocities at start, NaN = free. Copied. Default: NULL, all free. */
   const double *scale;    /**< (size) > 0, relevant changes. Copied. Default: NULL, ones. */
@@ -132,7 +133,7 @@ typedef struct baum_coordinates_def {
   baum_force_fn *force_v; /**< out (size x size), dg/dv. Default: NULL, by differences. */
   baum_q_fn *potential;   /**< out (1) [J]. Default: NULL, none. */
   bool constant_mass;     /**< mass() depends on nothing. Default: false. */
-  bool held;              /**< Assembly keeps the drawn positions. Default: false. */
+  bool held;              /**< Assembly keeps the design positions. Default: false. */
   void *user;             /**< Passed to the functions, not owned. Default: NULL. */
   bool depends_on_velocity;       /**< force() reads v; RATTLE takes false alone. Default: true. */
   const double *position_scale;   /**< (position_count) > 0, relevant changes of positions. Copied.
@@ -541,20 +542,22 @@ BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
 
 /** What a mechanism can do at its assembled start pose. */
 typedef struct baum_mobility {
-  size_t struct_size;         /**< Set by baum_mechanism_mobility(). */
-  int32_t degrees_of_freedom; /**< [-] nv - rank of J at nearby poses; -1: cannot be assembled. */
-  int32_t redundant_rows;     /**< [-] rows that depend on others at every nearby pose. */
-  int32_t conflicting_rows;   /**< [-] rows that cannot be met together with the others. */
-  int32_t free_bodies;        /**< [-] bodies without a joint. */
-  bool near_singular;         /**< The start pose has fewer independent rows than its neighbours, or
+  size_t struct_size; /**< Set by baum_mechanism_mobility(). */
+  int32_t
+    degrees_of_freedom; /**< [-] nv - rank of J at nearby configurations; -1: cannot be assembled. */
+  int32_t redundant_rows;   /**< [-] rows that depend on others at every nearby pose. */
+  int32_t conflicting_rows; /**< [-] rows that cannot be met together with the others. */
+  int32_t free_bodies;      /**< [-] bodies without a joint. */
+  bool
+    near_singular;  /**< The start configuration has fewer independent rows than its neighbours, or
                                   comes within 1e-5 of that, relative to the scales. */
-  double worst_phi;           /**< [m or rad] largest |Phi| after assembly. */
-  baum_joint_id worst_joint;  /**< Joint of worst_phi. */
-  char text[1024];            /**< The same in sentences, by name. */
+  double worst_phi; /**< [m or rad] largest |Phi| after assembly. */
+  baum_joint_id worst_joint; /**< Joint of worst_phi. */
+  char text[1024];           /**< The same in messages, by name. */
 } baum_mobility;
 
-/** Count freedoms, redundant and conflicting rows and free bodies at the assembled start pose, at
- *  t = 0.
+/** Count degrees of freedom, redundant and conflicting rows and free bodies at the assembled start
+ *  pose, at t = 0.
  *  @param[in]  mechanism    frozen; otherwise a copy is frozen and examined
  *  @param[out] out          filled also when rows conflict
  *  @param      caller_size  sizeof *out
@@ -564,8 +567,8 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** What an evaluation of the accelerations costs in a run, and what it is spared. Counts follow from
- *  the structure; forces and functions of the user are not counted. */
+/** What an evaluation of the accelerations costs in a run, and what it is spared. Counts follow
+ *  from the structure; forces and functions of the user are not counted. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */
   int32_t bodies;     /**< [-] without ground. */
@@ -591,8 +594,8 @@ typedef struct baum_report {
   char text[2048];          /**< The same in lines, by name, with the reasons. */
 } baum_report;
 
-/** Find out what a mechanism costs, at the assembled start pose, at t = 0, with the solver that a run
- *  takes by itself.
+/** Find out what a mechanism costs, at the assembled start configuration, at t = 0, with the solver
+ *  that a run takes by itself.
  *  @param[in]  mechanism    frozen; otherwise a copy is frozen and examined
  *  @param[out] out          filled also when the mechanism cannot be assembled
  *  @param      caller_size  sizeof *out
@@ -601,13 +604,13 @@ typedef struct baum_report {
 BAUM_API baum_status baum_mechanism_report(const baum_mechanism *mechanism, baum_report *out,
                                            size_t caller_size);
 
-/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v, and those
- *  in laws and curves) with differences, in the design configuration at t = 0 and at three poses beside it, at
- *  t = 0, 0.37 and 1.3. An entry is wrong when it is off by more than 1e-6 of itself and 1e-9 of its
- *  row. mass() must be symmetric, without negative numbers on its diagonal in the design configuration, and
- *  constant where constant_mass says so. Kinks, and poses and
- *  times that functions refuse, raise no alarm; an element that refuses all poses gives that
- *  failure, but for the laws of drivers.
+/** Compare the derivatives that user functions give (jacobian, nu, gamma, force_q, force_v, and
+ *  those in laws and curves) with differences, in the design configuration at t = 0 and at three
+ *  configurations beside it, at t = 0, 0.37 and 1.3. An entry is wrong when it is off by more than
+ *  1e-6 of itself and 1e-9 of its row. mass() must be symmetric, without negative numbers on its
+ *  diagonal in the design configuration, and constant where constant_mass says so. Kinks, and poses
+ *  and times that functions refuse, raise no alarm; an element that refuses all configurations
+ *  gives that failure, but for the laws of drivers.
  *  Runs by itself when a simulation is created.
  *  @param[in] mechanism  frozen
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (the message names element, function, entry and both

@@ -6,11 +6,12 @@
  *  Positions are of the centre of mass, in ground axes; angles are counter-clockwise and continuous
  *  over turns.
  *
- *  Placing: joints and springs are placed either by `point` (ground axes, in the design configuration, the
- *  same for both bodies) or by `point_a` and `point_b` (each in the axes of its body, for ground
- *  the ground axes); NaN means not given; both ways or neither is refused. The design configuration is a
- *  guess that is assembled at start. A point of a particle is the particle itself. A spring and a
- *  distance joint with `point` would have no length: they take point_a and point_b.
+ *  Placing: joints and springs are placed either by `point` (ground axes, in the design
+ *  configuration, the same for both bodies) or by `point_a` and `point_b` (each in the axes of its
+ *  body, for ground the ground axes); NaN means not given; both ways or neither is refused. The
+ *  design configuration is a guess that is assembled at start. A point of a particle is the
+ *  particle itself. A spring and a distance joint with `point` would have no length: they take
+ *  point_a and point_b.
  *
  *  Reaction of a joint: force [N] and moment [N m] on body_b, ground axes, about the joint's point
  *  on body_b.
@@ -357,7 +358,8 @@ BAUM_API baum_status baum_mechanism_set_planar_fixed(baum_mechanism *mechanism, 
  *                      angle back [N m], when > 0; out[1] its derivative by length [N/m or
  *                      N m/rad]; out[2] by rate [N s/m or N m s/rad]
  *  @param      user    the definition's `user`
- *  @return             as baum_q_fn. The check of derivatives calls it beside poses of the mechanism
+ *  @return             as baum_q_fn. The check of derivatives calls it beside configurations of the
+ *                      mechanism
  */
 typedef int baum_spring_fn(double length, double rate, double out[3], void *user);
 

@@ -45,8 +45,8 @@ BAUM_API const baum_integrator *baum_dp5(void);
  *  between its ends. Formulations as baum_dp5(). The first choice where forces are not stiff and
  *  rtol is 1e-5 or less. */
 BAUM_API const baum_integrator *baum_rk8(void);
-/** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (best damping),
- *  UNSTABILIZED; its past cannot be projected. Begins with Runge-Kutta steps, also after
+/** Adams-Bashforth of two steps, order 2, fixed step: one evaluation a step. BAUMGARTE (best
+ *  damping), UNSTABILIZED; its past cannot be projected. Begins with Runge-Kutta steps, also after
  *  baum_simulation_set_state(), _set_input() and _set_driver(), a turn in time and a target off the
  *  grid. */
 BAUM_API const baum_integrator *baum_ab2(void);
@@ -54,31 +54,33 @@ BAUM_API const baum_integrator *baum_ab2(void);
 BAUM_API const baum_integrator *baum_ab3(void);
 /** Adams-Bashforth of four steps, order 4. Otherwise as baum_ab2(). */
 BAUM_API const baum_integrator *baum_ab4(void);
-/** RATTLE, order 2, fixed step, symplectic: for long runs without dissipation, whose energy stays in a
- *  band of width O(h^2) however long. INDEX3: Phi = 0 and Phi' = 0 hold to rounding after every step.
- *  For constant masses and forces of time, position and inputs; masses that vary and forces that depend
- *  on velocities, as dampers do, are refused. Functions of the user are asked at some states. */
+/** RATTLE, order 2, fixed step, symplectic: for long runs without dissipation, whose energy stays
+ *  in a band of width O(h^2) however long. INDEX3: Phi = 0 and Phi' = 0 hold to rounding after
+ *  every step. For constant masses and forces of time, position and inputs; masses that vary and
+ *  forces that depend on velocities, as dampers do, are refused. Functions of the user are asked at
+ *  some states. */
 BAUM_API const baum_integrator *baum_rattle(void);
-/** Generalized-alpha with spectral radius 0.8, order 2, fixed step, implicit: for stiff forces, and to
- *  compare with at index 3. INDEX3: Phi = 0 to rounding after every step, Phi' of second order. */
+/** Generalized-alpha with spectral radius 0.8, order 2, fixed step, implicit: for stiff forces, and
+ *  to compare with at index 3. INDEX3: Phi = 0 to rounding after every step, Phi' of second
+ *  order. */
 BAUM_API const baum_integrator *baum_generalized_alpha(void);
 /** SUNDIALS CVODE, Adams-Moulton, rtol. BAUMGARTE (auto), UNSTABILIZED; CVODE projects only within
- *  BDF. Iterates by fixed point, and with gains by Newton on what these make stiff, so that high gains
- *  do not bind the steps; stiff forces do. */
+ *  BDF. Iterates by fixed point, and with gains by Newton on what these make stiff, so that high
+ *  gains do not bind the steps; stiff forces do. */
 BAUM_API const baum_integrator *baum_cvode_adams(void);
 /** SUNDIALS CVODE, BDF, rtol: for stiff forces. PROJECTION, BAUMGARTE (auto), UNSTABILIZED. Newton
- *  iteration on the true Jacobian, which is sparse and has the derivatives of all joints and forces;
- *  PROJECTION is made inside of each step, before its error is judged. */
+ *  iteration on the true Jacobian, which is sparse and has the derivatives of all joints and
+ *  forces; PROJECTION is made inside of each step, before its error is judged. */
 BAUM_API const baum_integrator *baum_cvode_bdf(void);
 /** SUNDIALS IDA, variable-order BDF on y = (q, v, lambda), rtol. GGL, BAUMGARTE (auto),
  *  UNSTABILIZED, INDEX2, and INDEX3, which is there for comparison: its error is far above its
  *  tolerance. */
 BAUM_API const baum_integrator *baum_ida(void);
-/** Kinematics: for mechanisms without freedom, whose drivers take it all, so that every coordinate
- *  follows from Phi(q, t) = 0; others are refused. Nothing is integrated: poses are solved to
- *  rounding at the times asked for, by continuation along the branch of the start pose. Takes no
- *  formulation, gains, step, rtol or atol. A run that cannot go on, because the mechanism locks up or
- *  branches cross, stops with BAUM_ERR_SINGULAR; it never jumps to another branch. */
+/** Kinematics: for mechanisms without degrees of freedom, whose drivers take it all, so that every
+ *  coordinate follows from Phi(q, t) = 0; others are refused. Nothing is integrated: poses are
+ *  solved to rounding at the times asked for, by continuation along the branch of the start pose.
+ *  Takes no formulation, gains, step, rtol or atol. A run that cannot go on, because the mechanism
+ *  locks up or branches cross, stops with BAUM_ERR_SINGULAR; it never jumps to another branch. */
 BAUM_API const baum_integrator *baum_kinematics(void);
 
 /** All integrators by number, for bindings and tables; linking this links every backend.
@@ -118,8 +120,9 @@ BAUM_API bool baum_integrator_offers(const baum_integrator *integrator,
 /** What to do with the design configuration. */
 typedef enum baum_start {
   BAUM_START_ASSEMBLE = 0, /**< Assemble; refuse moves above a quarter of the scale, or 1 rad. */
-  BAUM_START_EXACT = 1,    /**< Refuse a pose or velocities that do not fulfil the constraints. */
-  BAUM_START_AS_GIVEN = 2  /**< Take them as they are, free velocities zero; but bodies that
+  BAUM_START_EXACT =
+    1, /**< Refuse a configuration or velocities that do not fulfil the constraints. */
+  BAUM_START_AS_GIVEN = 2 /**< Take them as they are, free velocities zero; but bodies that
                                 welds hold to ground are where the welds have them. */
 } baum_start;
 
@@ -135,9 +138,9 @@ typedef enum baum_solver {
                              BAUM_ERR_SINGULAR close to singular poses. */
 } baum_solver;
 
-/** Called now and then during a call that advances a run; each call begins the interval anew. It may
- *  read the run, with baum_simulation_get() and such, too; what changes, advances or saves it fails
- *  (BAUM_ERR_STATE), and it cannot be destroyed.
+/** Called now and then during a call that advances a run; each call begins the interval anew. It
+ *  may read the run, with baum_simulation_get() and such, too; what changes, advances or saves it
+ *  fails (BAUM_ERR_STATE), and it cannot be destroyed.
  *  @return non-zero to cancel */
 typedef int baum_progress_fn(const baum_simulation *simulation, double t, void *user);
 
@@ -264,10 +267,10 @@ BAUM_API void baum_simulation_cancel(baum_simulation *simulation);
 BAUM_API baum_status baum_simulation_set_state(baum_simulation *simulation, double t,
                                                const double *q, const double *v);
 
-/** Go on where another run stands, also one that has failed: time, state, inputs and laws of drivers are taken from it;
- *  options, counters and warnings stay this run's own. Unless the option `start` is BAUM_START_AS_GIVEN, q and v are
- *  changed by the least that fulfils the constraints. So another integrator, formulation, tolerance or solver takes over
- *  from the last good step.
+/** Go on where another run stands, also one that has failed: time, state, inputs and laws of
+ *  drivers are taken from it; options, counters and warnings stay this run's own. Unless the option
+ *  `start` is BAUM_START_AS_GIVEN, q and v are changed by the least that fulfils the constraints.
+ *  So another integrator, formulation, tolerance or solver takes over from the last good step.
  *  @param[in] from  of the same mechanism, or of one with the same elements and numbers; unchanged
  *  @return          as baum_simulation_set_state(); BAUM_ERR_ARGUMENT also for another mechanism,
  *                   BAUM_ERR_CONVERGENCE also where q and v cannot be brought onto the constraints
@@ -276,9 +279,10 @@ BAUM_API baum_status baum_simulation_continue(baum_simulation *simulation,
                                               const baum_simulation *from);
 
 /** Change an input from the present time on; it is held until it is changed again, also by
- *  baum_simulation_set_state(), and a schedule of it ends. Variable-step methods begin anew, which counters.restarts counts
- *  and which costs them small steps: a loop that sets inputs often goes best with a fixed step, and changes that
- *  are known before with baum_simulation_schedule_input(). A value that is the present one changes no motion.
+ *  baum_simulation_set_state(), and a schedule of it ends. Variable-step methods restart, which
+ *  counters.restarts counts and which costs them small steps: a loop that sets inputs often goes
+ *  best with a fixed step, and changes that are known before with baum_simulation_schedule_input().
+ *  A value that is the present one changes no motion.
  *  @param value  finite
  *  @return       BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CONVERGENCE (IDA),
  *                BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_INTEGRATOR, BAUM_ERR_MEMORY;
@@ -292,7 +296,7 @@ BAUM_API double baum_simulation_input(const baum_simulation *simulation, baum_in
 
 /** Give a driver another law, for this run only: with the present time t0 the prescribed coordinate
  *  is s + ds (t - t0) + dds (t - t0)^2 / 2, in place of the polynomial, user law or spline of its
- *  definition, until it is set again. Variable-step methods begin anew, which counters.restarts
+ *  definition, until it is set again. Variable-step methods restart, which counters.restarts
  *  counts. The state stays: where s or ds differ from it, that is a violation, which the
  *  formulation treats as any other. PROJECTION jumps at the end of the next step, GGL and INDEX3 in
  *  it, as INDEX2 does with ds while it keeps a difference in s, BAUMGARTE goes
@@ -313,17 +317,20 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 
 /* ---- save and restore ------------------------------------------------------------------------ */
 
-/** Save a run into memory: time, q, v, grid, gains in use, inputs and their schedules, laws of drivers, counters, warnings,
- *  energy account.
- *  The run forgets what a restored one cannot know, so that the two go on alike, bit for bit: methods of several steps
- *  and those that choose their step begin anew from here, which counters.restarts counts, and KLU chooses its pivots
- *  anew, which may allocate in the next step. One-step methods with a fixed step lose nothing; with blocks
- *  (BAUM_SOLVER_AUTO where they suit) the run goes on as if it had not been saved. Allocates nothing.
- *  The buffer has no pointers and may be copied, kept in a file and restored in another process; not by another version of
- *  the format, which the library counts up with what a run has. It has version, size, a sum over its bytes, and
- *  fingerprints of the mechanism and the options.
- *  @param[out] buffer    (capacity) of any alignment; NULL: only the size is told, and nothing changes
- *  @param      capacity  [byte] at least what NULL tells, which is the same all through a run but for
+/** Save a run into memory: time, q, v, grid, gains in use, inputs and their schedules, laws of
+ *  drivers, counters, warnings, energy account.
+ *  The run forgets what a restored one cannot know, so that the two go on alike, bit for bit:
+ *  methods of several steps and those that choose their step restart from here, which
+ *  counters.restarts counts, and KLU chooses its pivots anew, which may allocate in the next step.
+ *  One-step methods with a fixed step lose nothing; with blocks (BAUM_SOLVER_AUTO where they suit)
+ *  the run goes on as if it had not been saved. Allocates nothing.
+ *  The buffer has no pointers and may be copied, kept in a file and restored in another process;
+ *  not by another version of the format, which the library counts up with what a run has. It has
+ *  version, size, a sum over its bytes, and fingerprints of the mechanism and the options.
+ *  @param[out] buffer    (capacity) of any alignment; NULL: only the size is told, and nothing
+ *                        changes
+ *  @param      capacity  [byte] at least what NULL tells, which is the same all through a run but
+ *                        for
  *                        32 bytes more for each time of a schedule
  *  @param[out] size      [byte] that were written; with NULL the most that will be
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT; unchanged on failure
@@ -331,17 +338,20 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
 BAUM_API baum_status baum_simulation_save(baum_simulation *simulation, void *buffer,
                                           size_t capacity, size_t *size);
 
-/** Put a run back to where one was saved: this run, or one of the same mechanism and options, also in another process. It
- *  goes on bit for bit as the saved one does on a processor of the same kind with the same library. Of the mechanism the
- *  kinds of elements, their order and bodies, and all numbers must be the same, which is checked; functions of the user
- *  must be, too, and cannot be checked, and what these keep for themselves is not saved. Of the options integrator,
- *  formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account must be the same. Gains and
- *  rates that were chosen at the start, and redundant rows, are those of the saved run. Allocates nothing, but for a saved run
- *  that has set drivers, where this one has not, has more in schedules than this one ever had, or leaves out other rows.
+/** Put a run back to where one was saved: this run, or one of the same mechanism and options, also
+ *  in another process. It goes on bit for bit as the saved one does on a processor of the same kind
+ *  with the same library. Of the mechanism the kinds of elements, their order and bodies, and all
+ *  numbers must be the same, which is checked; functions of the user must be, too, and cannot be
+ *  checked, and what these keep for themselves is not saved. Of the options integrator,
+ *  formulation, gains, row_gains, step, tolerances, max_step, solver and energy_account must be the
+ *  same. Gains and rates that were chosen at the start, and redundant rows, are those of the saved
+ *  run. Allocates nothing, but for a saved run that has set drivers, where this one has not, has
+ *  more in schedules than this one ever had, or leaves out other rows.
  *  @param[in] buffer  (size) of any alignment; what is behind its end is not looked at
  *  @param     size    [byte] at least what baum_simulation_save() wrote
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (cut off, damaged, none of a run, of another version,
- *             mechanism or options: the sentence says which), BAUM_ERR_MEMORY; unchanged on failure
+ *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_BUFFER (cut off, damaged, none of a run, of
+ *             another version, mechanism or options: the message says which), BAUM_ERR_MEMORY;
+ *             unchanged on failure
  */
 BAUM_API baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer,
                                              size_t size);
@@ -446,8 +456,8 @@ BAUM_API int32_t baum_channels_width(const baum_mechanism *mechanism, const baum
 
 /** Tell which multipliers are unique at the present state. Where rows are redundant, forces can be
  *  shared between joints in more than one way: BAUM_LAMBDA, BAUM_JOINT_REACTION and
- *  BAUM_DRIVE_EFFORT are then those of least norm in rows scaled by M, as far as the constraints are
- *  met, and balance the forces to 1e-9 in any case.
+ *  BAUM_DRIVE_EFFORT are then those of least norm in rows scaled by M, as far as the constraints
+ *  are met, and balance the forces to 1e-9 in any case.
  *  @param[out] unique  (nc) per row, true where its multiplier has no choice
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
  *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
@@ -458,7 +468,8 @@ BAUM_API baum_status baum_simulation_unique_multipliers(baum_simulation *simulat
  *  @param[in]  channels  (count)
  *  @param[out] row       (baum_channels_width())
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE
- *              (BAUM_ENERGY_ACCOUNT without the option), BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
+ *              (BAUM_ENERGY_ACCOUNT without the option), BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
+ *              BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY
  */
 BAUM_API baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                          int32_t count, double *row);
@@ -508,16 +519,17 @@ typedef struct baum_counters {
   double
     damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
                        beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise. */
-  int64_t near_singular_intervals; /**< [-] crossings near singular poses, see
+  int64_t near_singular_intervals; /**< [-] crossings near singular configurations, see
                                         baum_simulation_near_singular(). */
   int64_t branch_warnings; /**< [-] of these those behind which the motion is on another branch, or
                                 may be. */
-  int64_t forced_steps;    /**< [-] of rk8 and dp5, taken over a singular pose whatever their error
+  int64_t
+    forced_steps; /**< [-] of rk8 and dp5, taken over a singular configuration whatever their error
                                 estimate. */
-  double energy_residual;  /**< [J] of the energy account at present: gained or lost by the method
+  double energy_residual; /**< [J] of the energy account at present: gained or lost by the method
                                 itself; NaN without the option energy_account. */
-  int64_t doubts;          /**< [-] kinds of warnings that doubt the motion. */
-  double error_estimate;   /**< [-] largest estimated error of the positions since the start,
+  int64_t doubts;         /**< [-] kinds of warnings that doubt the motion. */
+  double error_estimate;  /**< [-] largest estimated error of the positions since the start,
                                 relative to the characteristic length and to radians; 0 while the
                                 local errors of fixed steps are negligible. NaN: not known, as with
                                 variable steps without the option error_check, or where the
@@ -570,7 +582,8 @@ typedef struct baum_energy_account {
 BAUM_API baum_status baum_simulation_energy_account(baum_simulation *simulation,
                                                     baum_energy_account *out, size_t caller_size);
 
-/** What has become of a motion behind a singular pose, where several branches of motion cross. */
+/** What has become of a motion behind a singular configuration, where several branches of motion
+ *  cross. */
 typedef enum baum_branch {
   BAUM_BRANCH_CONTINUED = 1, /**< It goes on smoothly. */
   BAUM_BRANCH_LEFT = 2,   /**< Its velocity has jumped: it is on another branch. Do not trust it. */
@@ -603,8 +616,8 @@ typedef struct baum_near_singular {
 BAUM_API baum_status baum_simulation_near_singular(const baum_simulation *simulation, int64_t k,
                                                    baum_near_singular *out, size_t caller_size);
 
-/** What a warning is about. Kinds from 100 on doubt the motion: the result may be wrong by far more than
- *  its tolerance. The others tell what deserves to be known about a right one. */
+/** What a warning is about. Kinds from 100 on doubt the motion: the result may be wrong by far more
+ *  than its tolerance. The others tell what deserves to be known about a right one. */
 typedef enum baum_warning_code {
   BAUM_WARNING_REDUNDANT_ROWS = 1,      /**< Some multipliers are not unique. */
   BAUM_WARNING_GAINS = 2,               /**< The stability of the gains is not known. */
@@ -649,7 +662,7 @@ BAUM_API baum_status baum_simulation_warning(const baum_simulation *simulation, 
  *  Owned by the run; NULL for NULL. */
 BAUM_API const char *baum_simulation_explain(const baum_simulation *simulation);
 
-/** The sentence of this run's last failure, stop or warning, "" at first. Owned by the run; NULL
+/** The message of this run's last failure, stop or warning, "" at first. Owned by the run; NULL
  *  for NULL. */
 BAUM_API const char *baum_simulation_message(const baum_simulation *simulation);
 

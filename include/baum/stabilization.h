@@ -42,21 +42,23 @@ typedef struct baum_gains {
   double value[2]; /**< The numbers of the rule. */
 } baum_gains;
 
-/* Every rule: where it is stable, what violation it leaves, what it does to accuracy and cost. Figures: a
- * pendulum of 1 m released level, 1 s, h = 0.0025 s; more in docs/theory/gain_rules.md. */
+/* Every rule: where it is stable, what violation it leaves, what it does to accuracy and cost.
+ * Figures: a pendulum of 1 m released level, 1 s, h = 0.0025 s; more in
+ * docs/theory/gain_rules.md. */
 
-/** Gains as numbers. Stable where the method's region has (alpha h, beta^2 h^2); with a variable step
- *  wherever alpha >= 0.618 beta. A violation decays as exp(-alpha t) when alpha = beta; what the steps
- *  keep adding leaves |Phi'| of about h |gamma| / 2 and |Phi| of h |gamma| / alpha with Euler, and of the
- *  order of the method above. Order is kept, because the gains do not grow as h shrinks; cost is flat up
- *  to alpha h = 0.3 and beyond grows in proportion to alpha where steps are chosen by an explicit method.
+/** Gains as numbers. Stable where the method's region has (alpha h, beta^2 h^2); with a variable
+ *  step wherever alpha >= 0.618 beta. A violation decays as exp(-alpha t) when alpha = beta; what
+ *  the steps keep adding leaves |Phi'| of about h |gamma| / 2 and |Phi| of h |gamma| / alpha with
+ *  Euler, and of the order of the method above. Order is kept, because the gains do not grow as h
+ *  shrinks; cost is flat up to alpha h = 0.3 and beyond grows in proportion to alpha where steps
+ *  are chosen by an explicit method.
  *  @param alpha,beta  [1/s] >= 0
  */
 BAUM_API baum_gains baum_gains_fixed(double alpha, double beta);
 
 /** Gains relative to the step; stable where the method's region says so. Violation of both Eulers:
- *  |Phi'| = h |gamma| / 2, |Phi| = (alpha h / (beta h)^2) h^2 |gamma|. Runge-Kutta methods lose order as
- *  with baum_gains_deadbeat(), for the same reason.
+ *  |Phi'| = h |gamma| / 2, |Phi| = (alpha h / (beta h)^2) h^2 |gamma|. Runge-Kutta methods lose
+ *  order as with baum_gains_deadbeat(), for the same reason.
  *  @param alpha_h    [-] alpha h >= 0
  *  @param beta2_h2   [-] (beta h)^2 >= 0
  */
@@ -68,8 +70,8 @@ BAUM_API baum_gains baum_gains_scaled(double alpha_h, double beta2_h2);
  *  0.47 and 0.37 a step. Accuracy as baum_gains_deadbeat(). */
 BAUM_API baum_gains baum_gains_taylor(void);
 
-/** Gains of an oscillator; as baum_gains_fixed() in all else. Below a damping ratio of 0.618 BDF and
- *  IDA may not damp.
+/** Gains of an oscillator; as baum_gains_fixed() in all else. Below a damping ratio of 0.618 BDF
+ *  and IDA may not damp.
  *  @param hertz          [Hz] > 0, natural frequency
  *  @param damping_ratio  [-] > 0, 1 is critical
  */
@@ -80,32 +82,34 @@ BAUM_API baum_gains baum_gains_frequency(double hertz, double damping_ratio);
  *  zero of their polynomial. Stable in the midst of the region; a violation is gone after two steps
  *  at most, and both Eulers leave |Phi'| = h |gamma| / 2, |Phi| = h^2 |gamma| (semi-implicit: half
  *  of it). It costs Runge-Kutta methods their order, because the gains grow as the step shrinks:
- *  orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2, errors 800 times (RK2) to 4000 times (RK4) those without
- *  gains. The Eulers, of order 1 anyway, lose none. Fixed step only; methods of several steps have no
- *  such point and are refused. */
+ *  orders 2, 3, 4, 5, 8 become 1, 2, 2, 3, 2, errors 800 times (RK2) to 4000 times (RK4) those
+ *  without gains. The Eulers, of order 1 anyway, lose none. Fixed step only; methods of several
+ *  steps have no such point and are refused. */
 BAUM_API baum_gains baum_gains_deadbeat(void);
 
-/** alpha = beta, constant during a run, in proportion to the mean angular rate max(|v|/L, sqrt(|a|/L))
- *  over the first radians of the motion. Where freedom is left: 0.35 times with a fixed step, 0.05 times
- *  with RK2, whose order is taken for more, 0.2 times with the Eulers and Adams-Bashforth; with steps of
- *  their own 0.25 times for CVODE and IDA, and 0.1 times for explicit methods, whose steps are longer.
- *  Where drivers take all freedom, 0.6 times with a fixed step, 2 times with variable ones, and 40 times
- *  with CVODE and IDA, whose matrix has the stiffness of the gains. The rate is that of a pilot run of 5
- *  steps and 14
+/** alpha = beta, constant during a run, in proportion to the mean angular rate max(|v|/L,
+ *  sqrt(|a|/L)) over the first radians of the motion. Where freedom is left: 0.35 times with a
+ *  fixed step, 0.05 times with RK2, whose order is taken for more, 0.2 times with the Eulers and
+ *  Adams-Bashforth; with steps of their own 0.25 times for CVODE and IDA, and 0.1 times for
+ *  explicit methods, whose steps are longer. Where drivers take all freedom, 0.6 times with a fixed
+ *  step, 2 times with variable ones, and 40 times with CVODE and IDA, whose matrix has the
+ *  stiffness of the gains. The rate is that of a pilot run of 5 steps and 14
  *  evaluations when the run is created, which are counted; with freedom it is at least the rate
- *  sqrt(g/L) at which gravity swings the mechanism. Where the pilot run fails, what it has seen until
- *  then counts. A mechanism at rest in equilibrium takes sqrt(g/L); without gravity alpha is 0.01/h,
- *  and 1 1/s where the step varies, which suits machines with times of seconds only.
- *  Stable: alpha h is at most 0.3 and at most half of the method's limit. Leaves violations of about
- *  those of the error of a step; they decay over some radians, not at once. Order is kept; cost is that
- *  of no gains at all. docs/theory/gain_rules.md compares it with all other constants. */
+ *  sqrt(g/L) at which gravity swings the mechanism. Where the pilot run fails, what it has seen
+ *  until then counts. A mechanism at rest in equilibrium takes sqrt(g/L); without gravity alpha is
+ *  0.01/h, and 1 1/s where the step varies, which suits machines with times of seconds only.
+ *  Stable: alpha h is at most 0.3 and at most half of the method's limit. Leaves violations of
+ *  about those of the error of a step; they decay over some radians, not at once. Order is kept;
+ *  cost is that of no gains at all. docs/theory/gain_rules.md compares it with all other
+ *  constants. */
 BAUM_API baum_gains baum_gains_auto(void);
 
 /** The point of least spectral radius of the method: the dead-beat point where there is one, and
- *  alpha = beta = 2/(3h) for AB2 with radius 0.58; 0.69 for AB3 and 0.81 for AB4. The rule for AB2 to
- *  AB4, whose violations it leaves 10 to 100 times smaller than auto. AB2 to AB4 keep their order, which
- *  other methods above order 1 do not (baum_gains_deadbeat()), for they have no stages between steps;
- *  their errors are 1.3 (AB3) to 8 times (AB2, AB4) those without gains. Fixed step only. */
+ *  alpha = beta = 2/(3h) for AB2 with radius 0.58; 0.69 for AB3 and 0.81 for AB4. The rule for AB2
+ *  to AB4, whose violations it leaves 10 to 100 times smaller than auto. AB2 to AB4 keep their
+ *  order, which other methods above order 1 do not (baum_gains_deadbeat()), for they have no stages
+ *  between steps; their errors are 1.3 (AB3) to 8 times (AB2, AB4) those without gains. Fixed step
+ *  only. */
 BAUM_API baum_gains baum_gains_best_damping(void);
 
 /** What becomes of a violation. */
@@ -145,25 +149,27 @@ BAUM_API baum_status baum_stability_at(const baum_integrator *integrator, double
                                        size_t caller_size);
 
 /** What holds for a method in words, also for one that chooses its steps or needs no gains.
- *  @return static text of one or two sentences; NULL for NULL
+ *  @return static text of one or two messages; NULL for NULL
  */
 BAUM_API const char *baum_stability_statement(const baum_integrator *integrator);
 
 /** Largest alpha h for which alpha = damping_ratio x beta is stable.
  *  @param      damping_ratio  [-] > 0, finite
  *  @param[out] alpha_h        receives the limit of the first instability from 0 on, 0 when small
- *                             gains are unstable; baum_stability_intervals() has what comes after it
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region: variable step, or without
- *              gains)
+ *                             gains are unstable; baum_stability_intervals() has what comes after
+ *                             it
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region: variable step, or
+ *              without gains)
  */
 BAUM_API baum_status baum_stability_limit(const baum_integrator *integrator, double damping_ratio,
                                           double *alpha_h);
 
-/** All intervals of alpha h for which alpha = damping_ratio x beta is stable. Most methods have one,
- *  from 0. Gaps and islands narrower than 1 % of their alpha h may be missed.
+/** All intervals of alpha h for which alpha = damping_ratio x beta is stable. Most methods have
+ *  one, from 0. Gaps and islands narrower than 1 % of their alpha h may be missed.
  *  @param      damping_ratio  [-] > 0, finite
  *  @param      capacity       of the arrays; >= 0
- *  @param[out] from,to        [-] (capacity) receive the first `capacity` intervals in order; `to` may
+ *  @param[out] from,to        [-] (capacity) receive the first `capacity` intervals in order; `to`
+ *              may
  *                             be infinite. NULL when capacity is 0
  *  @param[out] count          receives the number of intervals, which may exceed the capacity
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
@@ -180,8 +186,8 @@ BAUM_API baum_status baum_stability_intervals(const baum_integrator *integrator,
 BAUM_API baum_status baum_stability_best_on_ray(const baum_integrator *integrator,
                                                 double damping_ratio, double *alpha_h);
 
-/** The point of fastest decay of all, alpha h > 0: the dead-beat point where there is one; of several
- *  the one of least gains. Takes some ten milliseconds for Adams-Bashforth methods.
+/** The point of fastest decay of all, alpha h > 0: the dead-beat point where there is one; of
+ *  several the one of least gains. Takes some ten milliseconds for Adams-Bashforth methods.
  *  @param[out] alpha_h,beta2_h2  receive the point
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
  */
@@ -223,14 +229,14 @@ BAUM_API baum_status baum_stability_grid(const baum_integrator *integrator, cons
  *  given number: 1 for the region of stability, less for a level line of damping. Every part of the
  *  region is a closed curve, its first point repeated at its end and the region on its right; so is
  *  every hole. Curves are separated by one point of NaNs. The points lie on the line, but for those
- *  on alpha h = 0 or beta^2 h^2 = 0 where the region is cut off. Parts of less than some hundredth of
- *  the whole may be missed. Uses 30 kB of stack.
+ *  on alpha h = 0 or beta^2 h^2 = 0 where the region is cut off. Parts of less than some hundredth
+ *  of the whole may be missed. Uses 30 kB of stack.
  *  @param      radius            [-] > 0, finite
  *  @param      capacity          of the arrays; >= 0. 2000 is enough for every method here
  *  @param[out] alpha_h,beta2_h2  [-] (capacity) receive the first `capacity` points. NULL when
  *                                capacity is 0
- *  @param[out] count             receives the number of points, which may exceed the capacity; 0 when
- *                                the radius is nowhere so small
+ *  @param[out] count             receives the number of points, which may exceed the capacity; 0
+ *                                when the radius is nowhere so small
  *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_UNSUPPORTED (no region)
  */
 BAUM_API baum_status baum_stability_outline(const baum_integrator *integrator, double radius,

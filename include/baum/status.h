@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  What a call returns, and the sentence that explains it.
+ *  What a call returns, and the message that explains it.
  *
  *  Every call that can fail returns a baum_status and nothing else; results come through pointers.
  *  0 is done; 1 to 9 stopped as asked; 10 and up reached the end with warnings; below 0 failed.
@@ -59,20 +59,20 @@ BAUM_API const char *baum_status_name(baum_status status);
  */
 BAUM_API const char *baum_status_text(baum_status status);
 
-/** The sentence of this thread's last call that returned a non-zero status: it names element,
+/** The message of this thread's last call that returned a non-zero status: it names element,
  *  field, value and unit, and for a run the time.
  *  @return  this thread's buffer, never NULL, "" at first; valid until this thread's next failing
  *           call
  */
 BAUM_API const char *baum_message(void);
 
-/** Set this thread's sentence, for libraries on top of this one and for functions of the user that fail: forces,
- *  constraints, laws and solutions, whose sentence then ends that of the library.
+/** Set this thread's message, for libraries on top of this one and for functions of the user that
+ *  fail: forces, constraints, laws and solutions, whose message then ends that of the library.
  *  @param status    returned as it is
- *  @param sentence  copied, cut where it is very long; NULL: the general meaning of the status
+ *  @param message  copied, cut where it is very long; NULL: the general meaning of the status
  *  @return          status, so that one can write `return baum_fail(...)`
  */
-BAUM_API baum_status baum_fail(baum_status status, const char *sentence);
+BAUM_API baum_status baum_fail(baum_status status, const char *message);
 
 #ifdef __cplusplus
 }

@@ -169,8 +169,8 @@ BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study
  *  tiny steps take.
  *  @param[in] integrator  NULL: all of the build that take a step or a tolerance
  *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator),
- *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; and when the mechanism cannot be started, what
- *             baum_simulation_create() returns. Unchanged on failure
+ *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; and when the mechanism cannot
+ *             be started, what baum_simulation_create() returns. Unchanged on failure
  */
 BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
 
@@ -232,7 +232,7 @@ BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solut
  *  user do is not compared. One process at a time.
  *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also
  *           the time budget is spent), BAUM_ERR_STATE (no entries, or under way), BAUM_ERR_MEMORY,
- *           BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another study's: the sentence says what
+ *           BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another study's: the message says what
  *           differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what
  *           baum_simulation_create() returns for the mechanism
  */
@@ -457,7 +457,7 @@ BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost c
  *  @param      method  see baum_study_method_at()
  *  @param      error   [-] > 0
  *  @param[out] out     [- or s]
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the sentence
+ *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the message
  *              says how far it comes)
  */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
@@ -478,7 +478,7 @@ BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int3
  *  @param      cost         what is cheap
  *  @param[out] best         options for baum_simulation_create()
  *  @param      caller_size  sizeof *best
- *  @param[out] why          (size) a sentence with the measured figures, cut if too long. May be
+ *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
  *                           NULL
  *  @return     BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_ERR_ARGUMENT (also
  *              when no entry is so exact, or the reference is not known so well), BAUM_ERR_STATE

@@ -3,8 +3,8 @@
  *
  *   h := (h xor w) 0x9e3779b97f4a7c15,   h := h xor (h >> 32)
  *
- * Both are one to one, so that a change of one word alone always changes the sum. No protection against people who
- * mean it.
+ * Both are one to one, so that a change of one word alone always changes the sum. No protection
+ * against people who mean it.
  */
 #ifndef BAUM_I_BASE_DIGEST_H
 #define BAUM_I_BASE_DIGEST_H

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Hot files, <name>_hot.c, are compiled twice: as everything else, and for processors with 256-bit
  * vectors and fused multiply-add. Each ends in one const table of its functions, named by
- * BAUM_I_HOT(); which of the two is used is decided at run time, when an object is made. The results
- * of the two differ in the last digits.
+ * BAUM_I_HOT(); which of the two is used is decided at run time, when an object is made. The
+ * results of the two differ in the last digits.
  */
 #ifndef BAUM_I_BASE_HOT_H
 #define BAUM_I_BASE_HOT_H

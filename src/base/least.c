@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A step to the least place of the parabola through the three least values so far, where such steps halve at least every
- * second time; else a golden section of the larger side.
+/* A step to the least place of the parabola through the three least values so far, where such steps
+ * halve at least every second time; else a golden section of the larger side.
  *
- * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. For functions that are a parabola at
- * their minimum some eight values lead to a millionth of the ends' distance, thirty with golden sections alone.
+ * R. P. Brent, Algorithms for Minimization Without Derivatives, 1973, section 5.8. For functions
+ * that are a parabola at their minimum some eight values lead to a millionth of the ends' distance,
+ * thirty with golden sections alone.
  */
 #include "base/least.h"
 

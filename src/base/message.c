@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sentence behind a status: one fixed buffer per thread. */
+/* The message behind a status: one fixed buffer per thread. */
 #include "base/message.h"
 
 #include <stdarg.h>
@@ -8,23 +8,23 @@
 
 #include "base/text.h"
 
-static _Thread_local char sentence[BAUM_I_MESSAGE_SIZE];
+static _Thread_local char message[BAUM_I_MESSAGE_SIZE];
 static _Thread_local bool has_said; /* baum_fail() has been called since baum_i_listen() */
 
 const char *baum_message(void)
 {
-  return sentence;
+  return message;
 }
 
 baum_status baum_i_fail(baum_status status, const char *format, ...)
 {
-  /* Formatted aside first: an argument may be the present sentence. */
+  /* Formatted aside first: an argument may be the present message. */
   char text[BAUM_I_MESSAGE_SIZE];
   va_list arguments;
   va_start(arguments, format);
   (void)baum_i_format(text, sizeof text, format, arguments);
   va_end(arguments);
-  memcpy(sentence, text, sizeof text);
+  memcpy(message, text, sizeof text);
   return status;
 }
 
@@ -41,7 +41,7 @@ void baum_i_listen(void)
 
 const char *baum_i_heard(void)
 {
-  return has_said ? sentence : NULL;
+  return has_said ? message : NULL;
 }
 
 baum_status baum_i_fail_memory(void)
@@ -49,15 +49,15 @@ baum_status baum_i_fail_memory(void)
   return baum_i_fail(BAUM_ERR_MEMORY, "out of memory");
 }
 
-void baum_i_message_keep(baum_i_sentence *kept)
+void baum_i_message_keep(baum_i_kept_message *kept)
 {
-  memcpy(kept->text, sentence, sizeof sentence);
+  memcpy(kept->text, message, sizeof message);
 }
 
-baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kept)
+baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept)
 {
   if (status == BAUM_OK) {
-    memcpy(sentence, kept->text, sizeof sentence);
+    memcpy(message, kept->text, sizeof message);
   }
   return status;
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sentence behind a status. One fixed buffer per thread: the one mutable thing outside
+/* The message behind a status. One fixed buffer per thread: the one mutable thing outside
  * objects. */
 #ifndef BAUM_I_BASE_MESSAGE_H
 #define BAUM_I_BASE_MESSAGE_H
@@ -12,10 +12,10 @@
 #define BAUM_I_PRINTF(text, first)
 #endif
 
-/* Length of the longest sentence kept, with its terminating zero. */
+/* Length of the longest message kept, with its terminating zero. */
 enum { BAUM_I_MESSAGE_SIZE = 1024 };
 
-/* Set this thread's sentence and return status, so that one can write `return baum_i_fail(...)`. */
+/* Set this thread's message and return status, so that one can write `return baum_i_fail(...)`. */
 baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRINTF(2, 3);
 
 /* Return the status of a call unless it is BAUM_OK. For places that own nothing to be released. */
@@ -27,22 +27,23 @@ baum_status baum_i_fail(baum_status status, const char *format, ...) BAUM_I_PRIN
     }                                        \
   } while (0)
 
-/* What a function of the user says of its failure: before it is called, and behind; NULL: nothing. */
+/* What a function of the user says of its failure: before it is called, and behind; NULL:
+ * nothing. */
 void baum_i_listen(void);
 const char *baum_i_heard(void);
 
-/* The sentence for BAUM_ERR_MEMORY. */
+/* The message for BAUM_ERR_MEMORY. */
 baum_status baum_i_fail_memory(void);
 
-/* A sentence put aside while something is tried whose failures do not matter. */
-typedef struct baum_i_sentence {
+/* A message put aside while something is tried whose failures do not matter. */
+typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
-} baum_i_sentence;
+} baum_i_kept_message;
 
-/* Put this thread's sentence aside. */
-void baum_i_message_keep(baum_i_sentence *kept);
+/* Put this thread's message aside. */
+void baum_i_message_keep(baum_i_kept_message *kept);
 
-/* Return status; if all went well in the end, the sentence from before is this thread's again. */
-baum_status baum_i_message_settle(baum_status status, const baum_i_sentence *kept);
+/* Return status; if all went well in the end, the message from before is this thread's again. */
+baum_status baum_i_message_settle(baum_status status, const baum_i_kept_message *kept);
 
 #endif

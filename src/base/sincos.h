@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sine and cosine of one angle, written so that a loop over angles becomes vector code: no branch, no
- * table. Within 1 ulp up to 1e6 rad; beyond that the caller takes the C library's.
+/* Sine and cosine of one angle, written so that a loop over angles becomes vector code: no branch,
+ * no table. Within 1 ulp up to 1e6 rad; beyond that the caller takes the C library's.
  *
  *   x = n pi/2 + r + y,  |r| <= pi/4,  y the tail that r cannot hold
  *
  * pi/2 comes in three parts of 33 bits, whose products with n (at most 20 bits) are exact, and a
- * fourth (W. J. Cody, W. Waite, 1980); differences keep what they round off (D. E. Knuth, 1969). The
- * polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
+ * fourth (W. J. Cody, W. Waite, 1980); differences keep what they round off (D. E. Knuth, 1969).
+ * The polynomials are those of fdlibm (K. C. Ng, Sun Microsystems, 1993).
  */
 #ifndef BAUM_I_BASE_SINCOS_H
 #define BAUM_I_BASE_SINCOS_H

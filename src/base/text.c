@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts with numbers. The locale is a thread's own while one is put together: the program's stays as it is. */
+/* Texts with numbers. The locale is a thread's own while one is put together: the program's stays
+ * as it is. */
 #include "base/text.h"
 
 #include <locale.h>

@@ -13,7 +13,8 @@ int baum_i_format(char *text, size_t size, const char *format, va_list arguments
   BAUM_I_PRINTF(3, 0);
 int baum_i_print(char *text, size_t size, const char *format, ...) BAUM_I_PRINTF(3, 4);
 
-/* Refuse a name that breaks messages: the empty one, and control characters. NULL, the default name, is fine. */
+/* Refuse a name that breaks messages: the empty one, and control characters. NULL, the default
+ * name, is fine. */
 baum_status baum_i_check_name(const char *family, int number, const char *name);
 
 /* Append to a zero-terminated text in a buffer of `size` characters; what does not fit is cut. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism of the catalogue from the inside: one const struct, stated at the end of its file. Adding one is a file and a
- * line in catalog.c. */
+/* A mechanism of the catalogue from the inside: one const struct, stated at the end of its file.
+ * Adding one is a file and a line in catalog.c. */
 #ifndef BAUM_I_CATALOG_CATALOG_H
 #define BAUM_I_CATALOG_CATALOG_H
 
@@ -47,7 +47,8 @@ typedef struct baum_i_catalog_mechanism {
   int bodies;        /* 0: count() tells */
   int (*count)(const double *p);
 
-  /* The reference: `samples` of some columns, stored or, when t is NULL, by solution() at equal intervals. */
+  /* The reference: `samples` of some columns, stored or, when t is NULL, by solution() at equal
+   * intervals. */
   int samples;
   const double *t; /* (samples) */
   int columns;
@@ -55,7 +56,8 @@ typedef struct baum_i_catalog_mechanism {
   const double *v; /* (samples x columns) */
   double (*solution)(const double *p, double t, double *q,
                      double *v); /* by how much they may be off */
-  /* Positions and velocities of one body from the columns; NULL: the columns are those of all bodies. */
+  /* Positions and velocities of one body from the columns; NULL: the columns are those of all
+   * bodies. */
   void (*state)(const double *p, const double *q, const double *v, int body, double *body_q,
                 double *body_v);
 } baum_i_catalog_mechanism;
@@ -89,7 +91,8 @@ __attribute__((format(printf, 2, 3)))
 baum_status
 baum_i_catalog_fail(baum_status status, const char *format, ...);
 
-/* As much of a whole struct as the caller knows; its struct_size is set. BAUM_OK or BAUM_ERR_ARGUMENT. */
+/* As much of a whole struct as the caller knows; its struct_size is set. BAUM_OK or
+ * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size);
 
 /* A mechanism by its name; NULL when there is none, and the sentence is set. */

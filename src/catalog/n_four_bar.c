@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* N-four-bar: N + 1 cranks from (k l, 0), which carry N couplers from crank to crank, all uniform rods of length l. While all
- * cranks are parallel at angle th, with masses a and b of cranks and couplers,
+/* N-four-bar: N + 1 cranks from (k l, 0), which carry N couplers from crank to crank, all uniform
+ * rods of length l. While all cranks are parallel at angle th, with masses a and b of cranks and
+ * couplers,
  *
  *   [(N + 1) a / 3 + N b] l th'' = -[(N + 1) a / 2 + N b] g cos th
  *
- * the pendulum equation for th + pi / 2. Where they lie flat each window may go over into crossed cranks: J loses N rows.
+ * the pendulum equation for th + pi / 2. Where they lie flat each window may go over into crossed
+ * cranks: J loses N rows.
  */
 #include "catalog/catalog.h"
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Putting a mechanism together: after the first failure nothing more happens, and baum_i_parts_finish() tells. */
+/* Putting a mechanism together: after the first failure nothing more happens, and
+ * baum_i_parts_finish() tells. */
 #ifndef BAUM_I_CATALOG_PARTS_H
 #define BAUM_I_CATALOG_PARTS_H
 
@@ -29,7 +30,8 @@ void baum_i_mover_go(baum_i_mover *mover, double angle, double rate, double x, d
 void baum_i_mover_state(const baum_i_mover *centre, double angle, double rate, double q[3],
                         double v[3]);
 
-/* Where circles of radii ra about a and rb about b meet, to the left of the way from a to b, or to the right where side is
+/* Where circles of radii ra about a and rb about b meet, to the left of the way from a to b, or to
+ * the right where side is
  * -1; NaN where they do not. */
 void baum_i_meet(const double a[2], double ra, const double b[2], double rb, double side,
                  double out[2]);
@@ -42,8 +44,8 @@ baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *
                                const double *q, const double *v);
 baum_body_id baum_i_parts_coordinates(baum_i_parts *parts, const baum_coordinates_def *def);
 baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b);
-/* A slider on the line y = height of the ground through its centre of mass; `along` moves both points of the guide along
- * it. */
+/* A slider on the line y = height of the ground through its centre of mass; `along` moves both
+ * points of the guide along it. */
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,
                         double along);
 void baum_i_parts_rod(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b,

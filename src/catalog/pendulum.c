@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A point on a circle: a particle on a massless rod, and in the test problem of the MEBDF codes a particle and the function
- * (x^2 + y^2 - 1) / 2, whose multiplier is theirs. For the angle a from below
+/* A point on a circle: a particle on a massless rod, and in the test problem of the MEBDF codes a
+ * particle and the function (x^2 + y^2 - 1) / 2, whose multiplier is theirs. For the angle a from
+ * below
  *
  *   a'' = -(g / l) sin a,  (x, y) = l (sin a, -cos a)
  */

@@ -179,7 +179,8 @@ int baum_catalog_solution(double t, double *q, double *v, double *lambda, void *
 
 /* ---- errors ---- */
 
-/* Largest over the coordinates of a state: differences and sizes by the scales, and what the last trusted digits mean. */
+/* Largest over the coordinates of a state: differences and sizes by the scales, and what the last
+ * trusted digits mean. */
 typedef struct measure {
   double q;
   double v;

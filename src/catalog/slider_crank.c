@@ -3,8 +3,8 @@
  *
  *   l1 sin a1 + l2 sin a2 = e,  x3 = l1 cos a1 + l2 cos a2
  *
- * The rod points to the right, cos a2 > 0, and the crank turns all round while l2 > l1 + abs(e). With the crank driven,
- * a1 = a1(0) + w t gives everything.
+ * The rod points to the right, cos a2 > 0, and the crank turns all round while l2 > l1 + abs(e).
+ * With the crank driven, a1 = a1(0) + w t gives everything.
  */
 #include "catalog/slider_crank.h"
 

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Slider-crank of SUNDIALS' examples idaSlCrank_dns and idasSlCrank_dns (R. Serban), read as rigid
- * bodies: a crank about the origin with a pin at its end; a rod whose centre runs on the x axis while it turns, from the pin at (-1, 0) to (1, 0) in
- * its axes, where a force (1, 0) acts; a spring and damper from the middle of the crank to the
- * middle of pin and centre of the rod. No gravity.
+ * bodies: a crank about the origin with a pin at its end; a rod whose centre runs on the x axis
+ * while it turns, from the pin at (-1, 0) to (1, 0) in its axes, where a force (1, 0) acts; a
+ * spring and damper from the middle of the crank to the middle of pin and centre of the rod. No
+ * gravity.
  */
 #include "catalog/catalog.h"
 

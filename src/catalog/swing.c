@@ -5,10 +5,10 @@
  *   (n + 1) C_{n+1} = -sum_i (i + 1) x_{i+1} S_{n-i}
  *   (n + 1) (n + 2) x_{n+2} = -k S_n
  *
- * The nearest singularities in complex time are at least (pi / 2) / sqrt(k), or 2 / |x'| where it turns fast, away: with
- * w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is below (1/8)^24 = 2e-22 of the first. What is added in
- * each step is small against the angle, so that sums with compensation keep the rounding of many steps below that of the
- * result.
+ * The nearest singularities in complex time are at least (pi / 2) / sqrt(k), or 2 / |x'| where it
+ * turns fast, away: with w = sqrt(x'^2 + 4 abs(k)) and steps of 1 / (4 w) the last of 25 terms is
+ * below (1/8)^24 = 2e-22 of the first. What is added in each step is small against the angle, so
+ * that sums with compensation keep the rounding of many steps below that of the result.
  */
 #include "catalog/swing.h"
 
@@ -16,7 +16,8 @@
 
 enum { TERMS = 25, MOST_STEPS = 100000 };
 
-/* Of each step, relative; steps add up like a random walk. Against 80-bit numbers motions over the top are off by 2e-14,
+/* Of each step, relative; steps add up like a random walk. Against 80-bit numbers motions over the
+ * top are off by 2e-14,
  * 2.0e-12, 1.2e-11 rad after 10, 30, 100 s, where 8e-13, 8e-12, 1.4e-11 is said. */
 static const double ROUNDING = 5e-16;
 

@@ -58,11 +58,12 @@ static baum_status fail_blocks(const baum_workspace *w)
   if (joint >= 0) {
     (void)baum_i_joint_label(w->mechanism, joint, label);
   }
-  return baum_i_fail(BAUM_ERR_SINGULAR,
-                     "t = %.9g s: pivots by blocks are too small, most of all in %s: the pose is "
-                     "close to a singular one, or masses are too uneven; the solver auto goes on "
-                     "with klu and qr",
-                     w->point.t, label);
+  return baum_i_fail(
+    BAUM_ERR_SINGULAR,
+    "t = %.9g s: pivots by blocks are too small, most of all in %s: the configuration is "
+    "close to a singular one, or masses are too uneven; the solver auto goes on "
+    "with klu and qr",
+    w->point.t, label);
 }
 
 /* By the solver of the whole system. */

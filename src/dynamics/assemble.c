@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly: a pose and velocities that fulfil the constraints,
+/* Assembly: a configuration and velocities that fulfil the constraints,
  * changed the least in the metric of M.
  *
  *   [ M  J^T ] [ dq     ]   [  0   ]         S_ii = MU (J M^-1 J^T)_ii
@@ -264,8 +264,8 @@ static baum_status correct_velocities(const assembly *s, double *v)
   return status;
 }
 
-/* Held are the velocities that were given; free ones arrive as zero. The matrix is that of the pose
- * all the time. */
+/* Held are the velocities that were given; free ones arrive as zero. The matrix is that of the
+ * configuration all the time. */
 static baum_status assemble_velocities(const assembly *s, double *v)
 {
   double last = (double)INFINITY;

@@ -9,16 +9,17 @@
 #include "base/hot.h"
 #include "base/message.h"
 
-/* Rounding grows along chains while no pivot becomes small, at worst in proportion: up to so many nodes
- * it stays below 5e-13. Above, the residual is looked at in every evaluation. */
+/* Rounding grows along chains while no pivot becomes small, at worst in proportion: up to so many
+ * nodes it stays below 5e-13. Above, the residual is looked at in every evaluation. */
 enum { FEW_NODES = 2048, MOST_REFINEMENTS = 3 };
 
 /* Changes of the multipliers by a refinement: nothing more to gain; still a solution. */
 static const double SETTLED = 0x1p-48;
 static const double SETTLING = 1e-9;
 
-/* Where inverse masses differ by more than the first, and a0 of a light body is larger than all of a by more
- * than the second, a = a0 - W J^T lambda has lost so much that the residual is looked at. */
+/* Where inverse masses differ by more than the first, and a0 of a light body is larger than all of
+ * a by more than the second, a = a0 - W J^T lambda has lost so much that the residual is looked
+ * at. */
 static const double UNEVEN = 1e3;
 static const double CANCELLED = 2048.0;
 
@@ -206,8 +207,9 @@ static void see(range *r, double x)
   r->most = x > r->most ? x : r->most;
 }
 
-/* Whether joints may hold a light body by a heavy one: how easily a body's side of a pin moves, w_0 + w_2 |p|^2,
- * and how easily bodies turn that other joints hold by each other. Dense bodies are not asked. */
+/* Whether joints may hold a light body by a heavy one: how easily a body's side of a pin moves, w_0
+ * + w_2 |p|^2, and how easily bodies turn that other joints hold by each other. Dense bodies are
+ * not asked. */
 static bool is_uneven(const baum_i_block_path *path)
 {
   const baum_i_block *b = path->block;
@@ -422,8 +424,9 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
 }
 
 /* Pivots that are not bad let every refinement gain six digits at least. What weak ones lose a
- * residual at rounding level need not show: close to a singular pose J a is right and the multipliers
- * are not. So weak pivots are refined in any case, good ones where the residual asks for it. */
+ * residual at rounding level need not show: close to a singular configuration J a is right and the
+ * multipliers are not. So weak pivots are refined in any case, good ones where the residual asks
+ * for it. */
 static baum_status refine(baum_i_block_path *path, baum_i_pivots pivots)
 {
   bool done = path->kernel->check(path->block) && pivots == BAUM_I_PIVOTS_GOOD;

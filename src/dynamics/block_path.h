@@ -3,7 +3,7 @@
  *
  * Revolute joints go straight from frames into the solver (pins.h); other joints come as blocks of
  * J. Masses and forces that do not change are there already. What the path cannot solve with
- * confidence it hands over, without a sentence: then the whole system is factored as kkt.h does it.
+ * confidence it hands over, without a message: then the whole system is factored as kkt.h does it.
  */
 #ifndef BAUM_I_DYNAMICS_BLOCK_PATH_H
 #define BAUM_I_DYNAMICS_BLOCK_PATH_H
@@ -31,15 +31,15 @@ struct baum_i_block_path {
   int64_t refinements;
 };
 
-/* For the redundant rows as they are known now; for_motion: fixed bodies and rows between these are not solved for.
- * BAUM_OK also where blocks do not suit, as *verdict tells; then *out is NULL. BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK,
- * BAUM_ERR_NOT_FINITE. */
+/* For the redundant rows as they are known now; for_motion: fixed bodies and rows between these are
+ * not solved for. BAUM_OK also where blocks do not suit, as *verdict tells; then *out is NULL.
+ * BAUM_ERR_MEMORY, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_block_path_create(baum_workspace *workspace, bool for_motion,
                                      baum_i_block_verdict *verdict, baum_i_block_path **out);
 void baum_i_block_path_destroy(baum_i_block_path *path); /* NULL is fine */
 
-/* The paths of a workspace: for all and for its motion, which is the same where no body is fixed. Likewise; *verdict is of
- * that for all. */
+/* The paths of a workspace: for all and for its motion, which is the same where no body is fixed.
+ * Likewise; *verdict is of that for all. */
 typedef struct baum_i_paths {
   baum_i_block_path *all;
   baum_i_block_path *motion;
@@ -49,7 +49,8 @@ baum_status baum_i_paths_create(baum_workspace *workspace, baum_i_block_verdict 
                                 baum_i_paths *out);
 void baum_i_paths_destroy(const baum_i_paths *paths);
 
-/* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or nothing. */
+/* Right side of the rows: bending gamma - damping Phi' - stiffness Phi; of the bodies: g or
+ * nothing. */
 typedef struct baum_i_right_side {
   double bending;
   double damping;
@@ -58,8 +59,8 @@ typedef struct baum_i_right_side {
   const double *row_gains; /* (nc) f: damping f Phi' and stiffness f^2 Phi; NULL: 1 */
 } baum_i_right_side;
 
-/* a, lambda, Phi, Phi' and gamma of the workspace; J only for joints that are not pins. v may be NULL
- * where the right side needs none. BAUM_ERR_SINGULAR: handed over. */
+/* a, lambda, Phi, Phi' and gamma of the workspace; J only for joints that are not pins. v may be
+ * NULL where the right side needs none. BAUM_ERR_SINGULAR: handed over. */
 baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path *path, double t,
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);

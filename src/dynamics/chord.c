@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's method with the matrix of one pose held (a chord in place of the tangents):
+/* Newton's method with the matrix of one configuration held (a chord in place of the tangents):
  *
  *   [ M   J^T ] [ dq     ]   [  0      ]
- *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M and J of another pose than q
+ *   [ J   0   ] [ lambda ] = [ -Phi(q) ]      M and J of another configuration than q
  *
  * and the half step of velocities that ends on J v = nu:
  *

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes along the constraint forces of one pose, as methods need them that keep Phi = 0 and J v = nu by
- * forces -J^T lambda of that pose.
+/* Changes along the constraint forces of one configuration, as methods need them that keep Phi = 0
+ * and J v = nu by forces -J^T lambda of that pose.
  */
 #ifndef BAUM_I_DYNAMICS_CHORD_H
 #define BAUM_I_DYNAMICS_CHORD_H
 
 #include "dynamics/dynamics.h"
 
-/* Factors of M and J of one pose, good until something else is solved for. */
+/* Factors of M and J of one configuration, good until something else is solved for. */
 typedef struct baum_i_chord {
   baum_i_block_path *path; /* that has them; NULL: kkt */
 } baum_i_chord;
@@ -16,8 +16,8 @@ typedef struct baum_i_chord {
 baum_status baum_i_chord_begin(baum_workspace *workspace, double t, const double *q,
                                baum_i_chord *out);
 
-/* workspace->a becomes the change dq = -M^-1 J^T lambda with J dq = -Phi(t, q), M and J those of the factors.
- * Likewise. */
+/* workspace->a becomes the change dq = -M^-1 J^T lambda with J dq = -Phi(t, q), M and J those of
+ * the factors. Likewise. */
 baum_status baum_i_chord_change(baum_workspace *workspace, const baum_i_chord *chord, double t,
                                 const double *q);
 

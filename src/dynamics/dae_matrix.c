@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements; q is moved by
- * displacements of velocity size, and the rows of q' - N v are N^+ times those of the residual, so that it has nv
- * rows and columns of q:
+/* Jacobian dF/dy + c dF/dy' of the residual forms, assembled from the blocks of all elements; q is
+ * moved by displacements of velocity size, and the rows of q' - N v are N^+ times those of the
+ * residual, so that it has nv rows and columns of q:
  *
  *          q                                             v                       lambda
  *   q      c I - N^+ (N v)_q N                           -I
@@ -17,8 +17,8 @@
  *   q      c I - N^+ (N v)_q N + W^-1 (J^T mu)_q         -I                      0       W^-1 J^T
  *   mu     J                                             0                       0       0
  *
- * With gains alpha_i, beta_i of rows, (J w)_q is that of w = v' + 2 alpha v, and 2 (alpha_i - alpha) (J v)_q by a second
- * linearization.
+ * With gains alpha_i, beta_i of rows, (J w)_q is that of w = v' + 2 alpha v, and 2 (alpha_i -
+ * alpha) (J v)_q by a second linearization.
  *
  * One walk over all blocks emits entries in a fixed order; the first walk learns the pattern, later
  * ones only add values to the slots found then. A omitted row reads 1 on its diagonal.

@@ -3,16 +3,19 @@
  *
  *   q' - N v                                                  N the identity where q is a vector
  *   M v' + J^T lambda - g
- *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu        index 3:  Phi
+ *   index 1:  J v' - gamma + 2 alpha Phi' + beta^2 Phi        index 2:  Phi' = J v - nu
+ *   index 3:  Phi
  *
- * and of C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90, of index 2 with y = (q, v, lambda, mu):
+ * and of C. Gear, B. Leimkuhler, G. Gupta, J. Comp. Appl. Math. 12 (1985) 77-90, of index 2 with y
+ * = (q, v, lambda, mu):
  *
  *   q' - N (v - W^-1 J^T mu)
  *   M v' + J^T lambda - g
  *   Phi'
  *   Phi
  *
- * A omitted row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and beta are those of row i.
+ * A omitted row i reads lambda_i = 0, and mu_i = 0. Where rows have gains of their own, alpha and
+ * beta are those of row i.
  */
 #include <string.h>
 

@@ -113,20 +113,22 @@ baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_
  * BAUM_ERR_MEMORY, and BAUM_ERR_UNSUPPORTED where they do not, but nothing else is allowed. */
 baum_status baum_i_use_blocks(baum_workspace *workspace);
 
-/* How accelerations are solved for, and why so; and why blocks are not used. Without a full stop. */
+/* How accelerations are solved for, and why so; and why blocks are not used. Without a full
+ * stop. */
 enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 
-/* BAUM_ERR_STATE within a function of the user that the workspace is calling; `what` is what he used it through. */
+/* BAUM_ERR_STATE within a function of the user that the workspace is calling; `what` is what he
+ * used it through. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
-/* A look at another state in the workspace of a motion: what it finds near singular is not counted, and of its failures
- * only the status that is returned in the end leaves a message. */
+/* A look at another state in the workspace of a motion: what it finds near singular is not counted,
+ * and of its failures only the status that is returned in the end leaves a message. */
 typedef struct baum_i_probe {
   baum_workspace *workspace;
   int64_t near_singular;
-  baum_i_sentence message;
+  baum_i_kept_message message;
 } baum_i_probe;
 
 void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace);
@@ -151,18 +153,19 @@ baum_status baum_i_velocity_stage(baum_workspace *workspace, double t, const dou
                                   const double *v);
 /* M at the present point, but once only when it is constant. */
 baum_status baum_i_evaluate_mass(baum_workspace *workspace);
-/* Rows between fixed bodies, which a motion does not evaluate, as they are where these are in place. */
+/* Rows between fixed bodies, which a motion does not evaluate, as they are where these are in
+ * place. */
 void baum_i_clear_fixed_rows(baum_workspace *workspace);
 /* Phi and Phi' only: cheaper than the velocity stage. */
 baum_status baum_i_violation(baum_workspace *workspace, double t, const double *q, const double *v);
 
 /* a and lambda of (7) into workspace->a, ->lambda; alpha = beta = 0 gives (5). alpha may be
- * negative (backward in time). J is there only after baum_i_need_jacobian(). Also BAUM_ERR_SINGULAR (the sentence names a joint),
- * BAUM_ERR_MEMORY. */
+ * negative (backward in time). J is there only after baum_i_need_jacobian(). Also BAUM_ERR_SINGULAR
+ * (the message names a joint), BAUM_ERR_MEMORY. */
 baum_status baum_i_acceleration(baum_workspace *workspace, double t, const double *q,
                                 const double *v, double alpha, double beta);
-/* Likewise a alone, 0 of fixed bodies, which are where baum_i_place_fixed_bodies() has them: lambda, J and rows of
- * these may not be there. */
+/* Likewise a alone, 0 of fixed bodies, which are where baum_i_place_fixed_bodies() has them:
+ * lambda, J and rows of these may not be there. */
 baum_status baum_i_motion(baum_workspace *workspace, double t, const double *q, const double *v,
                           double alpha, double beta);
 /* Blocks of J at the point of the last evaluation, where that did without. */
@@ -173,18 +176,19 @@ baum_status baum_i_reported_acceleration(baum_workspace *workspace, double t, co
 
 /* ---- pivot.c ---- */
 
-/* Below this share of what it usually is the pose is near a singular one: at a seventh of the distance of ordinary
- * ones. */
+/* Below this share of what it usually is the configuration is near a singular one: at a seventh of
+ * the distance of ordinary ones. */
 #define BAUM_I_NEAR_PIVOT 0.02
 
-/* How far from singular the last solution was: 1 for no rows, 0 for singular, and falling with the square of the
- * distance. Its size depends on mechanism and solver: it is to be compared with itself. *joint,
- * unless NULL: the one that has it, -1: none. */
+/* How far from singular the last solution was: 1 for no rows, 0 for singular, and falling with the
+ * square of the distance. Its size depends on mechanism and solver: it is to be compared with
+ * itself. *joint, unless NULL: the one that has it, -1: none. */
 double baum_i_smallest_pivot(const baum_workspace *workspace, int *joint);
 /* Whether that is told by the blocks that have been eliminated last. */
 bool baum_i_blocks_tell(const baum_workspace *workspace);
-/* acceleration.c: of a state that needs no solution. a, lambda and what was evaluated are not to be read. Blocks stay with blocks, so that
- * pivots go on without a jump where others solve. Statuses of baum_i_motion(). */
+/* acceleration.c: of a state that needs no solution. a, lambda and what was evaluated are not to be
+ * read. Blocks stay with blocks, so that pivots go on without a jump where others solve. Statuses
+ * of baum_i_motion(). */
 baum_status baum_i_find_pivot(baum_workspace *workspace, double t, const double *q,
                               const double *v);
 
@@ -203,8 +207,9 @@ void baum_i_choose_metric(baum_workspace *workspace);
 /* From M in the design configuration, where W has not been chosen. */
 baum_status baum_i_need_metric(baum_workspace *workspace);
 
-/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu) with
- * W chosen before, and dF/dy + c dF/dy' with displacements of velocity size in place of dq ---- */
+/* ---- dae_residual.c, dae_matrix.c: F(t, y, y'), y = (q, v, lambda), for GGL (q, v, lambda, mu)
+ * with W chosen before, and dF/dy + c dF/dy' with displacements of velocity size in place of dq
+ * ---- */
 
 /* Length of y. */
 int baum_i_residual_size(const baum_mechanism *mechanism, baum_residual index);
@@ -237,8 +242,8 @@ baum_status baum_i_residual_jacobian(baum_workspace *workspace, const baum_dae *
 
 /* ---- finite.c ---- */
 
-/* BAUM_ERR_NOT_FINITE, which names the joint or the body, where a number is not finite: of rows (nc), of velocities
- * (nv), of J. `what` is what the numbers are. */
+/* BAUM_ERR_NOT_FINITE, which names the joint or the body, where a number is not finite: of rows
+ * (nc), of velocities (nv), of J. `what` is what the numbers are. */
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values);
 baum_status baum_i_check_velocities(const baum_workspace *w, const char *what,
                                     const double *values);
@@ -261,21 +266,23 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
                                       double *v);
 
-/* The change of v that takes all of -Phi' away, into workspace->a. BAUM_ERR_SINGULAR, BAUM_ERR_CALLBACK,
- * BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY. */
+/* The change of v that takes all of -Phi' away, into workspace->a. BAUM_ERR_SINGULAR,
+ * BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE, BAUM_ERR_MEMORY. */
 baum_status baum_i_change_of_velocities(baum_workspace *workspace, double t, const double *q,
                                         const double *v);
 
-/* Whether rows that were left out as redundant are met by a state that has been projected: also BAUM_ERR_INCONSISTENT. Runs
- * watch them by themselves. speed: scaled size of the velocities before. */
+/* Whether rows that were left out as redundant are met by a state that has been projected: also
+ * BAUM_ERR_INCONSISTENT. Runs watch them by themselves. speed: scaled size of the velocities
+ * before. */
 baum_status baum_i_check_left_out(baum_workspace *workspace, double t, const double *q,
                                   const double *v, double speed);
 
-/* normal_part.c: the part P x of x (nv) that the constraints take away, into out (nv); P is that of the last
- * acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
- * BAUM_ERR_NOT_FINITE, without a sentence. */
+/* normal_part.c: the part P x of x (nv) that the constraints take away, into out (nv); P is that of
+ * the last acceleration, motion or projection, which must have succeeded. BAUM_ERR_SINGULAR,
+ * BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE, without a message. */
 baum_status baum_i_normal_part(baum_workspace *workspace, const double *x, double *out);
-/* Likewise the smallest out, in the metric of M, with J out = rows (nc); rows may be workspace->work_c. */
+/* Likewise the smallest out, in the metric of M, with J out = rows (nc); rows may be
+ * workspace->work_c. */
 baum_status baum_i_least_with_rows(baum_workspace *workspace, const double *rows, double *out);
 
 /* As baum_workspace_assemble(); v may be NULL; held (nv) flags or NULL. */

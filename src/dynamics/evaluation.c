@@ -55,11 +55,11 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
 
 /* ---- life ---- */
 
-/* Which rows are redundant, from the design configuration at t = 0. Where that cannot be assembled or evaluated all
- * rows are taken for independent; evaluation will tell what is wrong. */
+/* Which rows are redundant, from the design configuration at t = 0. Where that cannot be assembled
+ * or evaluated all rows are taken for independent; evaluation will tell what is wrong. */
 static baum_status learn_redundancy(baum_workspace *w)
 {
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = baum_i_find_rows(w, 0.0, w->mechanism->design_q);
   status = status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
@@ -413,7 +413,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   if (!flags) {
     return baum_i_fail_memory();
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   status = mark_held(workspace->mechanism, held, held_count, flags);
   if (status == BAUM_OK) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whose number is not finite: masses, forces and coordinates that are large enough overflow, though each of them is
- * a number that a definition may have. M itself is always finite: of definitions, or of a function that is looked at.
+/* Whose number is not finite: masses, forces and coordinates that are large enough overflow, though
+ * each of them is a number that a definition may have. M itself is always finite: of definitions,
+ * or of a function that is looked at.
  */
 #include <math.h>
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Islands: bodies that joints hold together, ground and fixed bodies left out. What happens in one does not reach
- * another but through forces: accelerations and multipliers are found one island at a time. */
+/* Islands: bodies that joints hold together, ground and fixed bodies left out. What happens in one
+ * does not reach another but through forces: accelerations and multipliers are found one island at
+ * a time. */
 #ifndef BAUM_I_DYNAMICS_ISLANDS_H
 #define BAUM_I_DYNAMICS_ISLANDS_H
 
@@ -12,7 +13,8 @@ typedef struct baum_i_island {
   int rows;
 } baum_i_island;
 
-/* How many there are, and the first with most bodies (zeros: there is none). BAUM_OK or BAUM_ERR_MEMORY. */
+/* How many there are, and the first with most bodies (zeros: there is none). BAUM_OK or
+ * BAUM_ERR_MEMORY. */
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 

@@ -1,21 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Multipliers of least norm, where redundant rows leave them a choice.
  *
- * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k. Every other one is lambda + N z,
- * with one number z per omitted row, and null vectors
+ * The solution lambda is zero in the omitted rows d and balances the forces with the kept rows k.
+ * Every other one is lambda + N z, with one number z per omitted row, and null vectors
  *
  *   (N z)_d = z,   J_k^T (N z)_k = -J_d^T z,
  *
  * found from
  *
  *   [ W     J_k^T ] [ x       ]   [ -J_d^T z ]
- *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of characteristic lengths, so that uneven masses do not blur them.
+ *   [ J_k   0     ] [ (N z)_k ] = [     0    ],   W diagonal, of characteristic lengths, so that
+ *   uneven masses do not blur them.
  *
- * In rows of unit length, s_i = |row i of J M^-1/2|, the least |S (lambda + N z)| is found by conjugate gradients on z (CGLS of
- * A. Bjorck, preconditioned by S_d). Wherever they end, the forces stay in balance.
+ * In rows of unit length, s_i = |row i of J M^-1/2|, the least |S (lambda + N z)| is found by
+ * conjugate gradients on z (CGLS of A. Bjorck, preconditioned by S_d). Wherever they end, the
+ * forces stay in balance.
  *
- * Where the constraints are violated, omitted rows need not depend on the others. Then only such a share of N z is added as keeps
- * the balance: mostly all of it or next to nothing.
+ * Where the constraints are violated, omitted rows need not depend on the others. Then only such a
+ * share of N z is added as keeps the balance: mostly all of it or next to nothing.
  */
 #include <math.h>
 #include <stdio.h>
@@ -30,12 +32,13 @@ enum { MOST_ITERATIONS = 100 };
 
 /* Gradient at which z is found, of the first. */
 static const double FOUND = 1e-12;
-/* How far M a + J^T lambda = g may be off: times the terms of the row, of the largest row of the body, of the largest row of all.
- * The last is rounding. */
+/* How far M a + J^T lambda = g may be off: times the terms of the row, of the largest row of the
+ * body, of the largest row of all. The last is rounding. */
 static const double OF_ROW = 1e-9;
 static const double OF_BODY = 1e-11;
 static const double OF_ALL = 1e-14;
-/* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small forces. */
+/* As OF_ALL, but for null vectors: light bodies are to keep the balance of their own small
+ * forces. */
 static const double OF_ALL_SHARED = 1e-24;
 /* Times the terms of the row, what counts as balanced. */
 static const double ROUNDING = 1e-11;
@@ -60,7 +63,8 @@ static baum_status factor(baum_workspace *w, const double *shift)
   return baum_i_kkt_factor(r->kkt, &values);
 }
 
-/* out = N z, where z is zero in kept rows. Where z is a null vector already, out is that vector refined. */
+/* out = N z, where z is zero in kept rows. Where z is a null vector already, out is that vector
+ * refined. */
 static baum_status apply(baum_workspace *w, const double *z, double *out)
 {
   int nv = w->mechanism->nv;
@@ -350,14 +354,16 @@ baum_status baum_i_make_multipliers_least(baum_workspace *w)
 
 /* ---- whose they are ---- */
 
-/* Component of a null vector above which a multiplier is not unique; those of omitted rows are about 1, rounding is far less. */
+/* Component of a null vector above which a multiplier is not unique; those of omitted rows are
+ * about 1, rounding is far less. */
 static const double SHARED = 1e-6;
 
 /* Makes every matrix regular; refinement brings back what it costs. */
 static const double SHIFT = 1e-12;
 
-/* A generic null vector, in rows scaled to displacements, into part; *least: components that count. Where the constraints are
- * violated it spreads to other rows by as much as it is out of balance. */
+/* A generic null vector, in rows scaled to displacements, into part; *least: components that count.
+ * Where the constraints are violated it spreads to other rows by as much as it is out of
+ * balance. */
 static baum_status find_reach(baum_workspace *w, double *least)
 {
   const baum_i_sharing *r = &w->sharing;

@@ -3,12 +3,13 @@
  *
  *   q' = v - W^-1 J^T mu,   W diagonal and constant,   W_jj = max(M_jj, E / s_j^2),
  *
- * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that coordinates without mass
- * have a share too; 1 where nothing has mass. It is as mass is, so that neither units nor a mixture of lengths and
- * angles make a difference: all M_kk s_k^2 are of one unit.
+ * with the scale s_j of coordinate j and E a millionth of the largest M_kk s_k^2, so that
+ * coordinates without mass have a share too; 1 where nothing has mass. It is as mass is, so that
+ * neither units nor a mixture of lengths and angles make a difference: all M_kk s_k^2 are of one
+ * unit.
  *
- * Any W that is positive definite gives the same motion, for mu is zero in it; W says how an error of a method is
- * divided among the coordinates. Constant, it has no derivatives.
+ * Any W that is positive definite gives the same motion, for mu is zero in it; W says how an error
+ * of a method is divided among the coordinates. Constant, it has no derivatives.
  */
 #include <math.h>
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a mechanism can do at its assembled start pose:
- * freedoms, redundant and conflicting rows, by name. */
+/* What a mechanism can do at its assembled start configuration:
+ * degrees of freedom, redundant and conflicting rows, by name. */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -89,8 +89,10 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
     status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* then without names */
   }
   if (report->near_singular) {
-    say(report, " The start pose is singular, or all but singular: %d independent rows, %d nearby.",
-        r->rank_at_start, r->rank);
+    say(
+      report,
+      " The start configuration is singular, or all but singular: %d independent rows, %d nearby.",
+      r->rank_at_start, r->rank);
   }
   return status;
 }

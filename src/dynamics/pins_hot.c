@@ -7,14 +7,14 @@
  *   D     = (w_a0 + w_b0) I + w_a2 c_a c_a^T + w_b2 c_b c_b^T
  *   J a0 - r
  *
- * No J is formed. Arms and gamma are rounded as where J and gamma are reported: fused products would
- * give another J, by a last digit, which close to a singular pose counts.
+ * No J is formed. Arms and gamma are rounded as where J and gamma are reported: fused products
+ * would give another J, by a last digit, which close to a singular configuration counts.
  */
 #include "base/four.h"
 #include "dynamics/pins.h"
 
-/* Two pins are done at a time, one in either half of a vector. Of an odd number the last one is alone:
- * in both halves, of which one is stored. What belongs to them alone: */
+/* Two pins are done at a time, one in either half of a vector. Of an odd number the last one is
+ * alone: in both halves, of which one is stored. What belongs to them alone: */
 typedef struct two_pins {
   ptrdiff_t second; /* 1, or 0: the first is alone; known where this is compiled */
   const baum_i_pin_node *pin;

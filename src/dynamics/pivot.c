@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How close to singular the last solution was.
  *
- * Blocks: the smallest det D of a node over what it was before the elimination: of a pin det S, which does not depend on
- * how its axes lie, of other pairs of rows, which may depend on each other, the product of the diagonal of
- * S = J M^-1 J^T. Of other solvers the reciprocal condition of the scaled matrix. Either is free of units and falls with
- * the square of the distance from a singular pose, for its multipliers' part is S. Sizes of the two differ: compare each
- * with what it usually is. A body that turns easily makes blocks hand over in some directions of its arms only, where it is no
- * nearer to singular than in others.
+ * Blocks: the smallest det D of a node over what it was before the elimination: of a pin det S,
+ * which does not depend on how its axes lie, of other pairs of rows, which may depend on each
+ * other, the product of the diagonal of S = J M^-1 J^T. Of other solvers the reciprocal condition
+ * of the scaled matrix. Either is free of units and falls with the square of the distance from a
+ * singular configuration, for its multipliers' part is S. Sizes of the two differ: compare each
+ * with what it usually is. A body that turns easily makes blocks hand over in some directions of
+ * its arms only, where it is no nearer to singular than in others.
  */
 #include <math.h>
 
@@ -57,8 +58,8 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   return smallest;
 }
 
-/* Blocks that have handed over are asked all the same, but where masses are so uneven that small pivots are the rule, only
- * as long as rounding leaves something of them. */
+/* Blocks that have handed over are asked all the same, but where masses are so uneven that small
+ * pivots are the rule, only as long as rounding leaves something of them. */
 static bool find_pivot_of_blocks(const baum_workspace *w, double *pivot, int *row)
 {
   static const double NOISE = 1e-10;

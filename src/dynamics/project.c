@@ -19,8 +19,8 @@ enum { ITERATIONS = 12 };
 /* A Newton step of 1e-10 leaves about 1e-20, times the ratio of length scale to radius of
  * curvature. */
 static const double CONVERGED = 1e-10;
-/* Roundings of all rows may add up, as those of the joints do in a chain of 1e5 links: changes of this for each row that
- * no longer fall are rounding, where the violation is. */
+/* Roundings of all rows may add up, as those of the joints do in a chain of 1e5 links: changes of
+ * this for each row that no longer fall are rounding, where the violation is. */
 static const double STALLED = 8.0 * DBL_EPSILON;
 /* Such a violation, as a displacement, of the largest coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
@@ -131,7 +131,7 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
   return baum_i_fail(
     BAUM_ERR_CONVERGENCE,
     "t = %.9g s: projection of the positions does not converge (last change %.3g of "
-    "the scale): the step is too large or the pose is near a singular one",
+    "the scale): the step is too large or the configuration is near a singular one",
     t, last);
 }
 
@@ -174,8 +174,8 @@ baum_status baum_i_project(baum_workspace *workspace, double t, double *q, doubl
 
 /* ---- rows that are left out ---- */
 
-/* Violations, as displacements and of the velocities, that rows left out may be left with: more than rounding makes of
- * those that depend on the others, less than another branch does. */
+/* Violations, as displacements and of the velocities, that rows left out may be left with: more
+ * than rounding makes of those that depend on the others, less than another branch does. */
 static const double NEGLIGIBLE = 1e-6;
 
 static baum_status fail_left_out(const baum_workspace *w, int row)
@@ -186,7 +186,7 @@ static baum_status fail_left_out(const baum_workspace *w, int row)
     BAUM_ERR_INCONSISTENT,
     "t = %.9g s: projection: a row of %s that was left out as redundant is violated by "
     "%.3g, its rate by %.3g, where the others are met: constraints contradict each "
-    "other, or the pose is on another branch",
+    "other, or the configuration is on another branch",
     w->point.t, label, w->phi[row], w->phi_rate[row]);
 }
 

@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Permanent redundancy: rows that depend on others not just at the start pose but around it.
+/* Permanent redundancy: rows that depend on others not just at the start configuration but around
+ * it.
  *
- * The rank of J M^-1/2, rows of unit length, is taken at the assembled start pose and at neighbours
- * on the constraint manifold. The largest of them is the rank that the mechanism has; the rows
- * outside one largest independent set are redundant, and every solver leaves them out; which, may change on
- * the way (row_set.c). A start pose of lower rank is a singular one.
+ * The rank of J M^-1/2, rows of unit length, is taken at the assembled start configuration and at
+ * neighbours on the constraint manifold. The largest of them is the rank that the mechanism has;
+ * the rows outside one largest independent set are redundant, and every solver leaves them out;
+ * which, may change on the way (row_set.c). A start configuration of lower rank is a singular one.
  *
- * Next to a singular pose a row that is all but dependent, by its distance d from there, blows up the rounding of those
- * behind it to 1e-16 / d, and what is redundant may pass for independent. Such a pose is not clear, and the first such
- * row is all that is sure of it: clear neighbours that have as many rows decide, and it counts as a singular one. Where
- * none is clear, rows are all but dependent everywhere, as those of two pins next to each other, and are taken as they
- * are. So they are around an exactly singular pose that is clear itself, where long members turn rows only little.
+ * Next to a singular configuration a row that is all but dependent, by its distance d from there,
+ * blows up the rounding of those behind it to 1e-16 / d, and what is redundant may pass for
+ * independent. Such a configuration is not clear, and the first such row is all that is sure of it:
+ * clear neighbours that have as many rows decide, and it counts as a singular one. Where none is
+ * clear, rows are all but dependent everywhere, as those of two pins next to each other, and are
+ * taken as they are. So they are around an exactly singular configuration that is clear itself,
+ * where long members turn rows only little.
  *
  * A neighbour is reached along x, a solution of J x = nu with a part of every freedom in it,
  * and assembled there.
@@ -24,17 +27,17 @@
 #include "dynamics/dynamics.h"
 
 enum { NEIGHBOURS = 4 };
-/* Dependent rows at an assembled pose deviate by rounding and assembly, 1e-12 at most; rows that
- * only come near dependence at a generic pose are told apart down to this. */
+/* Dependent rows at an assembled configuration deviate by rounding and assembly, 1e-12 at most;
+ * rows that only come near dependence at a generic pose are told apart down to this. */
 static const double RANK_TOLERANCE = 1e-10;
 /* Above this rows are independent without doubt, and do not blow up rounding to that tolerance. */
 static const double CLEAR = 1e-5;
-/* Rows that are farther apart are kept before others: what dependent rows disagree by, 1e-14 as assembled, comes into the
- * motion over this. */
+/* Rows that are farther apart are kept before others: what dependent rows disagree by, 1e-14 as
+ * assembled, comes into the motion over this. */
 static const double FIRST = 1e-3;
 static const double DISTANCE[NEIGHBOURS] = {0.02, -0.03, 0.05, -0.07}; /* of the scales */
 
-/* Of a pose; it is clear where both are the same. */
+/* Of a configuration; it is clear where both are the same. */
 typedef struct pose_rank {
   int all;
   int clear; /* without rows that are all but dependent */
@@ -42,13 +45,13 @@ typedef struct pose_rank {
 
 typedef struct search {
   baum_workspace *w;
-  double *start; /* (nq) the pose to look at */
+  double *start; /* (nq) the configuration to look at */
   double *q;     /* (nq) neighbour */
   double *x;     /* (nv) direction */
   pose_rank kept;
 } search;
 
-/* Rank at a pose; leaves J, M and nu there in the workspace. */
+/* Rank at a configuration; leaves J, M and nu there in the workspace. */
 static baum_status rank_at(const search *s, double t, const double *q, pose_rank *rank)
 {
   static const double tolerances[] = {FIRST, CLEAR, RANK_TOLERANCE};
@@ -70,7 +73,7 @@ static int least_rank(const pose_rank *rank)
   return rank->clear + (rank->all > rank->clear ? 1 : 0);
 }
 
-/* Whether a pose tells more of the mechanism than the other. */
+/* Whether a configuration tells more of the mechanism than the other. */
 static bool is_better(const pose_rank *rank, const pose_rank *other)
 {
   int more = least_rank(rank) - least_rank(other);
@@ -112,7 +115,7 @@ static void small_shift(baum_workspace *w)
   }
 }
 
-/* A direction of motion at the pose in the workspace, in s->x;
+/* A direction of motion at the configuration in the workspace, in s->x;
  * its scaled size in *size, 0 when nothing moves. */
 static baum_status find_direction(const search *s, double *size)
 {
@@ -134,7 +137,7 @@ static baum_status find_direction(const search *s, double *size)
   return status;
 }
 
-/* One neighbour; a pose that cannot be assembled is passed over. */
+/* One neighbour; a configuration that cannot be assembled is passed over. */
 static baum_status look_at_neighbour(search *s, double t, const double *q, double step)
 {
   baum_workspace *w = s->w;
@@ -179,7 +182,8 @@ static void keep_all(baum_i_row_set *r, int nc)
   memset(r->omitted, 0, (size_t)nc);
 }
 
-/* The pose to look at is assembled: off the constraints no row depends on others exactly. */
+/* The configuration to look at is assembled: off the constraints no row depends on others
+ * exactly. */
 static baum_status find(search *s, double t, const double *q)
 {
   baum_i_row_set *r = &s->w->rows;

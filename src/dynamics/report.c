@@ -187,7 +187,7 @@ static void report_spared(const baum_mechanism *m, baum_report *report)
 
 /* ---- the whole ---- */
 
-/* A pose to look at: assembled, or as designed where that fails; at rest. */
+/* A configuration to look at: assembled, or as designed where that fails; at rest. */
 static baum_status find_pose(baum_workspace *w, double *q, bool *assembled)
 {
   memcpy(q, w->mechanism->design_q, (size_t)w->mechanism->nq * sizeof *q);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Another set of independent rows where those that are kept come close to dependent.
  *
- * Three parallel cranks out of line turn freely, but whichever row is omitted, what stays is a parallelogram of two with
- * a third crank that hangs on one row, and has singular configurations of its own. So before these are reached other rows are
- * omitted, as coordinates are partitioned anew (Wehage and Haug 1982). Accelerations do not depend on the choice, multipliers
- * do.
+ * Three parallel cranks out of line turn freely, but whichever row is omitted, what stays is a
+ * parallelogram of two with a third crank that hangs on one row, and has singular configurations of
+ * its own. So before these are reached other rows are omitted, as coordinates are partitioned anew
+ * (Wehage and Haug 1982). Accelerations do not depend on the choice, multipliers do.
  */
 #include "dynamics/row_set.h"
 
@@ -13,8 +13,9 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-/* Distances of rows from those before, of their length, that are tried: with the first at which there are as many as the rank
- * they are well apart, and better than those kept if these are not so far apart by FACTOR. */
+/* Distances of rows from those before, of their length, that are tried: with the first at which
+ * there are as many as the rank they are well apart, and better than those kept if these are not so
+ * far apart by FACTOR. */
 static const double MOST = 0.7;
 static const double LEAST = 0.04;
 static const double STEP = 0.5;
@@ -100,7 +101,7 @@ baum_status baum_i_keep_rows_apart(baum_workspace *w, double t, const double *q)
 bool baum_i_rows_are_apart(baum_workspace *w, double t, const double *q)
 {
   bool found = false;
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   (void)select_apart_by_lengths(w, t, q, &found);
   if (!found && w->rows.count > 0) {
@@ -219,7 +220,7 @@ bool baum_i_choose_rows(baum_workspace *w, double t, const double *q, double piv
   if (pivot > last / RETRY && pivot < last * RETRY) {
     return false;
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   bool changed = exchange_rows(w, t, q);
   rows->pivot_at_last_selection = changed ? 0.0 : pivot;

@@ -8,7 +8,7 @@
 static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
                            const baum_i_snapshot_out *to)
 {
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
   baum_status status = baum_workspace_create(mechanism, &w);

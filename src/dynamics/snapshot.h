@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reports on a mechanism, or a frozen copy of it, at a configuration of their own finding, outside any run. */
+/* Reports on a mechanism, or a frozen copy of it, at a configuration of their own finding, outside
+ * any run. */
 #ifndef BAUM_I_DYNAMICS_SNAPSHOT_H
 #define BAUM_I_DYNAMICS_SNAPSHOT_H
 

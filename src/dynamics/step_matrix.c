@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step from that of the residual (dae_matrix.c) with y = (q, v, lambda), filled with c = by_a / by_v:
- * its columns of v, which hold c M - g_v, times by_v go to those of q, and the rows of q' - v are not needed. Which
- * number goes where is found once.
+/* The matrix of a step from that of the residual (dae_matrix.c) with y = (q, v, lambda), filled
+ * with c = by_a / by_v: its columns of v, which hold c M - g_v, times by_v go to those of q, and
+ * the rows of q' - v are not needed. Which number goes where is found once.
  */
 #include "dynamics/step_matrix.h"
 

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Newton's matrix of a step at index 3 by a method of Newmark's kind, whose changes of velocities and accelerations are
- * multiples of that of positions:
+/* Newton's matrix of a step at index 3 by a method of Newmark's kind, whose changes of velocities
+ * and accelerations are multiples of that of positions:
  *
  *   dv = by_v dq,  dv' = by_a dq,  dlambda = x / scale
  *
- *   [ scale (by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q)   J^T ] [ dq ]     [ scale (M v' + J^T lambda - g) ]
- *   [ J                                                              0  ] [ x  ] = - [ Phi                           ]
+ *   [ scale (by_a M - by_v g_v + (M v')_q + (J^T lambda)_q - g_q)   J^T ] [ dq ]     [ scale (M v'
+ *   + J^T lambda - g) ] [ J                                                              0  ] [ x
+ *   ] = - [ Phi                           ]
  *
- * With scale by_a of the size of 1 no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A. Cardona, 2007;
- * M. Arnold, O. Bruels, 2007). Of a omitted row i, lambda_i = 0 stays.
+ * With scale by_a of the size of 1 no entry grows as the step shrinks (C. Bottasso, O. Bauchau, A.
+ * Cardona, 2007; M. Arnold, O. Bruels, 2007). Of a omitted row i, lambda_i = 0 stays.
  */
 #ifndef BAUM_I_DYNAMICS_STEP_MATRIX_H
 #define BAUM_I_DYNAMICS_STEP_MATRIX_H
@@ -29,8 +30,8 @@ typedef struct baum_i_step_matrix baum_i_step_matrix;
 baum_status baum_i_step_matrix_create(const baum_workspace *workspace, baum_i_step_matrix **out);
 void baum_i_step_matrix_destroy(baum_i_step_matrix *matrix); /* NULL is fine */
 
-/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. Also BAUM_ERR_SINGULAR without a sentence,
- * BAUM_ERR_MEMORY. */
+/* Evaluate at (t, y, y') with y = (q, v, lambda) and factor. Also BAUM_ERR_SINGULAR without a
+ * message, BAUM_ERR_MEMORY. */
 baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace *workspace,
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);

@@ -163,7 +163,7 @@ baum_status baum_i_use_blocks(baum_workspace *w)
   if (w->choice != BAUM_I_KKT_AUTO) {
     return BAUM_OK;
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = baum_i_paths_create(w, &w->verdict, &made);
   w->path = made.all;

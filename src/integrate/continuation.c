@@ -4,24 +4,26 @@
  * Newton from a guess:       J dq = -Phi,  q moved by dq
  * then                       J v = nu,  J a = gamma
  *
- * The pose found must lie on the branch on which the step began. Newton alone cannot tell: where two branches come
- * near each other, a long step lands next to the wrong one and converges there at once. What tells them apart is J:
- * along a path without singular poses det J keeps its sign, and on the other side of a fold or of a crossing it has
- * the other. With J0 at the beginning and J1 at the end,
+ * The configuration found must lie on the branch on which the step began. Newton alone cannot tell:
+ * where two branches come near each other, a long step lands next to the wrong one and converges
+ * there at once. What tells them apart is J: along a path without singular configurations det J
+ * keeps its sign, and on the other side of a fold or of a crossing it has the other. With J0 at the
+ * beginning and J1 at the end,
  *
  *   det J0 / det J1 = det(I - D),   D = I - J1^-1 J0   (nv x nv),
  *
- * is positive as long as no real eigenvalue of D reaches 1, for which |D| < 1 is enough, at the end and, D growing
- * about as the step, on the way (the lemma of Newton and Kantorovich; P. Deuflhard, Newton Methods for Nonlinear
- * Problems, 2004, chapters 2 and 5). D is probed: with z of one part of every scale in every coordinate,
+ * is positive as long as no real eigenvalue of D reaches 1, for which |D| < 1 is enough, at the end
+ * and, D growing about as the step, on the way (the lemma of Newton and Kantorovich; P. Deuflhard,
+ * Newton Methods for Nonlinear Problems, 2004, chapters 2 and 5). D is probed: with z of one part
+ * of every scale in every coordinate,
  *
  *   turning = max_k |D^k z| / |D^(k-1) z|,  k = 1 .. PROBES,   |x| = max_i |x_i| / scale_i,
  *
- * comes near the largest eigenvalue or above it, and one that is near singular is in every z. A probe costs a solution with the
- * factors that v and a need anyway.
+ * comes near the largest eigenvalue or above it, and one that is near singular is in every z. A
+ * probe costs a solution with the factors that v and a need anyway.
  *
- * All solutions are those of the saddle-point system: with no freedom left its a is J^-1 of the lower right side
- * whatever M is, and with a zero lower right side lambda is J^-T of the upper one.
+ * All solutions are those of the saddle-point system: with no freedom left its a is J^-1 of the
+ * lower right side whatever M is, and with a zero lower right side lambda is J^-T of the upper one.
  */
 #include "integrate/continuation.h"
 
@@ -34,19 +36,22 @@
 #include "base/message.h"
 
 enum { ITERATIONS = 16, PROBES = 8, INVERSE_ITERATIONS = 3 };
-/* Newton's first correction, of the scales, and the second one over it. A guess further off is not one of this pose. */
+/* Newton's first correction, of the scales, and the second one over it. A guess further off is not
+ * one of this pose. */
 static const double FARTHEST = 0.25;
 static const double CONTRACTION = 0.25;
 /* Later corrections; below it rounding may have been reached. */
 static const double STAGNATION = 0.5;
 /* Of |D|; 1 would do if it were known exactly, and on the whole of the step. */
 static const double TURNING = 0.7;
-/* Violation as a displacement: that of coordinates of the size of the scales, and of larger ones for each scale. */
+/* Violation as a displacement: that of coordinates of the size of the scales, and of larger ones
+ * for each scale. */
 static const double ROUNDING = 4.0 * DBL_EPSILON;
 static const double NOISE = 64.0 * DBL_EPSILON;
 /* Likewise of rows that were left out: above it they do not depend on the others here. */
 static const double NEGLIGIBLE = 1e-6;
-/* A probe is over when it has decayed to this share; weight of the direction in which the last one did. */
+/* A probe is over when it has decayed to this share; weight of the direction in which the last one
+ * did. */
 static const double DECAYED = 0.01;
 static const double KEPT = 3.0;
 
@@ -172,7 +177,7 @@ static bool converges(int k, double size, double last)
   return size <= (k == 0 ? FARTHEST : (k == 1 ? CONTRACTION : STAGNATION) * last);
 }
 
-/* To the pose, at which the workspace is then left with its position stage. */
+/* To the configuration, at which the workspace is then left with its position stage. */
 static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
                           baum_i_verdict *verdict)
 {
@@ -234,8 +239,8 @@ static baum_status apply_turning(const baum_i_continuation *path, const double *
   return status;
 }
 
-/* One part of every scale in every coordinate, and the direction that the last probe ended in, where branches have
- * come near each other. */
+/* One part of every scale in every coordinate, and the direction that the last probe ended in,
+ * where branches have come near each other. */
 static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from)
 {
   const baum_mechanism *m = path->workspace->mechanism;
@@ -269,7 +274,7 @@ static baum_status measure_turning(const baum_i_continuation *path, const baum_i
 
 /* ---- velocities and accelerations ---- */
 
-/* At the pose in the workspace, whose J is factored. */
+/* At the configuration in the workspace, whose J is factored. */
 static baum_status differentiate(const baum_i_continuation *path, baum_i_pose *pose,
                                  baum_i_verdict *verdict)
 {
@@ -364,7 +369,8 @@ static baum_status iterate(const baum_i_continuation *path)
   return solve(path, w->rhs, path->probe);
 }
 
-/* Left singular vector of the smallest singular value into path->left, rows as displacements, coordinates in scales. */
+/* Left singular vector of the smallest singular value into path->left, rows as displacements,
+ * coordinates in scales. */
 static baum_status find_critical(const baum_i_continuation *path)
 {
   baum_workspace *w = path->workspace;

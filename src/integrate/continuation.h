@@ -1,31 +1,33 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Poses on the path q(t) of Phi(q, t) = 0 where no freedom is left, and one guarded step from one to the next. */
+/* Configurations on the path q(t) of Phi(q, t) = 0 where no freedom is left, and one guarded step
+ * from one to the next. */
 #ifndef BAUM_I_INTEGRATE_CONTINUATION_H
 #define BAUM_I_INTEGRATE_CONTINUATION_H
 
 #include "dynamics/dynamics.h"
 
-/* A pose that fulfils the constraints, and what follows from it. */
+/* A configuration that fulfils the constraints, and what follows from it. */
 typedef struct baum_i_pose {
   double t;
-  double *q;    /* (nq) */
-  double *v;    /* (nv) J v = nu */
-  double *a;    /* (nv) J a = gamma */
-  double *turn; /* (nv) direction in which J has turned most since the pose before; 0 for none */
+  double *q; /* (nq) */
+  double *v; /* (nv) J v = nu */
+  double *a; /* (nv) J a = gamma */
+  double *
+    turn; /* (nv) direction in which J has turned most since the configuration before; 0 for none */
   double *jacobian; /* (jacobian_size) */
 } baum_i_pose;
 
-/* Why a pose was not taken. */
+/* Why a configuration was not taken. */
 typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_NONE,
-  BAUM_I_REFUSAL_FAR,        /* Newton's first correction is large, or the next hardly smaller */
-  BAUM_I_REFUSAL_TURNED,     /* J has changed so much that a singular pose may lie between */
-  BAUM_I_REFUSAL_SINGULAR,   /* J cannot be factored */
-  BAUM_I_REFUSAL_LEFT_OUT,   /* a row that was left out as redundant is violated */
+  BAUM_I_REFUSAL_FAR,      /* Newton's first correction is large, or the next hardly smaller */
+  BAUM_I_REFUSAL_TURNED,   /* J has changed so much that a singular configuration may lie between */
+  BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
+  BAUM_I_REFUSAL_LEFT_OUT, /* a row that was left out as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
 } baum_i_refusal;
 
-/* How a pose was found, or why it was not. */
+/* How a configuration was found, or why it was not. */
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
   baum_status evaluation; /* the status of BAUM_I_REFUSAL_EVALUATION */
@@ -46,7 +48,7 @@ typedef struct baum_i_continuation {
   double *left;     /* (nc) */
 } baum_i_continuation;
 
-/* Where a singular pose is singular. */
+/* Where a singular configuration is singular. */
 typedef struct baum_i_impasse {
   double
     gain; /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot be factored */
@@ -59,16 +61,18 @@ typedef struct baum_i_impasse {
 baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *workspace);
 void baum_i_continuation_close(baum_i_continuation *path);
 
-/* J at pose->q and pose->t, which need not fulfil the constraints, so that it can serve as `from` below. */
+/* J at configuration->q and pose->t, which need not fulfil the constraints, so that it can serve as
+ * `from` below. */
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
 
-/* From the guess pose->q at pose->t to the pose: Newton, then v and a, guarded against the pose `from`, of which
- * J and turn are used. BAUM_OK, and then verdict->refusal tells whether the pose is good; or what a function that stops the run
+/* From the guess pose->q at configuration->t to the configuration: Newton, then v and a, guarded
+ * against the configuration `from`, of which J and turn are used. BAUM_OK, and then
+ * verdict->refusal tells whether the configuration is good; or what a function that stops the run
  * returned, BAUM_ERR_MEMORY. */
 baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
                                       baum_i_pose *pose, baum_i_verdict *verdict);
 
-/* Look at a good pose next to which none was found. */
+/* Look at a good configuration next to which none was found. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,
                                         baum_i_impasse *impasse);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Euler, order 1 (L. Euler, 1768; with Baumgarte's gains: Flores et al. 2008, equations 12 to 19):
+/* Explicit Euler, order 1 (L. Euler, 1768; with Baumgarte's gains: Flores et al. 2008, equations 12
+ * to 19):
  *
  *   q(t + h) = q moved by h v (nq)   old velocities
  *   v(t + h) = v + h a        (nv)

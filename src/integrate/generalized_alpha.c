@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The generalized-alpha method (J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371-375) on the equations of index 3
- * (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; where q is no vector O. Bruels, A. Cardona, M. Arnold,
- * Mech. Mach. Theory 48 (2012) 121-137), order 2:
+/* The generalized-alpha method (J. Chung, G. Hulbert, J. Appl. Mech. 60 (1993) 371-375) on the
+ * equations of index 3 (M. Arnold, O. Bruels, Multibody Syst. Dyn. 18 (2007) 185-202; where q is no
+ * vector O. Bruels, A. Cardona, M. Arnold, Mech. Mach. Theory 48 (2012) 121-137), order 2:
  *
  *   M v'_1 + J^T lambda_1 = g,  Phi(t_1, q_1) = 0                                 at t_1 = t + h
  *   q_1 = q moved by x,  x = h v + h^2 ((1/2 - beta) a + beta a_1)                (nq), x (nv)
@@ -11,17 +11,20 @@
  *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
  *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
  *
- * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as the constraints have: a disturbance of the
- * multipliers falls to a tenth in ten steps. Oscillations that are resolved are hardly damped.
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as the constraints have:
+ * a disturbance of the multipliers falls to a tenth in ten steps. Oscillations that are resolved
+ * are hardly damped.
  *
- * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and begins so, else the
- * multipliers would be of first order for some steps. For a step of another length the difference is scaled.
+ * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and
+ * begins so, else the multipliers would be of first order for some steps. For a step of another
+ * length the difference is scaled.
  *
- * The first step after every beginning starts from the state projected onto the constraints: a violation would become
- * velocities of its size over h, which no equation takes back at once.
+ * The first step after every beginning starts from the state projected onto the constraints: a
+ * violation would become velocities of its size over h, which no equation takes back at once.
  *
- * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled multipliers: step_matrix.h.
- * (Where q is no vector it is exact but for terms of h times the angular velocity: x is added at q, not at q_1.)
+ * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled
+ * multipliers: step_matrix.h. (Where q is no vector it is exact but for terms of h times the
+ * angular velocity: x is added at q, not at q_1.)
  */
 #include "integrate/generalized_alpha.h"
 
@@ -41,21 +44,23 @@ static const double BETA = 25.0 / 81.0;
 
 enum { ITERATIONS = 20 };
 
-/* A change of the positions by this share of what the accelerations do in a step is the last: multipliers and
- * accelerations are then right to that share. It is not asked for less than some roundings of the positions, or of
- * their scale where they are small beside it, as those of a body at the origin. */
+/* A change of the positions by this share of what the accelerations do in a step is the last:
+ * multipliers and accelerations are then right to that share. It is not asked for less than some
+ * roundings of the positions, or of their scale where they are small beside it, as those of a body
+ * at the origin. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped falling, and are no more than so many of these roundings, are rounding, too. */
+/* Changes that have stopped falling, and are no more than so many of these roundings, are rounding,
+ * too. */
 static const double STALLED = 64.0;
-/* Changes up to this that have stopped falling are compared with what rounding makes of the equations: that of a large
- * coordinate is much in the scale of a small one that is tied to it. */
+/* Changes up to this that have stopped falling are compared with what rounding makes of the
+ * equations: that of a large coordinate is much in the scale of a small one that is tied to it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* Of a step, for the derivative of the acceleration by a difference: truncation is this share of terms of second order,
- * rounding its inverse of one unit. */
+/* Of a step, for the derivative of the acceleration by a difference: truncation is this share of
+ * terms of second order, rounding its inverse of one unit. */
 static const double SHIFT = 1e-3;
 
 /* Steps that differ by less than this share need no other a. */
@@ -91,7 +96,8 @@ typedef struct alpha_run {
 
 /* ---- begin ---- */
 
-/* v' and lambda of (5); a by a difference along the motion, for steps of the grid whatever the first one is. */
+/* v' and lambda of (5); a by a difference along the motion, for steps of the grid whatever the
+ * first one is. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;
@@ -119,7 +125,8 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   return BAUM_OK;
 }
 
-/* So that every trial from a state begins alike: the first steps project, whether they are kept or not. */
+/* So that every trial from a state begins alike: the first steps project, whether they are kept or
+ * not. */
 static baum_status prepare(alpha_run *run, const baum_i_problem *problem, baum_i_state *state)
 {
   bool begins = !run->known || run->first;
@@ -231,8 +238,9 @@ static void take_back(alpha_run *run, const baum_mechanism *m, const baum_i_stat
   memcpy(run->y + run->nq + run->nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
 }
 
-/* Size of the change of the positions that rounding asks for: what the equations change by when all unknowns do so in
- * their last digits, with signs of its own in each row, for rows are rounded each by itself. */
+/* Size of the change of the positions that rounding asks for: what the equations change by when all
+ * unknowns do so in their last digits, with signs of its own in each row, for rows are rounded each
+ * by itself. */
 static baum_status find_noise(alpha_run *run, const baum_i_problem *problem,
                               const baum_i_state *state, double t, const baum_i_step_ratios *ratios,
                               double *noise)
@@ -279,7 +287,7 @@ static baum_status fail(double t, double size)
   return baum_i_fail(
     BAUM_ERR_CONVERGENCE,
     "t = %.9g s: generalized_alpha: the equations of the next step do not converge "
-    "(last change %.3g of the scale): the step is too large or the pose is near a "
+    "(last change %.3g of the scale): the step is too large or the configuration is near a "
     "singular one",
     t, size);
 }

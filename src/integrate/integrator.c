@@ -2,20 +2,24 @@
 /* What all integrators share: facts about one, the accelerations and tolerances it works with.
  * Names no integrator, so that a program links only those it calls.
  *
- * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate w = 1/T and present
- * size |v|:
+ * Tolerances of coordinate i with scale s_i (a length or an angle; positions have their own), rate
+ * w = 1/T and present size |v|:
  *   position  f_q (rtol s_i + atol)
  *   velocity  f_v (rtol s_i max(w, max_k |v_k| / s_k) + atol)
  * so that neither the number of turns of a crank nor the choice of units makes a difference.
  *
- * Error tests of BDF are given a portion of rtol and atol, so that runs at one rtol are about as exact whatever the method:
- * - A step of order q from an exact past is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), alpha_0 = 1 + 1/2 + ... + 1/q. It adds
- *   alpha_0 times that to the error of the motion, for the past is off too (E. Hairer, S. Norsett, G. Wanner, Solving
- *   Ordinary Differential Equations I, 1993, III.2: the error constant). CVODE tests the former, IDA the latter; at order 5,
- *   where they are nearly always, alpha_0 is 137/60.
- * - Orders end at 5, and what up to three times the steps of Adams' methods add is more. Measured: given a third, both are
- *   about as far off as Adams' methods at the same rtol, or less, in energies, times of events and positions, where it was
- *   up to six times as much; IDA for 1.2 times the steps, CVODE for 1.33 times (docs/theory/energy.md).
+ * Error tests of BDF are given a portion of rtol and atol, so that runs at one rtol are about as
+ * exact whatever the method:
+ * - A step of order q from an exact past is off by h^(q+1) y^(q+1) / ((q+1) alpha_0), alpha_0 = 1 +
+ * 1/2 + ... + 1/q. It adds
+ *   alpha_0 times that to the error of the motion, for the past is off too (E. Hairer, S. Norsett,
+ *   G. Wanner, Solving Ordinary Differential Equations I, 1993, III.2: the error constant). CVODE
+ *   tests the former, IDA the latter; at order 5, where they are nearly always, alpha_0 is 137/60.
+ * - Orders end at 5, and what up to three times the steps of Adams' methods add is more. Measured:
+ * given a third, both are
+ *   about as far off as Adams' methods at the same rtol, or less, in energies, times of events and
+ *   positions, where it was up to six times as much; IDA for 1.2 times the steps, CVODE for 1.33
+ *   times (docs/theory/energy.md).
  * Where rounding counts, below LEAST_RTOL, steps would only become many.
  */
 #include "integrate/integrator.h"
@@ -128,14 +132,14 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
   return integrator->restart && (integrator->accept || !baum_i_problem_has_fixed_step(problem));
 }
 
-baum_status baum_i_fail_in_step(baum_status status, const char *sentence, const char *integrator,
+baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h)
 {
   char length[48] = "";
   if (h != 0.0) {
     baum_i_print(length, sizeof length, ", %.3g s long", fabs(h));
   }
-  return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", sentence, integrator, t,
+  return baum_i_fail(status, "%.800s (in a step of %s from t = %.9g s%s)", message, integrator, t,
                      length);
 }
 

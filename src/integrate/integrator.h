@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrators behind one ops table. Each lives in a file of its own, so that a program links only those it calls.
+/* Integrators behind one ops table. Each lives in a file of its own, so that a program links only
+ * those it calls.
  *
- * A fixed-step method moves a state by h; grid, projection, monitors and output are the caller's. A variable-step
- * method takes one step of its own length and interpolates inside its last one.
- * Integrators reach the equations only through a problem, whose functions carry the formulation and the gains.
+ * A fixed-step method moves a state by h; grid, projection, monitors and output are the caller's. A
+ * variable-step method takes one step of its own length and interpolates inside its last one.
+ * Integrators reach the equations only through a problem, whose functions carry the formulation and
+ * the gains.
  */
 #ifndef BAUM_I_INTEGRATE_INTEGRATOR_H
 #define BAUM_I_INTEGRATE_INTEGRATOR_H
@@ -15,7 +17,8 @@
 
 /* What is integrated, and how exactly. Constant but for direction and stop. */
 typedef struct baum_i_problem {
-  /* Saved with a run, up to `workspace`: of another processor these may differ in the last digits. */
+  /* Saved with a run, up to `workspace`: of another processor these may differ in the last
+   * digits. */
   double alpha;     /* [1/s] >= 0 */
   double beta;      /* [1/s] >= 0 */
   double direction; /* +1 forward, -1 backward in time: alpha carries it */
@@ -48,7 +51,7 @@ typedef struct baum_i_statistics {
   int64_t factorizations;      /* of its own matrix */
   int64_t full_factorizations; /* those that chose pivots anew and may allocate */
   int64_t nonlinear_iterations;
-  int64_t forced; /* accepted whatever their error estimate, over a singular pose */
+  int64_t forced; /* accepted whatever their error estimate, over a singular configuration */
 } baum_i_statistics;
 
 struct baum_integrator {
@@ -68,34 +71,36 @@ struct baum_integrator {
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
   bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
 
-  /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure *out = NULL. */
+  /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure
+   * *out = NULL. */
   baum_status (*create)(const void *table, const baum_i_problem *problem, const baum_i_state *start,
                         void **out);
   void (*destroy)(void *self); /* NULL is fine */
 
-  /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step (nv), evaluated by
-   * the caller through baum_i_problem_motion(). state->t is set by the caller. NULL where there is only variable step.
-   * A method that has this and `advance` takes the one that problem->step asks for; one that has neither needs
-   * SUNDIALS, which the build does not have. */
+  /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step
+   * (nv), evaluated by the caller through baum_i_problem_motion(). state->t is set by the caller.
+   * NULL where there is only variable step. A method that has this and `advance` takes the one that
+   * problem->step asks for; one that has neither needs SUNDIALS, which the build does not have. */
   baum_status (*step)(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                       const double *a);
 
-  /* Fixed step, methods with a memory: the last step is kept; before, it may have been a trial that is not. NULL for
-   * one-step methods. */
+  /* Fixed step, methods with a memory: the last step is kept; before, it may have been a trial that
+   * is not. NULL for one-step methods. */
   void (*accept)(void *self, const baum_i_problem *problem, const baum_i_state *state);
 
   /* Variable step; NULL where there is only fixed step. */
-  /* One step of its own length in problem->direction; state receives its end. On failure the state is that of the
-   * last good step, from which the next call begins anew. */
+  /* One step of its own length in problem->direction; state receives its end. On failure the state
+   * is that of the last good step, from which the next call restarts. */
   baum_status (*advance)(void *self, const baum_i_problem *problem, baum_i_state *state);
   /* Positions and velocities inside the last step. */
   baum_status (*interpolate)(void *self, const baum_i_problem *problem, double t, double *q,
                              double *v);
-  /* Begin anew from a state, in problem->direction. Allocates nothing. NULL where nothing is remembered; also not
-   * called where baum_i_integrator_remembers() says no. */
+  /* restart from a state, in problem->direction. Allocates nothing. NULL where nothing is
+   * remembered; also not called where baum_i_integrator_remembers() says no. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
-  /* Begin anew at the next step, from the state which that is given, and with pivots chosen anew, so that nothing
-   * depends on the steps before. Neither evaluates nor allocates. Where there is `restart`. */
+  /* restart at the next step, from the state which that is given, and with pivots chosen anew, so
+   * that nothing depends on the steps before. Neither evaluates nor allocates. Where there is
+   * `restart`. */
   void (*forget)(void *self);
   void (*statistics)(const void *self, baum_i_statistics *out);
 };
@@ -107,29 +112,33 @@ void baum_i_problem_gains(const baum_i_problem *problem, double *alpha, double *
 baum_status baum_i_problem_acceleration(const baum_i_problem *problem, double t, const double *q,
                                         const double *v);
 
-/* Likewise a alone, as a method needs it that asks for nothing else: what cannot move may be left out. */
+/* Likewise a alone, as a method needs it that asks for nothing else: what cannot move may be left
+ * out. */
 baum_status baum_i_problem_motion(const baum_i_problem *problem, double t, const double *q,
                                   const double *v);
 
 /* Of fixed step? Else variable, or kinematics. */
 bool baum_i_problem_has_fixed_step(const baum_i_problem *problem);
 
-/* Is h from t a step of the fixed grid, up to the rounding of times? What is remembered of steps holds for these. */
+/* Is h from t a step of the fixed grid, up to the rounding of times? What is remembered of steps
+ * holds for these. */
 bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double h);
 
 /* Tolerances of every coordinate for variable-step methods: positions rtol scale + atol, velocities
- * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times their factors. */
+ * rtol scale max(rate, present size) + atol with the present size max_i |v_i| / scale_i, times
+ * their factors. */
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
 
 /* Portion of rtol and atol that the error test of a method is given, <= 1. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 
-/* Does a run remember steps, so that it has to be told when it begins anew? */
+/* Does a run remember steps, so that it has to be told when it restarts? */
 bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i_problem *problem);
 
-/* The sentence of an evaluation that failed, with the step from t in which that was; h: 0 where none had begun. */
-baum_status baum_i_fail_in_step(baum_status status, const char *sentence, const char *integrator,
+/* The message of an evaluation that failed, with the step from t in which that was; h: 0 where none
+ * had begun. */
+baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 
 /* Formulation offered? */

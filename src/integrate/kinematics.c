@@ -1,15 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: mechanisms without freedom, whose every coordinate follows from Phi(q, t) = 0. Continuation in time:
+/* Kinematics: mechanisms without degrees of freedom, whose every coordinate follows from Phi(q, t)
+ * = 0. Continuation in time:
  *
  *   guess at t + h        q moved by h v + h^2 a / 2
- *   then                  the pose there, its v and a (continuation.c)
- *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements from one of them
+ *   then                  the configuration there, its v and a (continuation.c)
+ *   guess inside a step   the polynomial of degree 5 through q, v, a at both ends, as displacements
+ *   from one of them
  *
- * The step follows what the last one has shown: the contraction of Newton's iteration grows with the error of the
- * guess, as h^3, the turning of J as h. Nothing is integrated and no error accumulates: a pose asked for is solved to
- * rounding, at whatever steps. Steps are for the branch alone, so that the run never jumps: a step that may have
- * passed a singular pose is refused and shortened, and where no step is short enough the run has come to an end, at a
- * lock-up (a fold of the path: no pose beyond) or where branches cross.
+ * The step follows what the last one has shown: the contraction of Newton's iteration grows with
+ * the error of the guess, as h^3, the turning of J as h. Nothing is integrated and no error
+ * accumulates: a configuration asked for is solved to rounding, at whatever steps. Steps are for
+ * the branch alone, so that the run never jumps: a step that may have passed a singular
+ * configuration is refused and shortened, and where no step is short enough the run has come to an
+ * end, at a lock-up (a fold of the path: no pose beyond) or where branches cross.
  */
 #include <float.h>
 #include <math.h>
@@ -33,9 +36,11 @@ static const double SHORTEST = 1e-10;
 static const double TIME_ROUNDINGS = 64.0;
 /* The longest step, likewise, while nothing moves. */
 static const double LONGEST = 1e6;
-/* |J^-1| from which on a pose counts as singular; at a fold it is about 1e5 when steps end. */
+/* |J^-1| from which on a configuration counts as singular; at a fold it is about 1e5 when steps
+ * end. */
 static const double SINGULAR_GAIN = 1e3;
-/* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 / gain. */
+/* Share of drivers in the critical forces that makes a fold: where branches cross it is about 1 /
+ * gain. */
 static const double FOLD_PULL = 1e-3;
 
 enum { POSES = 4, MOST_PIECES = 10000 /* of a step that is walked through */ };
@@ -45,13 +50,13 @@ typedef struct kinematics_run {
   double *memory;
   baum_i_pose poses[POSES];
   baum_i_pose *left;  /* beginning of the last step */
-  baum_i_pose *right; /* its end: the last good pose */
+  baum_i_pose *right; /* its end: the last good configuration */
   baum_i_pose *trial;
   baum_i_pose *spare;
-  bool forgotten; /* the next step begins anew */
+  bool forgotten; /* the next step restarts */
   double h;       /* [s] > 0, what the next step tries */
   baum_i_statistics statistics;
-  baum_i_sentence evaluation; /* of the last refused evaluation */
+  baum_i_kept_message evaluation; /* of the last refused evaluation */
 } kinematics_run;
 
 /* ---- poses ---- */
@@ -111,7 +116,7 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
 
 /* ---- steps ---- */
 
-/* A guess in pose becomes a pose; counted. */
+/* A guess in configuration becomes a configuration; counted. */
 static baum_status solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
                          baum_i_verdict *verdict)
 {
@@ -174,7 +179,7 @@ static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
-    "t = %.9g s: kinematics: the pose is singular here and the motion may go on in "
+    "t = %.9g s: kinematics: the configuration is singular here and the motion may go on in "
     "more than one way, which shows most in %s; what is driven does not tell which",
     t, resister);
 }
@@ -211,8 +216,8 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
                      t, h, label_of(m, at.driver, label));
 }
 
-/* From *from towards t by one step, shortened as often as it is refused, into *to; h is what is tried, and then what
- * the next may try. */
+/* From *from towards t by one step, shortened as often as it is refused, into *to; h is what is
+ * tried, and then what the next may try. */
 static baum_status step(kinematics_run *run, const baum_i_problem *problem, const baum_i_pose *from,
                         baum_i_pose *to, double t_end, double *h)
 {
@@ -244,8 +249,8 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
 
 /* ---- inside the last step ---- */
 
-/* By short steps from the left end, where the guess inside was no good. A step that the time rounds away would not
- * lead on. */
+/* By short steps from the left end, where the guess inside was no good. A step that the time rounds
+ * away would not lead on. */
 static baum_status walk(kinematics_run *run, const baum_i_problem *problem, double t)
 {
   copy_pose(problem->workspace->mechanism, run->left, run->trial);
@@ -310,10 +315,11 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
     return say_when(run->spare, status);
   }
   if (!(at.gain < SINGULAR_GAIN)) {
-    return baum_i_fail(BAUM_ERR_SINGULAR,
-                       "t = %.9g s: kinematics: the start pose is singular, and the motion may go "
-                       "on from it in more than one way; start at another time or pose",
-                       t);
+    return baum_i_fail(
+      BAUM_ERR_SINGULAR,
+      "t = %.9g s: kinematics: the start configuration is singular, and the motion may go "
+      "on from it in more than one way; start at another time or pose",
+      t);
   }
   return baum_i_fail(
     BAUM_ERR_INCONSISTENT,
@@ -323,7 +329,7 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
     t);
 }
 
-/* The pose next to a state and on its branch, which then is both ends of the last step. */
+/* The configuration next to a state and on its branch, which then is both ends of the last step. */
 static baum_status restart(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   kinematics_run *run = self;

@@ -3,7 +3,8 @@
 
 #include <string.h>
 
-/* [rad] between states: what a cubic cuts off is of their fourth power, while rounding there is 1e-16 over the square. */
+/* [rad] between states: what a cubic cuts off is of their fourth power, while rounding there is
+ * 1e-16 over the square. */
 static const double APART = 0.003;
 /* Of the rate that gravity makes: slower ones have no way on to look at. */
 static const double SLOW = 0.1;

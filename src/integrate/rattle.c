@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE (H. C. Andersen, J. Comp. Phys. 52 (1983) 24-34; symplectic: B. Leimkuhler, R. Skeel, J. Comp. Phys. 112
- * (1994) 117-125; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2006, VII.1.4), order 2, for
- * constant M and forces g(t, q):
+/* RATTLE (H. C. Andersen, J. Comp. Phys. 52 (1983) 24-34; symplectic: B. Leimkuhler, R. Skeel, J.
+ * Comp. Phys. 112 (1994) 117-125; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration,
+ * 2006, VII.1.4), order 2, for constant M and forces g(t, q):
  *
  *   v'       = v + (h/2) M^-1 (g(t, q) - J(q)^T lambda)             (nv)
  *   q(t + h) = q moved by h v',           Phi(q(t + h)) = 0         (nq)   gives lambda
  *   v(t + h) = v' + (h/2) M^-1 (g - J^T mu)  at q(t + h),  J v = nu        gives mu
  *
- * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of width O(h^2).
- * With constraints and forces of time it is so in the phase space that has time and its momentum, too.
+ * Symmetric, and symplectic on the constraints, so that the energy of a long run stays in a band of
+ * width O(h^2). With constraints and forces of time it is so in the phase space that has time and
+ * its momentum, too.
  *
- * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form M^-1 (g - J^T lambda),
- * so that Newton's method begins with v' = v + (h/2) a, and its matrix J(q) M^-1 J(q)^T may be held: what it gives are
- * changes dq along M^-1 J(q)^T, of v' by dq / h. The end is moved by h v' from q each time, so that the rounding of q does
- * not come into v divided by h.
+ * Of lambda only the sum of all changes matters: the acceleration a of the caller is of the form
+ * M^-1 (g - J^T lambda), so that Newton's method begins with v' = v + (h/2) a, and its matrix J(q)
+ * M^-1 J(q)^T may be held: what it gives are changes dq along M^-1 J(q)^T, of v' by dq / h. The end
+ * is moved by h v' from q each time, so that the rounding of q does not come into v divided by h.
  */
 #include <float.h>
 #include <math.h>
@@ -26,8 +27,8 @@
 
 enum { ITERATIONS = 50 };
 
-/* Changes below so many roundings of the coordinates, or of their scale where they are small beside it, as those of a
- * body at the origin, are rounding. */
+/* Changes below so many roundings of the coordinates, or of their scale where they are small beside
+ * it, as those of a body at the origin, are rounding. */
 static const double ROUNDING = 2.0 * DBL_EPSILON;
 /* Changes that have stopped falling, and are no more than so many of these, too. */
 static const double STALLED = 256.0;
@@ -43,7 +44,8 @@ typedef struct rattle_run {
 
 /* ---- positions ---- */
 
-/* Whether another change would be rounding: changes fall in proportion. Of the first, nothing is before. */
+/* Whether another change would be rounding: changes fall in proportion. Of the first, nothing is
+ * before. */
 static bool is_last(double size, double before, double rounding)
 {
   if (size <= rounding || isinf(before)) {
@@ -55,11 +57,12 @@ static bool is_last(double size, double before, double rounding)
 
 static baum_status fail(double t, double size)
 {
-  return baum_i_fail(BAUM_ERR_CONVERGENCE,
-                     "t = %.9g s: rattle: the positions of the next step do not converge (last "
-                     "change %.3g of the scale): the step is too large or the pose is near a "
-                     "singular one",
-                     t, size);
+  return baum_i_fail(
+    BAUM_ERR_CONVERGENCE,
+    "t = %.9g s: rattle: the positions of the next step do not converge (last "
+    "change %.3g of the scale): the step is too large or the configuration is near a "
+    "singular one",
+    t, size);
 }
 
 static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,

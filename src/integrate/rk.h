@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Pairs, which choose their step,
- * are in rk_adaptive.h. */
+/* Explicit Runge-Kutta methods: their stages and fixed steps; a table for each method. Pairs, which
+ * choose their step, are in rk_adaptive.h. */
 #ifndef BAUM_I_INTEGRATE_RK_H
 #define BAUM_I_INTEGRATE_RK_H
 
@@ -15,8 +15,8 @@ typedef struct baum_i_rk_table {
   const double *b; /* (stages) */
 } baum_i_rk_table;
 
-/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size` entries: nq
- * positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
+/* Memory of a run; first member of whatever else a method remembers. Arrays over (q, v) have `size`
+ * entries: nq positions, nv velocities, and zeros up to whole groups of BAUM_I_RK_LANES. */
 typedef struct baum_i_rk {
   const baum_i_rk_table *table;
   const baum_i_rk_kernel *kernel;
@@ -37,8 +37,8 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
 
 /* ---- for methods that have more to remember ---- */
 
-/* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over (q, v). All of it
- * is one piece of memory, rk->rates. */
+/* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over
+ * (q, v). All of it is one piece of memory, rk->rates. */
 baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more);

@@ -1,21 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta pairs with steps of their own choice (E. Hairer, S. P. Norsett, G. Wanner: Solving Ordinary
- * Differential Equations I, 2nd ed. 1993, sections II.4 to II.6 and the appendix). In the notation of rk.c, with
- * K_(s+1) the rate at the end of the step:
+/* Explicit Runge-Kutta pairs with steps of their own choice (E. Hairer, S. P. Norsett, G. Wanner:
+ * Solving Ordinary Differential Equations I, 2nd ed. 1993, sections II.4 to II.6 and the appendix).
+ * In the notation of rk.c, with K_(s+1) the rate at the end of the step:
  *
  *   estimate      E = h sum e_i K_i,  |E| the root mean square of E_i / tolerance_i over (q, v)
- *                 with a second one of order 3:  |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls with h^8 where |E|
- *                 alone falls with h^6
+ *                 with a second one of order 3:  |E|^2 / sqrt(|E|^2 + 0.01 |E3|^2), which falls
+ *                 with h^8 where |E| alone falls with h^6
  *   interpolant   y + x (F_1 + (1 - x) (F_2 + x (F_3 + (1 - x) (F_4 + ...)))),  x = (t - t_n) / h,
- *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4 ... = h sum d_i K_i
+ *                 F_1 = y_(n+1) - y_n,  F_2 = h K_1 - F_1,  F_3 = 2 F_1 - h (K_1 + K_(s+1)),  F_4
+ *                 ... = h sum d_i K_i
  *
- * whatever F_4 ... are, it takes the values and rates of both ends. Norm and tolerances are those of CVODE here, so
- * that one rtol means the same everywhere. Extra rates of the interpolant are evaluated when a time inside the step is
- * asked for; nothing of that comes back into the motion.
+ * whatever F_4 ... are, it takes the values and rates of both ends. Norm and tolerances are those
+ * of CVODE here, so that one rtol means the same everywhere. Extra rates of the interpolant are
+ * evaluated when a time inside the step is asked for; nothing of that comes back into the motion.
  *
- * Projection: the end of a step is projected before its rate is taken, so that interpolant and next step begin at the
- * projected state. Where the estimate needs that rate, it is therefore made after the projection, which is of its order
- * or smaller, and one evaluation is saved in each step.
+ * Projection: the end of a step is projected before its rate is taken, so that interpolant and next
+ * step begin at the projected state. Where the estimate needs that rate, it is therefore made after
+ * the projection, which is of its order or smaller, and one evaluation is saved in each step.
  *
  * The end of a step is t + h as rounded, and h is what lies between: time and motion never part.
  */
@@ -35,7 +36,7 @@
 typedef struct failure {
   baum_status status; /* BAUM_OK: none */
   double t;           /* start of that try */
-  char sentence[BAUM_I_MESSAGE_SIZE];
+  char message[BAUM_I_MESSAGE_SIZE];
 } failure;
 
 /* Memory of a run. */
@@ -51,7 +52,7 @@ typedef struct adaptive_run {
   double *dense;   /* ((3 + pair->dense) x size) F of the last step */
   bool has_step;   /* t .. weights are of a step */
   bool has_dense;  /* F is of that step */
-  bool unfinished; /* a start or step that failed must be begun anew */
+  bool unfinished; /* a start or step that failed must be restarted */
   int64_t rejected;
   int64_t forced;
   baum_i_rk_crossing crossing;
@@ -64,10 +65,12 @@ static const double SHARE_OF_ERROR3 = 0.01;
 /* By which the projection may move positions where it is distrusted, in units of the tolerance. */
 static const double MOST_MOVED = 10.0;
 
-/* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times of their own. */
+/* Shortest step, relative to the time or to T, whichever is longer: in it stages still have times
+ * of their own. */
 static const double SHORTEST = 10.0 * DBL_EPSILON;
 
-/* Tries of one step. Each is at most 0.9 of the one before, and half of them suffice from T to the shortest step. */
+/* Tries of one step. Each is at most 0.9 of the one before, and half of them suffice from T to the
+ * shortest step. */
 enum { MOST_TRIES = 1000 };
 
 /* ---- failures ---- */
@@ -75,14 +78,14 @@ enum { MOST_TRIES = 1000 };
 /* h: 0 where no step has begun. */
 static baum_status fail_with_evaluation(const adaptive_run *run, double h)
 {
-  return baum_i_fail_in_step(run->last.status, run->last.sentence, run->pair->name, run->t, h);
+  return baum_i_fail_in_step(run->last.status, run->last.message, run->pair->name, run->t, h);
 }
 
 static void remember(adaptive_run *run, baum_status status)
 {
   run->last.status = status;
   run->last.t = run->t;
-  (void)snprintf(run->last.sentence, sizeof run->last.sentence, "%s", baum_message());
+  (void)snprintf(run->last.message, sizeof run->last.message, "%s", baum_message());
 }
 
 /* May a shorter step help? */
@@ -95,8 +98,8 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
          status == BAUM_ERR_CONVERGENCE;
 }
 
-/* Steps that shrink towards a place where evaluations fail end with one in which none does: what failed nearly no time
- * ago is still the reason. */
+/* Steps that shrink towards a place where evaluations fail end with one in which none does: what
+ * failed nearly no time ago is still the reason. */
 static baum_status fail_short(const adaptive_run *run, const baum_i_problem *problem, double h)
 {
   bool near = fabs(run->t - run->last.t) * problem->rate <= 1e-6;
@@ -106,7 +109,7 @@ static baum_status fail_short(const adaptive_run *run, const baum_i_problem *pro
   return baum_i_fail(
     BAUM_ERR_STEP,
     "t = %.9g s: %s: a step of %.3g s is too short beside the time; the error stays "
-    "above the tolerance however small the step: a force may jump here, the pose "
+    "above the tolerance however small the step: a force may jump here, the configuration "
     "may be near a singular one, the motion may grow without bound, or rtol = %g "
     "is too small",
     run->t, run->pair->name, h, problem->rtol);
@@ -159,7 +162,8 @@ static double estimate(const adaptive_run *run, double h)
 
 /* ---- begin ---- */
 
-/* With an error constant of one, local errors of the size of the tolerance; less is put right by the first step. */
+/* With an error constant of one, local errors of the size of the tolerance; less is put right by
+ * the first step. */
 static double first_step(const adaptive_run *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
@@ -240,8 +244,8 @@ static baum_status project_end(const adaptive_run *run, const baum_i_problem *pr
   return status;
 }
 
-/* Projection and rate of the end. A driver whose velocity jumps has accelerations that say nothing of it: only the
- * projection does. */
+/* Projection and rate of the end. A driver whose velocity jumps has accelerations that say nothing
+ * of it: only the projection does. */
 static baum_status finish_end(const adaptive_run *run, const baum_i_problem *problem, double *error)
 {
   const baum_i_rk *rk = &run->rk;
@@ -258,7 +262,8 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
   return baum_i_rk_evaluate(rk, problem, run->t_end, run->end, rk->table->stages);
 }
 
-/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at most `most`. */
+/* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at
+ * most `most`. */
 static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, double most,
                             double *error)
 {
@@ -280,8 +285,8 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
   return BAUM_OK;
 }
 
-/* The one place where a step is accepted. One cut to `length` for a pose ahead says nothing against what was wanted, which
- * the next needs to get over it. */
+/* The one place where a step is accepted. One cut to `length` for a configuration ahead says
+ * nothing against what was wanted, which the next needs to get over it. */
 static void accept(adaptive_run *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Explicit Runge-Kutta pairs, which estimate their error and choose their step: one driver, a table for each pair.
- * baum_i_rk_step() of rk.h takes their steps of fixed length. */
+/* Explicit Runge-Kutta pairs, which estimate their error and choose their step: one driver, a table
+ * for each pair. baum_i_rk_step() of rk.h takes their steps of fixed length. */
 #ifndef BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 #define BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 
 #include "integrate/rk.h"
 
-/* A pair of s stages. Rate s (from 0) is that at the end of the step, from which the next one begins. Extra rates, for
- * the interpolant alone, come after it. */
+/* A pair of s stages. Rate s (from 0) is that at the end of the step, from which the next one
+ * begins. Extra rates, for the interpolant alone, come after it. */
 typedef struct baum_i_rk_pair {
   const char *name; /* of the integrator, in messages */
   baum_i_rk_table table;

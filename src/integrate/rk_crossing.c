@@ -6,28 +6,32 @@
 
 #include "integrate/limit.h"
 
-/* [rad] by which a mechanism moves at least in a step near a singular pose, and in one over it. */
+/* [rad] by which a mechanism moves at least in a step near a singular configuration, and in one
+ * over it. */
 static const double SHORT = 0.0002;
 static const double STEP_OVER = 0.05;
 /* Error of such a step, of the scales, above which it is refused all the same. */
 static const double LARGEST_FORCED = 0.01;
-/* Error of a step over a pose, of the scales, times p at its start: what rounding makes of it, and gains that bring
- * violations back. With 40 windows it was up to 2e-10; what is refused then is worse from nearer by. */
+/* Error of a step over a configuration, of the scales, times p at its start: what rounding makes of
+ * it, and gains that bring violations back. With 40 windows it was up to 2e-10; what is refused
+ * then is worse from nearer by. */
 static const double ROUNDING = 1e-9;
 
-/* Pivots, of the usual one: below the first a singular pose ahead is looked for, and from above it no step ends below the
- * second, where rounding over p is large. */
+/* Pivots, of the usual one: below the first a singular configuration ahead is looked for, and from
+ * above it no step ends below the second, where rounding over p is large. */
 static const double PIVOT_AHEAD = 0.2;
 static const double PIVOT_POOR = 1e-3;
 /* [rad] over which pivots are compared to find the pose. */
 static const double LOOK = 1e-4;
 
-/* Below this pivot a start may be singular; what is usual is then seen so many radians further on. */
+/* Below this pivot a start may be singular; what is usual is then seen so many radians further
+ * on. */
 static const double PIVOT_OF_START = 1e-4;
 static const double FURTHER = 0.5;
 
-/* Near a pose so many steps in a row that are followed by one of less than so many radians, or tries that are as short, are
- * the last. Steps that are free to grow do so sixfold; of these 1e8 would make a radian. */
+/* Near a configuration so many steps in a row that are followed by one of less than so many
+ * radians, or tries that are as short, are the last. Steps that are free to grow do so sixfold; of
+ * these 1e8 would make a radian. */
 enum { HELD = 10 };
 static const double TINY = 1e-8;
 
@@ -62,8 +66,8 @@ void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table
   }
 }
 
-/* A start in a singular pose has no pivots to compare with but those ahead. A pose that is not quite on the way does for
- * that. */
+/* A start in a singular configuration has no pivots to compare with but those ahead. A
+ * configuration that is not quite on the way does for that. */
 static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                          const baum_i_problem *problem, double t)
 {
@@ -135,8 +139,9 @@ void baum_i_rk_crossing_look(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   }
 }
 
-/* The pose is passed between two stages, from as far as the length allows. Not before a step so short that the next one
- * could not grow to the length, nor from so close that stages are no further away than it is. */
+/* The configuration is passed between two stages, from as far as the length allows. Not before a
+ * step so short that the next one could not grow to the length, nor from so close that stages are
+ * no further away than it is. */
 double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
                                  const baum_i_problem *problem, double t, double length,
                                  bool *forced)

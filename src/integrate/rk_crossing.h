@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Singular poses in the way of a Runge-Kutta method that chooses its steps (docs/theory/singular.md).
+/* Singular configurations in the way of a Runge-Kutta method that chooses its steps
+ * (docs/theory/singular.md).
  *
- * sqrt(p), with p the smallest pivot of what is usual, falls in a straight line towards such a pose. Accelerations next to
- * it are poor, and errors there grow however small a step is. So the pose is passed between two stages, and where no step
- * of a sensible length is good enough, one goes over it.
+ * sqrt(p), with p the smallest pivot of what is usual, falls in a straight line towards such a
+ * pose. Accelerations next to it are poor, and errors there grow however small a step is. So the
+ * configuration is passed between two stages, and where no step of a sensible length is good
+ * enough, one goes over it.
  */
 #ifndef BAUM_I_INTEGRATE_RK_CROSSING_H
 #define BAUM_I_INTEGRATE_RK_CROSSING_H
@@ -11,14 +13,15 @@
 #include "integrate/rk.h"
 
 typedef struct baum_i_rk_crossing {
-  double gap;       /* middle of the widest gap between stages, of the step */
-  double ahead;     /* [s] from the start of the step to a singular pose; INFINITY: none is near */
-  double over;      /* [s] a step over a pose */
+  double gap; /* middle of the widest gap between stages, of the step */
+  double
+    ahead; /* [s] from the start of the step to a singular configuration; INFINITY: none is near */
+  double over;      /* [s] a step over a configuration */
   double least;     /* [s] step shorter than which it is taken; 0 where no pose is near */
   double pivot;     /* at the start of the step, of the usual one */
   double pivot_end; /* at its end */
   double usual;     /* largest pivot so far */
-  int held;         /* steps in a row that were held up near a pose */
+  int held;         /* steps in a row that were held up near a configuration */
 } baum_i_rk_crossing;
 
 void baum_i_rk_crossing_open(baum_i_rk_crossing *crossing, const baum_i_rk_table *table);
@@ -39,7 +42,7 @@ double baum_i_rk_crossing_length(baum_i_rk_crossing *crossing, const baum_i_rk *
 /* Error of the scales that a step by h may have, whatever the tolerance. */
 double baum_i_rk_crossing_error(const baum_i_rk_crossing *crossing, double h, bool forced);
 
-/* At the end of a step, evaluated just now. false: it ends in a pose and must not. */
+/* At the end of a step, evaluated just now. false: it ends in a configuration and must not. */
 bool baum_i_rk_crossing_may_end(baum_i_rk_crossing *crossing, const baum_i_problem *problem);
 
 /* After a step was accepted: its end is the start of the next, of length `next`. */

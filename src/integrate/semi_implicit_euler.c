@@ -4,8 +4,9 @@
  *   v(t + h) = v + h a        (nv)
  *   q(t + h) = q moved by h v(t + h)   (nq)   new velocities
  *
- * A violation obeys z^2 + (B + 2A - 2) z + (1 - 2A), which is not the polynomial (19) of explicit Euler: its
- * dead-beat point is alpha = 1/(2h), beta = 1/h, and that of explicit Euler is unstable here.
+ * A violation obeys z^2 + (B + 2A - 2) z + (1 - 2A), which is not the polynomial (19) of explicit
+ * Euler: its dead-beat point is alpha = 1/(2h), beta = 1/h, and that of explicit Euler is unstable
+ * here.
  */
 #include "integrate/integrator.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public questions about stability: checks, then src/stabilization with the method that an integrator says it
- * is. */
+/* The public questions about stability: checks, then src/stabilization with the method that an
+ * integrator says it is. */
 #include "integrate/integrator.h"
 
 #include <math.h>

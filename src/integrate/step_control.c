@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Proportional-integral and predictive control (K. Gustafsson, ACM TOMS 17, 1991, and 20, 1994; Hairer, Wanner 1996,
- * sections IV.2 and IV.8). With the error e_n of step n in units of the tolerance, which grows with h^k:
+/* Proportional-integral and predictive control (K. Gustafsson, ACM TOMS 17, 1991, and 20, 1994;
+ * Hairer, Wanner 1996, sections IV.2 and IV.8). With the error e_n of step n in units of the
+ * tolerance, which grows with h^k:
  *
  *   accepted:  h' = h_n s e_n^-(1/k - 3 b/4) e_(n-1)^b,  b = 0.1 / k,  and no more than
  *                   h_n s e_n^-(1/k) (h_n / h_(n-1)) (e_(n-1) / e_n)^(1/k)
  *   refused:   h' = h_n s e_n^-(1/k)
  *
- * within [1/5, 6] h_n, and without growth in the step after a refusal. The first damps the swinging of h where stability,
- * not accuracy, limits it. The second goes on with the trend of the error, and so sees a motion quicken before a step
- * fails: mechanisms quicken and slow down all the time. Against the first alone, at the same error, it saves rk8 5 % of
- * its evaluations on pendulum, slider-crank, four-bar and Andrews' mechanism (s = 0.85: half as many refusals as 0.9).
+ * within [1/5, 6] h_n, and without growth in the step after a refusal. The first damps the swinging
+ * of h where stability, not accuracy, limits it. The second goes on with the trend of the error,
+ * and so sees a motion quicken before a step fails: mechanisms quicken and slow down all the time.
+ * Against the first alone, at the same error, it saves rk8 5 % of its evaluations on pendulum,
+ * slider-crank, four-bar and Andrews' mechanism (s = 0.85: half as many refusals as 0.9).
  */
 #include "integrate/step_control.h"
 

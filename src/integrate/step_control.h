@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Length of the next step from the error of the last ones. Lengths are > 0; directions are the caller's. */
+/* Length of the next step from the error of the last ones. Lengths are > 0; directions are the
+ * caller's. */
 #ifndef BAUM_I_INTEGRATE_STEP_CONTROL_H
 #define BAUM_I_INTEGRATE_STEP_CONTROL_H
 

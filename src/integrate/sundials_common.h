@@ -68,8 +68,8 @@ void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, do
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
 /* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
-/* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q near
- * the manifold: dq = N dx + n, with n = 0 where q is a vector. */
+/* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q
+ * near the manifold: dq = N dx + n, with n = 0 where q is a vector. */
 
 /* dx, until workspace->work_q is used again, which also holds n for the next call. */
 const double *baum_i_sundials_split(const baum_i_sundials *sundials, const double *q,

@@ -9,9 +9,10 @@
 #include "base/alloc.h"
 #include "linear/block_structure.h"
 
-/* det D against the product of the diagonal that S had. The multipliers lose about the unit rounding
- * over this, and several small pivots multiply: below the first the result is refined. In long ladders healthy
- * pivots fall with the number of nodes, and all of them share what one of few would cost. */
+/* det D against the product of the diagonal that S had. The multipliers lose about the unit
+ * rounding over this, and several small pivots multiply: below the first the result is refined. In
+ * long ladders healthy pivots fall with the number of nodes, and all of them share what one of few
+ * would cost. */
 static const double weak_pivot = 1e-3;
 static const double many_nodes = 128.0;
 
@@ -53,8 +54,8 @@ static void list_arrays(baum_i_block *b, array list[ARRAY_COUNT])
   memcpy(list, all, sizeof all);
 }
 
-/* One arena. Every array begins on a cache line, but none a whole number of pages after another, lest
- * all of them fall on the same sets of the cache. */
+/* One arena. Every array begins on a cache line, but none a whole number of pages after another,
+ * lest all of them fall on the same sets of the cache. */
 static size_t padded(size_t count)
 {
   enum { PAGE = 512 };

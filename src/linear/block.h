@@ -3,16 +3,17 @@
  *
  *   S lambda = J a0 - r,  S = J W J^T,  a = a0 - W J^T lambda,     W = M^-1, a0 = W f
  *
- * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot. Columns
- * go in *body blocks*: a planar body is one, W diagonal; user coordinates with M = L L^T take as many as
- * they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W = 0. Numbers of body blocks
- * stand in the order of v, then ground, then y; a particle's third is that of its neighbour, which it
- * leaves alone, its W being 0. A body block that a node touches is a *side*, a block of 2 x 3 of J. Those of a pin are
+ * Rows of J go in pairs, *nodes*, a missing second row being 0 lambda = 0 with a unit pivot.
+ * Columns go in *body blocks*: a planar body is one, W diagonal; user coordinates with M = L L^T
+ * take as many as they need, over y = L^T a, where W is the identity. Triple 0 is the ground: W =
+ * 0. Numbers of body blocks stand in the order of v, then ground, then y; a particle's third is
+ * that of its neighbour, which it leaves alone, its W being 0. A body block that a node touches is
+ * a *side*, a block of 2 x 3 of J. Those of a pin are
  *
  *   + [ I  c_a ]  on its body a,    - [ I  -c_b ] on its body b,     c_a = k x p_a, c_b = -k x p_b
  *
- * so that only c, its *arm*, is stored. Two nodes that share a body block are coupled; S is sparse, and
- * its order of elimination, fill and every index are fixed when the solver is made.
+ * so that only c, its *arm*, is stored. Two nodes that share a body block are coupled; S is sparse,
+ * and its order of elimination, fill and every index are fixed when the solver is made.
  *
  * Structure here; the arithmetic is block_sides_hot.c and block_hot.c.
  */
@@ -172,8 +173,8 @@ typedef struct baum_i_block {
 } baum_i_block;
 
 /* BAUM_OK, BAUM_ERR_MEMORY, or BAUM_ERR_SINGULAR where another solver suits better: a body with so
- * many joints, or so much fill, that blocks would be slow. Which body is told in *hub, a mass block,
- * or -1; NULL is fine. */
+ * many joints, or so much fill, that blocks would be slow. Which body is told in *hub, a mass
+ * block, or -1; NULL is fine. */
 baum_status baum_i_block_create(const baum_i_block_layout *layout, int *hub, baum_i_block **out);
 void baum_i_block_destroy(baum_i_block *block); /* NULL is fine */
 
@@ -188,8 +189,8 @@ void baum_i_block_use_force(baum_i_block *block, bool use);
 /* pull[] and rest[], in twice the precision. */
 void baum_i_block_find_residual(baum_i_block *block);
 
-/* block_again.c. Before a correction with the factors at hand: motion, pull and multipliers are 0, rest is r (nc), so
- * that the correction gives a motion with J a = r. */
+/* block_again.c. Before a correction with the factors at hand: motion, pull and multipliers are 0,
+ * rest is r (nc), so that the correction gives a motion with J a = r. */
 void baum_i_block_set_rest(baum_i_block *block, const double *r);
 
 /* How good the pivots of a factorization were. */
@@ -216,7 +217,8 @@ typedef struct baum_i_block_rows {
 typedef struct baum_i_block_sides_kernel {
   /* f, and a0 = W f. */
   void (*set_force)(baum_i_block *block, const double *force);
-  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the caller. */
+  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the
+   * caller. */
   void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
 } baum_i_block_sides_kernel;
 

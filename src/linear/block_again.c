@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Another right side for the factors at hand: a correction (block_hot.c) of no motion by the residual
- * (0, r) is the solution of
+/* Another right side for the factors at hand: a correction (block_hot.c) of no motion by the
+ * residual (0, r) is the solution of
  *
  *   S lambda = -r,   a = -W J^T lambda,   so that J a = r
  */

@@ -55,8 +55,8 @@ static inline bool baum_i_block_is_fixed(const baum_i_block_builder *u, int body
  * BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
 
-/* Blocks that the products of a node's couplings go to: of the f-th with those before it. BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* Blocks that the products of a node's couplings go to: of the f-th with those before it. BAUM_OK
+ * or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
 #endif

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Couplings of the Schur complement in blocks: which two sides give to which block below the diagonal,
- * once nodes have their places. Two pins set their block; what else falls on it is added.
+/* Couplings of the Schur complement in blocks: which two sides give to which block below the
+ * diagonal, once nodes have their places. Two pins set their block; what else falls on it is added.
  */
 #include <stdlib.h>
 

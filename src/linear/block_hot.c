@@ -6,8 +6,8 @@
  * Right-looking L D L^T. With U = S_ik adj(D), all that a pivot gives to others is a product with
  * U times 1 / det D, so that the division runs beside the products; the right side goes along.
  *
- * Refinement is of both equations with a as an unknown of its own (J. Demmel, 1997, 2.5: what was lost
- * in squaring comes back). With t = W (f - M a - J^T lambda) and S d = J t - (r - J a):
+ * Refinement is of both equations with a as an unknown of its own (J. Demmel, 1997, 2.5: what was
+ * lost in squaring comes back). With t = W (f - M a - J^T lambda) and S d = J t - (r - J a):
  *
  *   a += t - W J^T d,   lambda += d
  */
@@ -17,8 +17,8 @@
 #include "base/hot.h"
 #include "linear/block_sides.h"
 
-/* det D against the product of the diagonal that S had, as block.h has weak_pivot: below this the solver has
- * nothing to say. */
+/* det D against the product of the diagonal that S had, as block.h has weak_pivot: below this the
+ * solver has nothing to say. */
 static const double bad_pivot = 1e-10;
 
 /* A residual of this many units of its own size is rounding. */
@@ -173,8 +173,8 @@ static inline baum_i_square eliminate_one(const turn *t, double *x, baum_i_node 
   return s;
 }
 
-/* All `count` couplings of a node that has several, from x on. `target`: the blocks that they give to,
- * the f-th with those before it. */
+/* All `count` couplings of a node that has several, from x on. `target`: the blocks that they give
+ * to, the f-th with those before it. */
 static inline void eliminate_many(const turn *t, double *x, const int32_t *later, ptrdiff_t count,
                                   const int32_t *target, baum_i_node *nodes, double *off)
 {
@@ -266,8 +266,8 @@ static inline baum_i_pair backward_one(couplings *c, ptrdiff_t k)
   return lambda;
 }
 
-/* From the last node to the first, and what each lambda does to the motion, which fills the time that
- * the next one waits for it. rows (nc), where lambda is wanted, or NULL. */
+/* From the last node to the first, and what each lambda does to the motion, which fills the time
+ * that the next one waits for it. rows (nc), where lambda is wanted, or NULL. */
 BAUM_I_INLINE void backward(const baum_i_block *b, double *rows)
 {
   couplings c = {.start = b->order.start,
@@ -403,7 +403,8 @@ static void gather(const baum_i_block *b)
   }
 }
 
-/* lambda of all nodes plus what was put aside; the largest change against the largest multiplier. */
+/* lambda of all nodes plus what was put aside; the largest change against the largest
+ * multiplier. */
 static double add_change(const baum_i_block *b, const double *before)
 {
   double change = 0.0;
@@ -465,8 +466,8 @@ static void read_lambda(const baum_i_block *b, double *lambda)
   }
 }
 
-/* Copies; whether all is finite: a sum of zeros is zero, or NaN where a number is not finite. So many sums
- * that none waits for itself. */
+/* Copies; whether all is finite: a sum of zeros is zero, or NaN where a number is not finite. So
+ * many sums that none waits for itself. */
 static bool copy_finite(const double *x, ptrdiff_t count, double *to)
 {
   baum_i_pair sum[2] = {{0.0, 0.0}, {0.0, 0.0}};

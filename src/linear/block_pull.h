@@ -5,8 +5,9 @@
 
 #include "linear/block.h"
 
-/* Before a correction with the factors of the last solution: pull is x (nv), the motion -x, rest and multipliers are 0,
- * so that the motion becomes -W J^T S^-1 J x. Of fixed bodies x is taken for 0. */
+/* Before a correction with the factors of the last solution: pull is x (nv), the motion -x, rest
+ * and multipliers are 0, so that the motion becomes -W J^T S^-1 J x. Of fixed bodies x is taken for
+ * 0. */
 void baum_i_block_pull(baum_i_block *block, const double *x);
 
 #endif

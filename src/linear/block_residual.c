@@ -3,8 +3,9 @@
  *
  *   W (f - M a - J^T lambda)  and  r - J a
  *
- * Close to a singular pose both are tiny differences of large numbers, and the multipliers depend on
- * every digit of them. Sums and products keep what they round off (T. Ogita, S. M. Rump, S. Oishi,
+ * Close to a singular configuration both are tiny differences of large numbers, and the multipliers
+ * depend on every digit of them. Sums and products keep what they round off (T. Ogita, S. M. Rump,
+ * S. Oishi,
  * 2005, Dot2).
  */
 #include <math.h>

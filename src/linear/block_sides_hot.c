@@ -60,8 +60,8 @@ static void whiten(baum_i_block *b)
   }
 }
 
-/* The velocities of all body blocks: v itself, or a copy in pull[], which only refinement needs, where
- * places lie outside of v. Of a dense body L^T v, since its sides are whitened. */
+/* The velocities of all body blocks: v itself, or a copy in pull[], which only refinement needs,
+ * where places lie outside of v. Of a dense body L^T v, since its sides are whitened. */
 static const double *gather_velocities(const baum_i_block *b, const double *v)
 {
   if (!v) {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Structure of the Schur complement in blocks: nodes, sides, couplings, and where each number goes.
  *
- * Rows in their order make nodes with sides; sides of one body block couple their nodes; the graph of
- * nodes gives the order of elimination, and only then nodes get their final numbers, their places.
+ * Rows in their order make nodes with sides; sides of one body block couple their nodes; the graph
+ * of nodes gives the order of elimination, and only then nodes get their final numbers, their
+ * places.
  */
 #include "linear/block_structure.h"
 
@@ -55,7 +56,8 @@ static baum_status make_bodies(baum_i_block_builder *u)
   return BAUM_OK;
 }
 
-/* A diagonal body i is body block 1 + i, so that body blocks and bodies of the plane have one numbering. */
+/* A diagonal body i is body block 1 + i, so that body blocks and bodies of the plane have one
+ * numbering. */
 static void place_bodies(baum_i_block_builder *u)
 {
   const baum_i_kkt_structure *s = u->layout->structure;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent nodes:
- * J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. The graphs of
- * joints are sparse and stay so; where they do not, the caller wants another solver anyway.
+/* Minimum degree on the explicit elimination graph (D. J. Rose, 1972; in rounds of independent
+ * nodes: J. W. H. Liu, 1985). Eliminating a node couples all its neighbours with each other. The
+ * graphs of joints are sparse and stay so; where they do not, the caller wants another solver
+ * anyway.
  *
- * A node whose neighbours are all coupled already makes no fill whatever its degree is. Such nodes come first, so
- * that a round takes all ends of a mechanism, not the thinnest only.
+ * A node whose neighbours are all coupled already makes no fill whatever its degree is. Such nodes
+ * come first, so that a round takes all ends of a mechanism, not the thinnest only.
  */
 #include "linear/elimination.h"
 
@@ -21,8 +22,9 @@ typedef struct list {
   int32_t room;
 } list;
 
-/* Everything while the order is being found. Nodes not yet eliminated stand in buckets: those without fill in
- * the first, the others by degree; those that a round has touched wait for the next one. */
+/* Everything while the order is being found. Nodes not yet eliminated stand in buckets: those
+ * without fill in the first, the others by degree; those that a round has touched wait for the next
+ * one. */
 typedef struct search {
   int count;
   list *coupled;     /* (count) */

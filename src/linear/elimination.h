@@ -24,10 +24,10 @@ typedef struct baum_i_elimination {
     *later; /* (start[count]) places a place is coupled with when it is eliminated, ascending */
 } baum_i_elimination;
 
-/* Minimum degree in rounds: all nodes that make no fill, or else all of the smallest degree, that do not touch
- * each other, then anew. So a chain is eliminated from both ends in turn, and what does not depend on each other
- * stands side by side. Gives up with BAUM_ERR_SINGULAR where more than `most` couplings would arise.
- * BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
+/* Minimum degree in rounds: all nodes that make no fill, or else all of the smallest degree, that
+ * do not touch each other, then anew. So a chain is eliminated from both ends in turn, and what
+ * does not depend on each other stands side by side. Gives up with BAUM_ERR_SINGULAR where more
+ * than `most` couplings would arise. BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);
 void baum_i_elimination_clear(baum_i_elimination *elimination); /* a zeroed one is fine */
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Front of the saddle-point solvers: scaling, judging, refinement, new pivots, fallback.
  *
- * There is a ladder of ways to factor, each dearer and more robust than the one before:
+ * There is a ladder of ways to factor, each more expensive and more robust than the one before:
  *
  *   KEEP     the pivots of the last factorization
  *   CHOOSE   pivots chosen at these values
@@ -25,8 +25,9 @@ enum { MOST_REFINEMENTS = 3 };
 
 /* Below it more effort is made, and if that does not help the matrix is called near singular. */
 static const double trusted_rcond = 1e-10;
-/* Kept pivots are given up where rcond is below the first and has fallen to the second share of what it was when they were
- * chosen: it tells neither the accuracy nor the distance from a singular pose any more. */
+/* Kept pivots are given up where rcond is below the first and has fallen to the second share of
+ * what it was when they were chosen: it tells neither the accuracy nor the distance from a singular
+ * configuration any more. */
 static const double doubtful_rcond = 1e-6;
 static const double fallen = 0.01;
 /* Below it even careful LU has nothing left to say. */
@@ -304,8 +305,8 @@ static bool is_least_squares(const baum_i_kkt *kkt)
   return present_rcond(kkt) == 0.0;
 }
 
-/* Are the rows it could not meet nearly met? Nothing else counts there: where they contradict each other unknowns may
- * be so large that what is left of the rows is rounding of these. */
+/* Are the rows it could not meet nearly met? Nothing else counts there: where they contradict each
+ * other unknowns may be so large that what is left of the rows is rounding of these. */
 static bool is_nearly_met(const baum_i_kkt *kkt)
 {
   return baum_i_residual_is_below(kkt->n, kkt->scale, kkt->residual, kkt->b, contradiction);

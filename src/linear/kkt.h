@@ -119,8 +119,8 @@ void baum_i_jacobian_transposed_times(const baum_i_kkt_structure *structure, con
 /* Rank of J with column j scaled by column_scale[j] and every row then scaled to unit length (rows
  * of zeros stay zero), by rank-revealing sparse QR of its transpose with tolerance `tolerance` on
  * the remaining column norms. independent[i] (nc) receives 1 for the rows of one largest
- * independent set, else 0: those that it marks beforehand are taken first, of all others the earlier.
- * BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
+ * independent set, else 0: those that it marks beforehand are taken first, of all others the
+ * earlier. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_NOT_FINITE. Allocates. */
 baum_status baum_i_jacobian_rank(const baum_i_kkt_structure *structure, const double *jacobian,
                                  const double *column_scale, double tolerance, int *rank,
                                  unsigned char *independent);

@@ -15,8 +15,8 @@
  *   [ J    -S/w ]
  *
  * and the largest entry is the pivot: J itself is eliminated, which loses sigma only, and masses of
- * very different size do not disturb each other. Such pivots depend on the pose and have to be
- * chosen more often.
+ * very different size do not disturb each other. Such pivots depend on the configuration and have
+ * to be chosen more often.
  */
 #include <klu.h>
 

@@ -13,7 +13,7 @@
 
 #include "base/alloc.h"
 
-/* Larger blocks are left: they are few, and looked at again and again they would be dear. */
+/* Larger blocks are left: they are few, and looked at again and again they would be expensive. */
 enum { MOST_ROWS = 6, MOST_COLUMNS = 24 };
 
 /* What must remain of a unit row: so much that no tolerance on the rank would ever judge

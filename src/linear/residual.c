@@ -11,8 +11,8 @@
  * held against the largest row instead (M. Arioli, J. Demmel, I. Duff 1989), after scaling: at once
  * if they are noise of noise, what one refinement makes of them, and when refinement has ended also
  * if they are plain noise. And a residual passes at once that would be nothing beside a row of
- * rounding (eps^2): rows that rounding alone keeps from zero, such as those of a guide along an axis
- * of the ground, cannot be met any better.
+ * rounding (eps^2): rows that rounding alone keeps from zero, such as those of a guide along an
+ * axis of the ground, cannot be met any better.
  */
 #include "linear/residual.h"
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* General sparse LU by KLU of SuiteSparse, 32-bit indices, rows scaled by their largest entry.
  *
- * klu_refactor keeps the pivots and allocates nothing, but may return KLU_OK and be worthless, when pivots have become
- * small since they were chosen: klu_rcond, the ratio of the smallest to the largest pivot, tells. What it says of
- * pivots that have just been chosen is taken as it is.
+ * klu_refactor keeps the pivots and allocates nothing, but may return KLU_OK and be worthless, when
+ * pivots have become small since they were chosen: klu_rcond, the ratio of the smallest to the
+ * largest pivot, tells. What it says of pivots that have just been chosen is taken as it is.
  */
 #include "linear/sparse_lu.h"
 

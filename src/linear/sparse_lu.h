@@ -15,14 +15,14 @@ typedef struct baum_i_sparse_lu_work {
   int64_t full_factorizations; /* those of them that chose pivots anew, which may allocate */
 } baum_i_sparse_lu_work;
 
-/* For an n x n matrix in compressed columns with ascending rows; the pattern must outlive the factors. BAUM_OK or
- * BAUM_ERR_MEMORY; then *out is NULL. */
+/* For an n x n matrix in compressed columns with ascending rows; the pattern must outlive the
+ * factors. BAUM_OK or BAUM_ERR_MEMORY; then *out is NULL. */
 baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int32_t *rows,
                                     baum_i_sparse_lu **out);
 void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is fine */
 
-/* Factor: with the pivots of last time, and without allocation, as long as these are good. BAUM_OK, BAUM_ERR_SINGULAR,
- * BAUM_ERR_MEMORY. Neither sets a message. */
+/* Factor: with the pivots of last time, and without allocation, as long as these are good. BAUM_OK,
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. Neither sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
 /* Choose pivots anew at the next factorization, so that nothing depends on the ones before. */

@@ -14,7 +14,8 @@ typedef struct baum_i_totals {
   int64_t squares; /* nl x nl each */
 } baum_i_totals;
 
-/* What families differ in. An element is a struct of theirs, which begins with its baum_i_element. */
+/* What families differ in. An element is a struct of theirs, which begins with its
+ * baum_i_element. */
 typedef struct baum_i_family {
   const char *name; /* "body", for messages and default names */
   size_t size;      /* of an element */

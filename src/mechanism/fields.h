@@ -133,7 +133,8 @@ baum_status baum_i_fields_check(const baum_i_definition *definition,
                                 const baum_mechanism *mechanism, const void *def,
                                 const char *label);
 
-/* Check that a definition that shall replace another one keeps what must stay: counts and joints. */
+/* Check that a definition that shall replace another one keeps what must stay: counts and
+ * joints. */
 baum_status baum_i_fields_check_kept(const baum_i_definition *definition, const void *present,
                                      const void *next, const char *label);
 

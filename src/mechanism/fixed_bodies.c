@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies that welds hold to ground, one by one, are fixed: where they are follows from the welds. */
+/* Bodies that welds hold to ground, one by one, are fixed: where they are follows from the
+ * welds. */
 #include <string.h>
 
 #include "mechanism/mechanism.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who is who in a mechanism: ids, owners of rows and columns, labels for messages, and the checks of
- * ids and stages. */
+/* Who is who in a mechanism: ids, owners of rows and columns, labels for messages, and the checks
+ * of ids and stages. */
 #ifndef BAUM_I_MECHANISM_IDENTIFY_H
 #define BAUM_I_MECHANISM_IDENTIFY_H
 
@@ -24,7 +24,7 @@ int baum_i_body_index(const baum_mechanism *mechanism, baum_body_id id);
 int baum_i_joint_index(const baum_mechanism *mechanism, baum_joint_id id); /* from 0 */
 int baum_i_input_index(const baum_mechanism *mechanism, baum_input_id id); /* from 0 */
 
-/* Check an id used in a definition. The sentence says whether it is none, or of another
+/* Check an id used in a definition. The message says whether it is none, or of another
  * mechanism. */
 baum_status baum_i_check_id(const baum_mechanism *mechanism, const baum_i_family *family,
                             baum_i_id id, const char *label, const char *field);

@@ -43,7 +43,8 @@ static void shift_body(const baum_i_body *body, double h, const double *dq, cons
   body->manifold->normalize(body, out);
 }
 
-/* Steps of central differences, in relevant changes: errors are its square, and rounding over it. */
+/* Steps of central differences, in relevant changes: errors are its square, and rounding over
+ * it. */
 static const double STEP = 1e-5;
 
 static void tangent_body(const baum_i_body *body, const double *scale, const double *q,

@@ -69,8 +69,8 @@ static inline void baum_i_normalize(const baum_mechanism *mechanism, double *q)
   }
 }
 
-/* The next three return what is asked for: in `room`, or the last vector given where the mechanism is
- * flat. */
+/* The next three return what is asked for: in `room`, or the last vector given where the mechanism
+ * is flat. */
 
 /* N(q) v (nq); room (nq). */
 static inline const double *baum_i_rates(const baum_mechanism *mechanism, const double *q,

@@ -51,7 +51,8 @@ baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
 
 /* Set by class; needs velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);
-/* By class, the potential of the types whose power is given whole: its change is to be added to their work. */
+/* By class, the potential of the types whose power is given whole: its change is to be added to
+ * their work. */
 baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
                                                 double potential[BAUM_I_POWERS]);
 

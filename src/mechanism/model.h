@@ -302,7 +302,7 @@ struct baum_i_joint_type {
   int row_count;                /* of all of the type; 0: rows() tells */
   int (*rows)(const void *def); /* of one; or NULL */
   /* Numbers from the definition and the design configuration; BAUM_OK or BAUM_ERR_ARGUMENT with the
-   * sentence. */
+   * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
   /* Sets its rows and blocks of what is wanted. */
@@ -311,7 +311,8 @@ struct baum_i_joint_type {
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
-  /* Where one body is, by the pose of the other (body_a's if from_a; NULL: ground); NULL: no weld. */
+  /* Where one body is, by the pose of the other (body_a's if from_a; NULL: ground); NULL: no
+   * weld. */
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
   /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
   void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Powers of bodies and forces by class, without those of potentials.
  *
- * Functions of the user give a potential, but not its gradient: the power of these elements is taken whole, and
- * what the potential has taken up over a time is the difference of its values, without any error.
+ * Functions of the user give a potential, but not its gradient: the power of these elements is
+ * taken whole, and what the potential has taken up over a time is the difference of its values,
+ * without any error.
  */
 #include "base/message.h"
 #include "mechanism/mechanism.h"

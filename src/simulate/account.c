@@ -5,22 +5,27 @@
  *
  *   T' = g^T v + v^T M' v / 2 - nu^T lambda - Phi'^T lambda
  *
- * of which the potential V takes its part of g. Powers are integrated over each step by Gauss' rule, at states inside
- * of it with lambda of (5) or (7) there, whichever is integrated. (5) also serves the formulations of index 2 and 3:
- * their motion keeps J v = nu, or Phi = 0, whose derivatives are its second line. What the gains do,
+ * of which the potential V takes its part of g. Powers are integrated over each step by Gauss'
+ * rule, at states inside of it with lambda of (5) or (7) there, whichever is integrated. (5) also
+ * serves the formulations of index 2 and 3: their motion keeps J v = nu, or Phi = 0, whose
+ * derivatives are its second line. What the gains do,
  *
- *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of (5),
+ *   -(J v)^T lambda_s,   lambda_s = S^-1 (2 alpha Phi' + beta^2 Phi) = lambda of (7) - lambda of
+ *   (5),
  *
  * is a part of the work of drivers and violation. docs/theory/energy.md.
  *
- * States inside of a step are those of the method's own interpolant; with steps of one length and up to order 4 those
- * of Hermite's polynomials, of degree 5 in q and 3 in v, whose error over a step is of order 5; and above order 4 the
- * ends of shorter steps of the method from the same start. So are they where a projection moves far, as from a start off
- * the constraints: the interpolants of the pairs end at the projected state, which the motion did not.
+ * States inside of a step are those of the method's own interpolant; with steps of one length and
+ * up to order 4 those of Hermite's polynomials, of degree 5 in q and 3 in v, whose error over a
+ * step is of order 5; and above order 4 the ends of shorter steps of the method from the same
+ * start. So are they where a projection moves far, as from a start off the constraints: the
+ * interpolants of the pairs end at the projected state, which the motion did not.
  *
- * IDA begins on the constraints of its formulation, wherever the start was; that move is a projection too.
+ * IDA begins on the constraints of its formulation, wherever the start was; that move is a
+ * projection too.
  *
- * The account has a workspace of its own: no evaluation of it reaches the run's solver or its counters.
+ * The account has a workspace of its own: no evaluation of it reaches the run's solver or its
+ * counters.
  */
 #include "simulate/account.h"
 
@@ -394,8 +399,8 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   return BAUM_OK;
 }
 
-/* A sample of a fixed step is its trial state, whose step does not count; one of a variable step may be inside the last
- * step, to be integrated up to there. */
+/* A sample of a fixed step is its trial state, whose step does not count; one of a variable step
+ * may be inside the last step, to be integrated up to there. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
@@ -419,7 +424,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
     return baum_i_fail(BAUM_ERR_STATE, "channel: the run keeps no energy account; set the option "
                                        "energy_account");
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_i_account_read(run, state);
   baum_status status =

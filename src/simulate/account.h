@@ -16,19 +16,20 @@ enum {
 
 enum { BAUM_I_ACCOUNT_WIDTH = BAUM_I_WORKS + 3 }; /* kinetic, potential, works, residual */
 
-/* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY, BAUM_ERR_UNSUPPORTED. */
+/* For a run whose problem is chosen, at its trial state. BAUM_OK, BAUM_ERR_MEMORY,
+ * BAUM_ERR_UNSUPPORTED. */
 baum_status baum_i_account_create(baum_simulation *run);
 /* Of a run of that method; NULL is fine for the account. */
 void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account);
 
 /* What follows is called where run->account is not NULL. */
 
-/* Begin anew at the present state: without works, or with those that were read last. */
+/* restart at the present state: without works, or with those that were read last. */
 void baum_i_account_begin(baum_simulation *run);
 void baum_i_account_go_on(baum_simulation *run);
 
-/* Works of the step to the trial state, after its projection. What cannot be evaluated is warned of, and ends the
- * account. */
+/* Works of the step to the trial state, after its projection. What cannot be evaluated is warned
+ * of, and ends the account. */
 void baum_i_account_step(baum_simulation *run);
 /* That step counts; fixed step. With a variable one every step counts, when the next begins. */
 void baum_i_account_accept(baum_simulation *run);

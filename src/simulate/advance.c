@@ -50,8 +50,8 @@ static void leave_grid(baum_simulation *run)
   run->grid = (baum_i_grid){.origin = run->state.t};
 }
 
-/* The step to t_next that has just been tried, up to an event that stops the run: BAUM_STOP_EVENT, and it is kept to
- * there. */
+/* The step to t_next that has just been tried, up to an event that stops the run: BAUM_STOP_EVENT,
+ * and it is kept to there. */
 static baum_status watch_step(baum_simulation *run, double t_next)
 {
   baum_status status = run->events ? baum_i_events_watch(run, t_next) : BAUM_OK;
@@ -177,7 +177,8 @@ static baum_status watch_last(baum_simulation *run, double t)
   return status;
 }
 
-/* Over a break at the end of the last step, and over those that are too near to it for a step between. */
+/* Over a break at the end of the last step, and over those that are too near to it for a step
+ * between. */
 static baum_status pass_breaks(baum_simulation *run)
 {
   baum_status status = BAUM_OK;
@@ -191,7 +192,8 @@ static baum_status pass_breaks(baum_simulation *run)
   return status;
 }
 
-/* One step more. Meanwhile the run stands where it begins: where it stays if that step, or a look inside it, fails. */
+/* One step more. Meanwhile the run stands where it begins: where it stays if that step, or a look
+ * inside it, fails. */
 static baum_status next_step(baum_simulation *run, int64_t taken)
 {
   catch_up(run);
@@ -223,7 +225,8 @@ static baum_status advance_variable(baum_simulation *run, double t, int64_t *tak
 
 /* ---- what every call begins and ends with ---- */
 
-/* Point the run towards t. When a multistep method cannot restart from the present state, it has not turned. */
+/* Point the run towards t. When a multistep method cannot restart from the present state, it has
+ * not turned. */
 static baum_status turn(baum_simulation *run, double t)
 {
   double before = run->problem.direction;
@@ -251,7 +254,7 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
 /* What a call begins with. */
 typedef struct public_call {
   struct timespec start;
-  baum_i_sentence before;
+  baum_i_kept_message before;
   int64_t taken; /* steps */
 } public_call;
 
@@ -267,7 +270,7 @@ static void begin_call(baum_simulation *run, public_call *c)
 static baum_status finish_call(baum_simulation *run, baum_status status, const public_call *c)
 {
   const baum_i_state *state = &run->state;
-  baum_i_sentence reason;
+  baum_i_kept_message reason;
   baum_i_message_keep(&reason);
   baum_status look = baum_i_violation(run->workspace, state->t, state->q, state->v);
   if (look == BAUM_OK) {

@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Which branch a motion is on behind a singular pose.
  *
- * At such a pose several branches of motion cross, each with a direction of its own; the smooth motion is the one whose
- * velocity goes on. Polynomials through positions and velocities of the clear states before are taken to the first clear
- * state behind, and what they say of v is compared with v, in the scales of the coordinates:
+ * At such a configuration several branches of motion cross, each with a direction of its own; the
+ * smooth motion is the one whose velocity goes on. Polynomials through positions and velocities of
+ * the clear states before are taken to the first clear state behind, and what they say of v is
+ * compared with v, in the scales of the coordinates:
  *
  *   jump   max |v_i - p_i'| / s_i  over  max |v_i| / s_i
- *   error  likewise the difference of two polynomials of degrees 2 m - 1 and 2 m - 3; m is chosen for the least one
+ *   error  likewise the difference of two polynomials of degrees 2 m - 1 and 2 m - 3; m is chosen
+ *   for the least one
  *
- * Whether branches cross at all depends on the mechanism: where it only comes close, the motion turns round sharply
- * and a step that jumps over the turn goes on smoothly and wrongly. There no pose on the way is both singular and
- * assembled. So the constraints are looked at where the motion has its least pivot: a violation that neither the run
- * nor the polynomial accounts for is such a gap. Steps that go round the turn in small pieces are right.
+ * Whether branches cross at all depends on the mechanism: where it only comes close, the motion
+ * turns round sharply and a step that jumps over the turn goes on smoothly and wrongly. There no
+ * pose on the way is both singular and assembled. So the constraints are looked at where the motion
+ * has its least pivot: a violation that neither the run nor the polynomial accounts for is such a
+ * gap. Steps that go round the turn in small pieces are right.
  */
 #include <math.h>
 #include <string.h>
@@ -19,15 +22,17 @@
 #include "base/least.h"
 #include "simulate/crossing.h"
 
-/* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began at 0.9. Polynomials over
- * the longest steps are off by 0.06. */
+/* Directions of branches differ by the size of the velocity: jumps of runs that left theirs began
+ * at 0.9. Polynomials over the longest steps are off by 0.06. */
 static const double SMALL_JUMP = 0.1;
 static const double LARGE_JUMP = 0.3;
-/* Smaller ones are of steps with poor accelerations, if they are so many times their error: in 2688 right runs none was. */
+/* Smaller ones are of steps with poor accelerations, if they are so many times their error: in 2688
+ * right runs none was. */
 static const double KICK = 5e-4;
 static const double SURELY = 50.0;
-/* Larger ones are kicks from fewer times their error on: the next crossing is mostly lost. The error follows the steps, and
- * with them the tolerance; of right runs it is too small by more than ten. */
+/* Larger ones are kicks from fewer times their error on: the next crossing is mostly lost. The
+ * error follows the steps, and with them the tolerance; of right runs it is too small by more than
+ * ten. */
 static const double LARGE_KICK = 2e-3;
 static const double LIKELY = 25.0;
 static const double KNOWN = 0.1;      /* largest error of a jump that is judged */
@@ -35,7 +40,8 @@ static const double SMALL_TURN = 0.4; /* of a step that follows a sharp turn */
 /* A violation opens a gap whose least pivot is some five times as large, by an example. */
 static const double OPENED = 30.0;
 static const double GAP_OF_VIOLATION = 10.0;
-static const double GAP = 1e-5; /* in poses, as a displacement; that of crossing branches is 0 */
+static const double GAP =
+  1e-5; /* in configurations, as a displacement; that of crossing branches is 0 */
 
 /* ---- least pivot of the motion ---- */
 
@@ -144,8 +150,8 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
   return violation > noise || (pivot > noise && pivot > OPENED * violation);
 }
 
-/* Branches that cross no longer do so where the constraints are violated: the motion of a run that has drifted turns
- * sharply from one to the other at a distance. */
+/* Branches that cross no longer do so where the constraints are violated: the motion of a run that
+ * has drifted turns sharply from one to the other at a distance. */
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
   const baum_i_crossings *p = run->crossings;

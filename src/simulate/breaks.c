@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks, of the mechanism and of scheduled inputs. At its time b a function has the value that it has
- * afterwards. So steps forward end a few roundings before b, where everything has its value from before, and the next
- * begins at b; backward in time they end at b and begin before it. In between nothing moves. Methods that carry their
- * past along restart there (restart.c).
+/* Declared breaks, of the mechanism and of scheduled inputs. At its time b a function has the value
+ * that it has afterwards. So steps forward end a few roundings before b, where everything has its
+ * value from before, and the next begins at b; backward in time they end at b and begin before it.
+ * In between nothing moves. Methods that carry their past along restart there (restart.c).
  */
 #include "simulate/breaks.h"
 

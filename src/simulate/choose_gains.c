@@ -8,8 +8,8 @@
 #include "mechanism/definition.h"
 #include "simulate/run.h"
 
-/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: without gravity, which would tell what is slow, nothing is
- * known to move below it. */
+/* [1/s] sqrt(|a| / scale) of accelerations that are rounding: without gravity, which would tell
+ * what is slow, nothing is known to move below it. */
 static const double ROUNDING_RATE = 1e-7;
 static const double AT_REST = 1e-3; /* of the rate at which gravity swings it */
 

@@ -1,18 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A second integration of the motion beside a run.
  *
- * rk8 with projection takes one long step where methods with a fixed step, which are given no tolerance, take many short
- * ones. So it costs little to let it go along as soon as the error of such a run may matter: when its local errors, summed,
- * could become large in a motion that amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it goes
- * along from the first singularity crossing on, which amplifies errors. It sets out some steps before, from a state that was
- * still good. Where the two stay apart by more than DOUBTFUL the run warns; short peaks, as where a light rod flips a little
- * too late, do not count.
+ * rk8 with projection takes one long step where methods with a fixed step, which are given no
+ * tolerance, take many short ones. So it costs little to let it go along as soon as the error of
+ * such a run may matter: when its local errors, summed, could become large in a motion that
+ * amplifies perturbations by 1e4. Beside a variable step with a loose tolerance it goes along from
+ * the first singularity crossing on, which amplifies errors. It sets out some steps before, from a
+ * state that was still good. Where the two stay apart by more than DOUBTFUL the run warns; short
+ * peaks, as where a light rod flips a little too late, do not count.
  *
- * With the option error_check it goes along from the start. Beside a variable step it is then the same method at three
- * hundredths of the tolerance: at a tenth both were wrong alike in one of 2000 mechanisms.
+ * With the option error_check it goes along from the start. Beside a variable step it is then the
+ * same method at three hundredths of the tolerance: at a tenth both were wrong alike in one of 2000
+ * mechanisms.
  *
- * It has a workspace of its own: none of its evaluations reaches the run's solver or counters. Where it fails, or costs
- * more than the run itself, as with stiff forces, it is given up, and the error is not known. */
+ * It has a workspace of its own: none of its evaluations reaches the run's solver or counters.
+ * Where it fails, or costs more than the run itself, as with stiff forces, it is given up, and the
+ * error is not known. */
 #include "simulate/companion.h"
 
 #include <math.h>
@@ -26,15 +29,18 @@
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
 
-/* Errors relative to the scales: a right result is within 0.01, a wrong one off by 0.1, and this lies between. */
+/* Errors relative to the scales: a right result is within 0.01, a wrong one off by 0.1, and this
+ * lies between. */
 static const double DOUBTFUL = 0.03;
 /* The two must stay apart for this share of 1/rate. */
 static const double LASTING = 0.1;
 /* Aimed at by the step that is advised, for the error goes on growing after the warning. */
 static const double FINE = 0.002;
-/* A sum of local errors that stays right when it grows by less than 1e3, and not wrong by less than 1e4. */
+/* A sum of local errors that stays right when it grows by less than 1e3, and not wrong by less than
+ * 1e4. */
 static const double NEGLIGIBLE = 1e-5;
-/* (angle of a step)^order from which on errors may matter before the first of them can be estimated. */
+/* (angle of a step)^order from which on errors may matter before the first of them can be
+ * estimated. */
 static const double COARSE = 1e-3;
 /* Of rk8; at growth up to 1e3 its own error stays within that of a right result. */
 static const double TOLERANCE = 1e-5;
@@ -42,8 +48,8 @@ static const double TOLERANCE_OF_CHECK = 1e-8;
 static const double TIGHTER = 0.1;
 static const double TIGHTER_OF_CHECK = 0.03;
 static const double LEAST_RTOL = 1e-13; /* below, rounding counts */
-/* Evaluations of the companion per one of the run: an unasked check may not slow a run down by much. Some are free,
- * since short runs with long steps take few themselves. */
+/* Evaluations of the companion per one of the run: an unasked check may not slow a run down by
+ * much. Some are free, since short runs with long steps take few themselves. */
 static const double MOST_COST = 2.0;
 static const double MOST_COST_OF_CHECK = 10.0;
 static const int64_t FREE = 1000;

@@ -23,7 +23,8 @@ void baum_i_companion_follow(baum_simulation *run, const baum_i_state *state);
 /* A call that advances the run ends at the present state. */
 void baum_i_companion_end_call(baum_simulation *run);
 
-/* What acts on the mechanism changes at the present state: come there before it does, and go on from there after. */
+/* What acts on the mechanism changes at the present state: come there before it does, and go on
+ * from there after. */
 void baum_i_companion_settle(baum_simulation *run);
 void baum_i_companion_restart(baum_simulation *run);
 

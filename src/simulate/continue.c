@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run that goes on where another one stands, of the same mechanism and with options of its own. */
+/* A run that goes on where another one stands, of the same mechanism and with options of its
+ * own. */
 #include "base/alloc.h"
 #include "simulate/schedule.h"
 
@@ -54,8 +55,8 @@ static void exchange(baum_simulation *run, standing *s)
   w->point.parameters = run->parameters ? run->parameters : w->mechanism->parameters;
 }
 
-/* A method that lets violations be may have left some, which this one may not take: then q and v are changed by the least
- * that does. */
+/* A method that lets violations be may have left some, which this one may not take: then q and v
+ * are changed by the least that does. */
 static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
 {
   if (run->options.start != BAUM_START_AS_GIVEN) {
@@ -83,7 +84,7 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
 {
   standing theirs;
   BAUM_I_TRY(check_both(simulation, from));
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {

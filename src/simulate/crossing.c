@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Near-singular intervals of a run.
  *
- * Beside every accepted state stands the smallest pivot p of the equations there, of the largest p of the run so far.
- * Near a singular pose p = (distance)^2 / (unit)^2, so that sqrt(p) runs down to zero and up again in straight lines.
+ * Beside every accepted state stands the smallest pivot p of the equations there, of the largest p
+ * of the run so far. Near a singular configuration p = (distance)^2 / (unit)^2, so that sqrt(p)
+ * runs down to zero and up again in straight lines.
  *
- *   p < NEAR            the run is inside; the last state before and the first one after are the ends of the interval
- *   sqrt(p) has a least value among three states, and its slopes would let it reach zero between them: the least p of
- *                       the motion through the three is looked for, for fixed steps may jump over a singular pose
- *   least p < SINGULAR  it has been a crossing, unless J keeps its rank there: it is recorded, its branch decided
- *                       (branch.c), and warned of; others are nothing but poses that are worse than usual
+ *   p < NEAR            the run is inside; the last state before and the first one after are the
+ *   ends of the interval sqrt(p) has a least value among three states, and its slopes would let it
+ *   reach zero between them: the least p of
+ *                       the motion through the three is looked for, for fixed steps may jump over a
+ *                       singular configuration
+ *   least p < SINGULAR  it has been a crossing, unless J keeps its rank there: it is recorded, its
+ *   branch decided
+ *                       (branch.c), and warned of; others are nothing but poses that are worse than
+ *                       usual
  */
 #include "simulate/crossing.h"
 
@@ -22,7 +27,8 @@
 /* Least pivot of a crossing: distances within a thirtieth of those of ordinary poses. */
 static const double SINGULAR = 1e-3;
 
-/* Clear states are so far from each other that rounding and tolerances do not blow up in extrapolation [rad]. */
+/* Clear states are so far from each other that rounding and tolerances do not blow up in
+ * extrapolation [rad]. */
 static const double SPACING = 0.1;
 
 /* ---- memory ---- */
@@ -188,8 +194,9 @@ static bool is_singular(baum_simulation *run, double pivot)
   return pivot < SINGULAR || baum_i_branch_is_opened(run, pivot);
 }
 
-/* Whether the rows of J keep their rank where the pivot is small: redundant rows may hold where those that are kept do not,
- * and where a light body alone moves in the direction of a row the pivot falls to the ratio of masses, but no further. */
+/* Whether the rows of J keep their rank where the pivot is small: redundant rows may hold where
+ * those that are kept do not, and where a light body alone moves in the direction of a row the
+ * pivot falls to the ratio of masses, but no further. */
 static bool keeps_its_rank(baum_simulation *run, double t, const double *q, double pivot)
 {
   return is_singular(run, pivot) && baum_i_rows_are_apart(run->workspace, t, q);
@@ -253,12 +260,12 @@ static void record_crossing(baum_simulation *run, double to)
     entry.joint = baum_i_joint_id(run->workspace->mechanism, p->present.joint);
     (void)baum_i_joint_label(run->workspace->mechanism, p->present.joint, label);
   }
-  baum_i_run_warn(run,
-                  entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED
-                                                        : BAUM_WARNING_BRANCH,
-                  entry.t, p->present.joint,
-                  "t = %.9g s to %.9g s: near a singular pose (pivot %.1e of the usual, %s): %s",
-                  entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
+  baum_i_run_warn(
+    run,
+    entry.branch == BAUM_BRANCH_CONTINUED ? BAUM_WARNING_SINGULARITY_CROSSED : BAUM_WARNING_BRANCH,
+    entry.t, p->present.joint,
+    "t = %.9g s to %.9g s: near a singular configuration (pivot %.1e of the usual, %s): %s",
+    entry.begin, entry.end, entry.pivot, label, BRANCHES[entry.branch]);
   if (run->counters.near_singular_intervals < BAUM_I_PASSAGES) {
     p->kept[run->counters.near_singular_intervals] = entry;
   }
@@ -374,8 +381,8 @@ void baum_i_crossings_end(baum_simulation *run)
 
 /* ---- steps of variable length ---- */
 
-/* [rad] by which a mechanism may move in a step before states inside it are looked at: near singular poses, and
- * elsewhere, where a step may lead across one. */
+/* [rad] by which a mechanism may move in a step before states inside it are looked at: near
+ * singular configurations, and elsewhere, where a step may lead across one. */
 static const double LONG_NEAR = 0.25;
 static const double LONG = 0.5;
 static const double PIVOT_NEAR = 0.3;
@@ -411,7 +418,8 @@ static void look_between(baum_simulation *run, double t)
   }
 }
 
-/* Everything here is about the motion as it was; what fails, fails again in the next step, where it is told. */
+/* Everything here is about the motion as it was; what fails, fails again in the next step, where it
+ * is told. */
 void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
 {
   baum_i_crossings *p = run->crossings;

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The search for events, one for all integrators: g(t) is the value of an event in the motion as outputs see it,
- * which is the interpolant of the last step, projected where the formulation says so, or with fixed steps the end of
- * a shorter step from the same start. docs/theory/events.md.
+/* The search for events, one for all integrators: g(t) is the value of an event in the motion as
+ * outputs see it, which is the interpolant of the last step, projected where the formulation says
+ * so, or with fixed steps the end of a shorter step from the same start. docs/theory/events.md.
  *
- * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is looked at cheaply, on the
- * interpolant without projection or on the cubic of the two ends; where it shows another side than known, g is asked.
- * Each event has a side that it keeps from look to look, also from step to step, where interpolants do not meet exactly:
- * nothing is found twice or lost there.
+ * Signs are compared at the quarters of a step, at outputs and at its end. A quarter is looked at
+ * cheaply, on the interpolant without projection or on the cubic of the two ends; where it shows
+ * another side than known, g is asked. Each event has a side that it keeps from look to look, also
+ * from step to step, where interpolants do not meet exactly: nothing is found twice or lost there.
  *
- * Between two looks with different signs g is made zero by the secant with the weights of Dowell and Jarratt (BIT 11,
- * 1971; "Illinois"), every third time by bisection, never nearer to an end than half of the tolerance, until the two are
- * a tolerance apart. The event is at the later one, where g has passed zero.
+ * Between two looks with different signs g is made zero by the secant with the weights of Dowell
+ * and Jarratt (BIT 11,
+ * 1971; "Illinois"), every third time by bisection, never nearer to an end than half of the
+ * tolerance, until the two are a tolerance apart. The event is at the later one, where g has passed
+ * zero.
  */
 #include <float.h>
 #include <math.h>
@@ -55,8 +57,8 @@ static void follow_cubic(const baum_simulation *run, double t, baum_i_state *out
   baum_i_hermite(run->workspace->mechanism, ends, 2, t, out->q, out->v, run->workspace->work_q);
 }
 
-/* Shorter than this share of a step the cubic is the motion to rounding, and methods that divide by the step are not
- * asked. */
+/* Shorter than this share of a step the cubic is the motion to rounding, and methods that divide by
+ * the step are not asked. */
 static const double SHORTEST = 1e-9;
 
 static baum_status find_state_by_step(baum_simulation *run, double t)
@@ -144,8 +146,8 @@ static double choose_time(const bracket *is, double tolerance, int try)
   return (is->b - x) * width < edge * width ? is->b - edge : x;
 }
 
-/* Take x as one of the ends, a when it is before the event. An end that stays is given half its value, or it would stay
- * for long (Illinois). */
+/* Take x as one of the ends, a when it is before the event. An end that stays is given half its
+ * value, or it would stay for long (Illinois). */
 static void narrow_bracket(bracket *is, double x, double value, bool before)
 {
   double *moved[2] = {before ? &is->a : &is->b, before ? &is->fa : &is->fb};
@@ -319,7 +321,8 @@ static bool any_has_passed(const baum_i_events *events)
   return false;
 }
 
-/* Every event that has passed at t, whose values are given; afterwards they are those at t again. */
+/* Every event that has passed at t, whose values are given; afterwards they are those at t
+ * again. */
 static baum_status locate_all(baum_simulation *run, double t)
 {
   baum_i_events *events = run->events;

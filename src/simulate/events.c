@@ -206,8 +206,8 @@ void baum_i_events_begin(baum_simulation *run)
   }
 }
 
-/* What has just happened may do so again at once only because a method begins a little beside the state, or
- * because the run turns back; that is leaving zero. */
+/* What has just happened may do so again at once only because a method begins a little beside the
+ * state, or because the run turns back; that is leaving zero. */
 void baum_i_events_go_on(baum_simulation *run)
 {
   baum_i_events *events = run->events;

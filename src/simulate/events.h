@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of a run: which side of zero each is on, and the search for the times at which they pass it. */
+/* Events of a run: which side of zero each is on, and the search for the times at which they pass
+ * it. */
 #ifndef BAUM_I_SIMULATE_EVENTS_H
 #define BAUM_I_SIMULATE_EVENTS_H
 
@@ -46,14 +47,14 @@ void baum_i_events_destroy(baum_i_events *events);
 /* Values at a state, into next. BAUM_OK, BAUM_ERR_CALLBACK, BAUM_ERR_NOT_FINITE. */
 baum_status baum_i_events_evaluate(baum_simulation *run, const baum_i_state *state);
 
-/* Begin at the present state, whose values have just been evaluated: a start, or a motion that goes on
- * another way. A start may be where the run stands already, with other velocities. */
+/* Begin at the present state, whose values have just been evaluated: a start, or a motion that goes
+ * on another way. A start may be where the run stands already, with other velocities. */
 void baum_i_events_begin(baum_simulation *run);
 void baum_i_events_go_on(baum_simulation *run);
 
-/* Look at the motion up to time `to`. Fixed step: the trial state is the end of a step to there, which is
- * made again where it was needed otherwise. BAUM_OK; BAUM_STOP_EVENT, and the trial state is at the
- * event; or a failure. */
+/* Look at the motion up to time `to`. Fixed step: the trial state is the end of a step to there,
+ * which is made again where it was needed otherwise. BAUM_OK; BAUM_STOP_EVENT, and the trial state
+ * is at the event; or a failure. */
 baum_status baum_i_events_watch(baum_simulation *run, double to);
 
 /* Times nearer than this are one time: of leaving zero and the start. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is added to the sentence of a step that failed: where the run stands, which joint and body to look at first, and
- * what may help. The sentence itself has time and step, from whoever failed.
+/* What is added to the message of a step that failed: where the run stands, which joint and body to
+ * look at first, and what may help. The message itself has time and step, from whoever failed.
  *
  * At the last good step, by one solution of (5):
  *   the joint that is violated most, if that shows, else the one that bears the largest load
@@ -100,7 +100,7 @@ static void say_history(const baum_simulation *run, char *text, size_t size)
   }
 }
 
-/* The state where the run stands; what is evaluated for this sentence is not counted. */
+/* The state where the run stands; what is evaluated for this message is not counted. */
 static void say_where(baum_simulation *run, const baum_i_state *at, char *text, size_t size)
 {
   baum_workspace *w = run->workspace;

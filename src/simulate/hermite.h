@@ -15,8 +15,9 @@ typedef struct baum_i_knot {
   double *v;    /* (nv) */
 } baum_i_knot;
 
-/* q and v at t of the polynomials of degree 2 count - 1 through positions and rates of `count` knots, from 1 to
- * BAUM_I_HERMITE_MOST, at times of their own; q and v are none of theirs. work (4 nq). */
+/* q and v at t of the polynomials of degree 2 count - 1 through positions and rates of `count`
+ * knots, from 1 to BAUM_I_HERMITE_MOST, at times of their own; q and v are none of theirs. work (4
+ * nq). */
 void baum_i_hermite(const baum_mechanism *mechanism, const baum_i_knot *knots, int count, double t,
                     double *q, double *v, double *work);
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run from outside: inputs and their schedules, and drivers with a law given by the run. Both change the
- * right side of the equations abruptly (restart.c). */
+/* What acts on a run from outside: inputs and their schedules, and drivers with a law given by the
+ * run. Both change the right side of the equations abruptly (restart.c). */
 #include <assert.h>
 #include <math.h>
 #include <string.h>
@@ -25,7 +25,7 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
   BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = BAUM_OK;
   if (value != before) {
@@ -87,7 +87,8 @@ static void merge_jumps(const baum_i_schedule *old, const given *g, baum_i_sched
   (void)append_others(old, next, (double)INFINITY, g->input, out);
 }
 
-/* The run takes a list that is made, and begins anew: the end of its last step may be behind a jump. */
+/* The run takes a list that is made, and restarts: the end of its last step may be behind a
+ * jump. */
 static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *made, int64_t input)
 {
   double *present = &run->workspace->inputs[input];
@@ -166,7 +167,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
     baum_i_schedule_end(simulation, index);
     return BAUM_OK;
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   return baum_i_run_end_call(simulation, replace_schedule(simulation, &g), &kept);
 }
@@ -235,7 +236,7 @@ baum_status baum_simulation_set_driver(baum_simulation *simulation, baum_joint_i
 {
   const double law[3] = {s, ds, dds};
   BAUM_I_TRY(check_driver(simulation, "baum_simulation_set_driver", driver, law));
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   const baum_mechanism *m = simulation->workspace->mechanism;
   baum_status status = baum_i_run_own_parameters(simulation);

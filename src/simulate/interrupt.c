@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What may stop a run before its next step: the user, progress, too many steps, steps that lead nowhere.
+/* What may stop a run before its next step: the user, progress, too many steps, steps that lead
+ * nowhere.
  *
- * A method that chooses its steps may get stuck with them, as BDF does next to a singular pose, or an explicit method
- * with a stiff force. One that has taken 1e4 steps in a call and at this pace would take more than 1e9, the default of
- * max_steps, for the time 1/rate in which the motion does anything at all, stops: it would not come to an end. Steps that
- * high gains or stiff forces ask for are far longer: those of 1e-6 of that time already cost 1e6 steps.
+ * A method that chooses its steps may get stuck with them, as BDF does next to a singular
+ * configuration, or an explicit method with a stiff force. One that has taken 1e4 steps in a call
+ * and at this pace would take more than 1e9, the default of max_steps, for the time 1/rate in which
+ * the motion does anything at all, stops: it would not come to an end. Steps that high gains or
+ * stiff forces ask for are far longer: those of 1e-6 of that time already cost 1e6 steps.
  */
 #include <math.h>
 
@@ -77,7 +79,8 @@ static baum_status fail_creeping(baum_simulation *run)
   baum_status status = baum_i_fail(
     BAUM_ERR_STEP,
     "t = %.9g s: %s creeps: %d steps have led on by less than 1e-9 of the time of the motion each; "
-    "forces may be stiff, which only cvode_bdf and ida are for, or the pose singular, where rk8 "
+    "forces may be stiff, which only cvode_bdf and ida are for, or the configuration singular, "
+    "where rk8 "
     "goes "
     "on",
     now->t, run->integrator->name, (int)PACE_STEPS);

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Local errors of fixed steps. The step of v is compared with the Adams-Moulton formula of order 5, that of q with the
- * Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential Equations I, 1993, III.1):
+/* Local errors of fixed steps. The step of v is compared with the Adams-Moulton formula of order 5,
+ * that of q with the Hermite rule (E. Hairer, S. Norsett, G. Wanner, Solving Ordinary Differential
+ * Equations I, 1993, III.1):
  *
  *   dv = v_1 - v_0 - h/720 (251 a_1 + 646 a_0 - 264 a_-1 + 106 a_-2 - 19 a_-3)
  *   dq = q_1 - q_0 - h/2 (q'_0 + q'_1) - h^2/12 (q''_0 - q''_1) + h/2 N dv
  *
  * with q' = v and q'' = a where q is a vector.
- * Both have errors of order h^6 and h^5 of their own: the estimate of a method of high order is far too large. */
+ * Both have errors of order h^6 and h^5 of their own: the estimate of a method of high order is far
+ * too large. */
 #include "simulate/local_error.h"
 
 #include <math.h>

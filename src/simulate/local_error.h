@@ -20,8 +20,9 @@ typedef struct baum_i_local_error {
 size_t baum_i_local_error_size(const baum_mechanism *m);
 void baum_i_local_error_place(baum_i_local_error *local, const baum_mechanism *m, double *numbers);
 
-/* At the present state of a run, where its last step has ended, and the acceleration there, in the workspace: the estimated
- * error of that step relative to the scales; 0 while too few accelerations are known. known = 0: forget those before. */
+/* At the present state of a run, where its last step has ended, and the acceleration there, in the
+ * workspace: the estimated error of that step relative to the scales; 0 while too few accelerations
+ * are known. known = 0: forget those before. */
 double baum_i_local_error_of_step(baum_i_local_error *local, const baum_simulation *run);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run watches: violation and its joint, predicted violation, near-singular poses,
+/* What a run watches: violation and its joint, predicted violation, near-singular configurations,
  * warnings, counters. */
 #include <math.h>
 
@@ -52,8 +52,9 @@ static void observe_singular(baum_simulation *run, double t)
 }
 
 /* Rows that were left out depend on the others only as long as the constraints agree with each
- * other and the motion stays on its branch. At a distance d from a pose where the kept rows alone are singular, the
- * others may be off by 1/d of what the kept ones are off by, and next to it by its root; more is a contradiction. */
+ * other and the motion stays on its branch. At a distance d from a configuration where the kept
+ * rows alone are singular, the others may be off by 1/d of what the kept ones are off by, and next
+ * to it by its root; more is a contradiction. */
 static const double NEGLIGIBLE = 1e-6; /* violation, as a displacement */
 static const double TIMES = 10.0;
 
@@ -97,11 +98,11 @@ static void observe_redundant(baum_simulation *run, double t)
   }
 }
 
-/* A constraint that is off by more than this share of the scales is no longer that of the mechanism: the run has drifted
- * far or blows up. */
+/* A constraint that is off by more than this share of the scales is no longer that of the
+ * mechanism: the run has drifted far or blows up. */
 static const double LARGE = 0.01;
-/* The motion is off by its violation at least. With a tolerance that must not be much more than the tolerance, neither
- * of what drifts nor, above rounding, of what is kept in every step. */
+/* The motion is off by its violation at least. With a tolerance that must not be much more than the
+ * tolerance, neither of what drifts nor, above rounding, of what is kept in every step. */
 static const double DRIFTED = 1e-3;
 static const double TOLERANCES_DRIFTED = 1e4;
 static const double KEPT = 1e-6;

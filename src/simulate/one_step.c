@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One step tried, or one state inside the last step: both on the trial state, which is projected if the formulation says
- * so and checked. */
+/* One step tried, or one state inside the last step: both on the trial state, which is projected if
+ * the formulation says so and checked. */
 #include <math.h>
 #include <string.h>
 

@@ -228,8 +228,8 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method takes for their error
- * does not fall with the step as it should. */
+/* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method
+ * takes for their error does not fall with the step as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {

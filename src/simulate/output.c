@@ -347,7 +347,8 @@ static int put_channel(const baum_workspace *w, const baum_i_state *state, const
   }
 }
 
-/* Velocities of a point far out overflow, or reactions. Energies and the account are filled afterwards. */
+/* Velocities of a point far out overflow, or reactions. Energies and the account are filled
+ * afterwards. */
 static baum_status check_channel(const baum_channel *c, int k, const double *out, int width)
 {
   facts f = facts_of(c->quantity);

@@ -3,14 +3,16 @@
  *
  *   rate w = max(|v| / L, sqrt(|a| / L)),   h = 0.75 / w,   mean rate = sum w h / sum h
  *
- * 5 steps of order 3 with 3 evaluations each, in the form that keeps no stages (J. H. Williamson, J. Comput. Phys.
+ * 5 steps of order 3 with 3 evaluations each, in the form that keeps no stages (J. H. Williamson,
+ * J. Comput. Phys.
  * 35 (1980) 48-56, case 7):
  *
  *   d := A_i d + h f(y),   y := y + B_i d
  *
- * So few steps need no stabilization, and a tenth of the rate is exact enough. As steps are of equal angle, a
- * short fast phase or a singular pose counts for little. A mechanism that starts slowly does not stay in its
- * slow phase: steps are never longer than where gravity swings by that angle.
+ * So few steps need no stabilization, and a tenth of the rate is exact enough. As steps are of
+ * equal angle, a short fast phase or a singular configuration counts for little. A mechanism that
+ * starts slowly does not stay in its slow phase: steps are never longer than where gravity swings
+ * by that angle.
  */
 #include <math.h>
 #include <string.h>

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What acts on a run changes abruptly: an input, the law of a driver, the rows that are left out, a function at a break.
+/* What acts on a run changes abruptly: an input, the law of a driver, the rows that are left out, a
+ * function at a break.
  *
- * A fixed-step method begins every step from the state alone and takes the change as it is; a variable-step method carries
- * its past along and begins anew from the present state, which may be behind the end of its last step.
+ * A fixed-step method begins every step from the state alone and takes the change as it is; a
+ * variable-step method carries its past along and restarts from the present state, which may be
+ * behind the end of its last step.
  */
 #include "simulate/account.h"
 #include "simulate/breaks.h"
@@ -44,7 +46,7 @@ void baum_i_run_end_before_change(baum_simulation *run)
   baum_i_companion_settle(run);
 }
 
-/* Kinematics have solved for the pose on the far side, whose velocities may be others. */
+/* Kinematics have solved for the configuration on the far side, whose velocities may be others. */
 static baum_status read_pose_behind(baum_simulation *run)
 {
   baum_i_state *state = &run->state;

@@ -8,7 +8,8 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 
-/* Without memory the account and the companion go on with those before, which are no worse than they were. */
+/* Without memory the account and the companion go on with those before, which are no worse than
+ * they were. */
 static void tell_others(baum_simulation *run)
 {
   for (int k = 0; k < 2; k++) {
@@ -18,8 +19,9 @@ static void tell_others(baum_simulation *run)
   }
 }
 
-/* Rows that were left out are off by more than those that were kept, the more the nearer these came to dependent: from
- * choice to choice a violation would grow by ten. One that was given stays all the same. */
+/* Rows that were left out are off by more than those that were kept, the more the nearer these came
+ * to dependent: from choice to choice a violation would grow by ten. One that was given stays all
+ * the same. */
 static void project_present(baum_simulation *run)
 {
   baum_i_state *trial = &run->trial;
@@ -34,8 +36,9 @@ static void project_present(baum_simulation *run)
 
 static const double WHILE = 0.1; /* [rad] */
 
-/* KLU's pivots scatter, and those of QR, which weighs the constraints, fall next to a pose only. There rows are poor after a
- * while, for all that is known; what looking at them costs is little beside the work of these. */
+/* KLU's pivots scatter, and those of QR, which weighs the constraints, fall next to a configuration
+ * only. There rows are poor after a while, for all that is known; what looking at them costs is
+ * little beside the work of these. */
 static double guess_pivot(baum_simulation *run)
 {
   const baum_i_state *state = &run->state;

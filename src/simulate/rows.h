@@ -5,11 +5,12 @@
 
 #include "simulate/run.h"
 
-/* At the present state, where the next step begins: leave out others where those that are kept have become poor; then
- * methods begin anew. Statuses of baum_i_run_restart(). Nothing for kinematics. */
+/* At the present state, where the next step begins: leave out others where those that are kept have
+ * become poor; then methods restart. Statuses of baum_i_run_restart(). Nothing for kinematics. */
 baum_status baum_i_run_choose_rows(baum_simulation *run);
 
-/* Likewise for a state that comes from outside of the motion, with which all begins anew in any case. */
+/* Likewise for a state that comes from outside of the motion, with which all restarts in any
+ * case. */
 void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
 
 /* Leave out these (nc). Statuses of baum_i_omit_rows(); then all stays as it is. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What every part of a run uses: copy a state, make a workspace like the run's, warn (one entry per kind), fail, finish. */
+/* What every part of a run uses: copy a state, make a workspace like the run's, warn (one entry per
+ * kind), fail, finish. */
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -115,7 +116,7 @@ void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int
 /* ---- tell ---- */
 
 baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
-                                const baum_i_sentence *before)
+                                const baum_i_kept_message *before)
 {
   return status == BAUM_OK ? baum_i_message_settle(BAUM_OK, before) : baum_i_run_fail(run, status);
 }

@@ -76,7 +76,8 @@ struct baum_simulation {
   baum_i_events *events;       /* see events.h; NULL: there are none */
   baum_i_companion *companion; /* see companion.h; NULL: the error is not estimated */
 
-  baum_i_crossings *crossings; /* through singular poses, see crossing.h; NULL: not looked for */
+  baum_i_crossings
+    *crossings; /* through singular configurations, see crossing.h; NULL: not looked for */
 
   double *parameters;       /* own copy of the mechanism's once a driver is set, else NULL */
   baum_i_schedule schedule; /* of inputs */
@@ -111,7 +112,8 @@ baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace
 
 enum { BAUM_I_NO_JOINT = -1 };
 
-/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first one keeps its text. */
+/* Warn at time t of something about a joint. Later warnings of the same kind are counted; the first
+ * one keeps its text. */
 void baum_i_run_warn(baum_simulation *run, baum_warning_code code, double t, int joint,
                      const char *format, ...) BAUM_I_PRINTF(5, 6);
 
@@ -124,16 +126,17 @@ bool baum_i_run_has_warned(const baum_simulation *run, baum_warning_code code);
 /* BAUM_OK, or BAUM_WARNED when there are warnings that no status has announced yet. */
 baum_status baum_i_run_finish(baum_simulation *run);
 
-/* Remember the sentence of a failure in the run and return its status. */
+/* Remember the message of a failure in the run and return its status. */
 baum_status baum_i_run_fail(baum_simulation *run, baum_status status);
 
 /* Of a call that reads from a run into a sized struct. BAUM_OK or BAUM_ERR_ARGUMENT. */
 baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, size_t caller_size,
                                  const char *call);
 
-/* A call that may have tried what fails ends: it leaves the message of a failure, or the one from before. */
+/* A call that may have tried what fails ends: it leaves the message of a failure, or the one from
+ * before. */
 baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
-                                const baum_i_sentence *before);
+                                const baum_i_kept_message *before);
 
 /* ---- start.c ---- */
 
@@ -141,27 +144,28 @@ baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
  * the present state is untouched. */
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
-/* Of the trial state, when the rows to leave out are known: BAUM_ERR_INCONSISTENT, or a warning, where rows are met that
- * hold hardly by velocities that are far from what they ask for. */
+/* Of the trial state, when the rows to leave out are known: BAUM_ERR_INCONSISTENT, or a warning,
+ * where rows are met that hold hardly by velocities that are far from what they ask for. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
 /* Energy of the trial state; leaves Phi and Phi' there in the workspace. */
 baum_status baum_i_run_measure(baum_simulation *run, double *energy);
 
-/* Make the trial state, just measured, the present one: grid and energy begin anew. */
+/* Make the trial state, just measured, the present one: grid and energy restart. */
 void baum_i_run_accept(baum_simulation *run, double energy);
 
 /* ---- choose_gains.c, pilot.c ---- */
 
-/* [1/s] Fastest angular rate of the trial state, whose accelerations are in the workspace; 0 where nothing
- * moves nor would under gravity. */
+/* [1/s] Fastest angular rate of the trial state, whose accelerations are in the workspace; 0 where
+ * nothing moves nor would under gravity. */
 double baum_i_run_start_rate(const baum_simulation *run);
 
 /* [1/s] Velocities below it are rounding. */
 double baum_i_rest_rate(const baum_mechanism *m);
 
-/* Mean rate [1/s] over a short run from the trial state, whose accelerations are in the workspace. It uses
- * run->ahead and run->state, and leaves another state in the workspace. swing: [1/s] a rate that steps are made for at least. */
+/* Mean rate [1/s] over a short run from the trial state, whose accelerations are in the workspace.
+ * It uses run->ahead and run->state, and leaves another state in the workspace. swing: [1/s] a rate
+ * that steps are made for at least. */
 double baum_i_run_pilot(baum_simulation *run, double swing);
 
 /* Gains, and what they ask of the step, into the problem. */
@@ -169,7 +173,7 @@ baum_status baum_i_run_choose_gains(baum_simulation *run);
 
 /* ---- monitor.c ---- */
 
-/* Violation, gamma and near-singular poses from the workspace's last velocity stage,
+/* Violation, gamma and near-singular configurations from the workspace's last velocity stage,
  * which was at time t. */
 void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma);
 
@@ -190,20 +194,22 @@ void baum_i_run_count_from_here(baum_simulation *run);
 /* What acts on the mechanism is about to change at the present state. */
 void baum_i_run_end_before_change(baum_simulation *run);
 
-/* The equations change at the present state: methods that carry their past along begin anew from it, which may be
- * behind the end of their last step. A method that fails here begins anew at its next step, and from the same state. */
+/* The equations change at the present state: methods that carry their past along restart from it,
+ * which may be behind the end of their last step. A method that fails here restarts at its next
+ * step, and from the same state. */
 baum_status baum_i_run_restart(baum_simulation *run);
 
 /* ---- interrupt.c ---- */
 
-/* Before every step: cancelled, too many steps in this call, or steps that lead nowhere? A run that stops here stands
- * where its last step ended, which a variable-step method keeps ahead. */
+/* Before every step: cancelled, too many steps in this call, or steps that lead nowhere? A run that
+ * stops here stands where its last step ended, which a variable-step method keeps ahead. */
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 
 /* Before every sample, which may need no step: BAUM_OK, or BAUM_STOP_CANCELLED. */
 baum_status baum_i_run_is_wanted(baum_simulation *run);
 
-/* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read it. */
+/* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read
+ * it. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
@@ -218,19 +224,20 @@ baum_status baum_i_run_try_step(baum_simulation *run, double t_next, bool observ
 /* Variable step: one of the method's own length from `ahead`, on the trial state. */
 baum_status baum_i_run_try_own_step(baum_simulation *run);
 
-/* Variable step: the state inside the last step, projected if the formulation says so, into trial. */
+/* Variable step: the state inside the last step, projected if the formulation says so, into
+ * trial. */
 baum_status baum_i_run_inside(baum_simulation *run, double t);
 
 /* ---- inputs.c ---- */
 
-/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK or
- * BAUM_ERR_MEMORY. */
+/* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK
+ * or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
 /* ---- failure.c ---- */
 
-/* Add to the sentence of a step that failed which joint and body to look at, at the last good state, and what
- * may help. Returns the status. */
+/* Add to the message of a step that failed which joint and body to look at, at the last good state,
+ * and what may help. Returns the status. */
 baum_status baum_i_run_explain_failure(baum_simulation *run, baum_status status,
                                        const baum_i_state *at);
 

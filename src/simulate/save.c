@@ -8,8 +8,8 @@
  *   the parts of saved.h
  *   sum over all before (base/digest.h)
  *
- * Everything is checked before anything changes. What methods remember of steps, and pivots, are not in it: saving
- * makes the run forget them, as restoring does, so that both go on alike.
+ * Everything is checked before anything changes. What methods remember of steps, and pivots, are
+ * not in it: saving makes the run forget them, as restoring does, so that both go on alike.
  */
 #include <math.h>
 #include <stddef.h>
@@ -265,7 +265,7 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
                        "NULL",
                        call, capacity, most);
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   restart_for_save(simulation);
   baum_i_run_count(simulation);
@@ -487,7 +487,8 @@ static baum_status check_buffer(reader *r, const baum_simulation *run, const bau
 
 /* ---- put back ---- */
 
-/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more than here. */
+/* A run without numbers of its own gets them when the buffer has some. Jumps of inputs may be more
+ * than here. */
 static baum_status make_room(baum_simulation *run, const reader *r)
 {
   if (r->parts.count[BAUM_I_SAVED_PARAMETERS] > 0) {
@@ -572,7 +573,7 @@ baum_status baum_simulation_restore(baum_simulation *simulation, const void *buf
                        simulation ? "the buffer" : "the simulation");
   }
   BAUM_I_TRY(baum_i_run_may_be_changed(simulation, "baum_simulation_restore"));
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run as a list of parts: plain structs and arrays, each where the run has it. save.c makes the list and takes it back;
- * BAUM_I_SAVED_VERSION is raised whenever a part, or its meaning, changes. tests/unit/test_saved.c remembers which sizes each
- * version had.
+/* A run as a list of parts: plain structs and arrays, each where the run has it. save.c makes the
+ * list and takes it back; BAUM_I_SAVED_VERSION is raised whenever a part, or its meaning, changes.
+ * tests/unit/test_saved.c remembers which sizes each version had.
  *
- * Plain structs hold numbers alone; flags are int32_t, so that any bytes are some. Those that belong to an object are its
- * members up to the first that is not saved.
+ * Plain structs hold numbers alone; flags are int32_t, so that any bytes are some. Those that
+ * belong to an object are its members up to the first that is not saved.
  */
 #ifndef BAUM_I_SIMULATE_SAVED_H
 #define BAUM_I_SIMULATE_SAVED_H
@@ -75,7 +75,8 @@ typedef struct baum_i_saved_places {
   int64_t count[BAUM_I_SAVED_PARTS];
 } baum_i_saved_places;
 
-/* NULL, or what is wrong with these bytes: they have to be the parts of the list and nothing else. */
+/* NULL, or what is wrong with these bytes: they have to be the parts of the list and nothing
+ * else. */
 const char *baum_i_saved_find(const baum_i_saved *list, const unsigned char *from, size_t size,
                               baum_i_saved_places *out);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scheduled inputs: one list of the jumps of all, rising in time. A jump has the values on both of its sides, so that a
- * run passes it either way, and the value of an input is that behind the last of its jumps up to the present time.
+/* Scheduled inputs: one list of the jumps of all, rising in time. A jump has the values on both of
+ * its sides, so that a run passes it either way, and the value of an input is that behind the last
+ * of its jumps up to the present time.
  */
 #include "simulate/schedule.h"
 

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs of a run that follow a schedule: jumps at times known before. Runs are at breaks there, see breaks.h. */
+/* Inputs of a run that follow a schedule: jumps at times known before. Runs are at breaks there,
+ * see breaks.h. */
 #ifndef BAUM_I_SIMULATE_SCHEDULE_H
 #define BAUM_I_SIMULATE_SCHEDULE_H
 
 #include "simulate/run.h"
 
-/* Time goes from one to another: inputs that jump between have the values of there. Goes back as well. */
+/* Time goes from one to another: inputs that jump between have the values of there. Goes back as
+ * well. */
 void baum_i_schedule_move(baum_simulation *run, double from, double to);
 
 /* The input has no schedule any more, and keeps its value. */

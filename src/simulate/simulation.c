@@ -85,10 +85,11 @@ static baum_status warn_redundancy(baum_simulation *run)
                     r->count, r->count == 1 ? "row" : "rows", names);
   }
   if (w->mechanism->nc > 0 && r->rank_at_start < r->rank) {
-    baum_i_run_warn(run, BAUM_WARNING_SINGULAR_START, start->t, BAUM_I_NO_JOINT,
-                    "the start pose is singular, or all but singular: %d independent constraint "
-                    "rows, %d nearby",
-                    r->rank_at_start, r->rank);
+    baum_i_run_warn(
+      run, BAUM_WARNING_SINGULAR_START, start->t, BAUM_I_NO_JOINT,
+      "the start configuration is singular, or all but singular: %d independent constraint "
+      "rows, %d nearby",
+      r->rank_at_start, r->rank);
   }
   return BAUM_OK;
 }
@@ -137,7 +138,7 @@ static baum_i_kkt_choice solver_choice(baum_solver solver)
   }
 }
 
-/* At the start pose: which rows to omit, and whether blocks suit what is left. */
+/* At the start configuration: which rows to omit, and whether blocks suit what is left. */
 static baum_status choose_solver(baum_simulation *run)
 {
   baum_workspace *w = run->workspace;
@@ -241,7 +242,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   run->options = checked;
   run->integrator = checked.integrator;
   atomic_init(&run->cancelled, 0);
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = baum_i_message_settle(prepare(run, mechanism), &kept);
   if (status != BAUM_OK) {

@@ -8,7 +8,8 @@
 #include "integrate/limit.h"
 #include "simulate/crossing.h"
 
-/* Of the last solution. Where blocks have refused, the pivot is that of another solver, and larger. */
+/* Of the last solution. Where blocks have refused, the pivot is that of another solver, and
+ * larger. */
 static bool is_in_pose(const baum_simulation *run, double pivot)
 {
   const baum_workspace *w = run->workspace;
@@ -22,8 +23,8 @@ static double find_pivot(const baum_simulation *run)
   return baum_i_smallest_pivot(run->workspace, NULL) / run->crossings->usual;
 }
 
-/* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of the velocity, and a
- * step of order k errors of about (h w)^(k+1) / 100. */
+/* With rounding e and the relative pivot p, projection leaves errors of e / p in the direction of
+ * the velocity, and a step of order k errors of about (h w)^(k+1) / 100. */
 static bool is_beyond_rounding(const baum_simulation *run, double h)
 {
   double rate = baum_i_scaled_size(run->workspace->mechanism, run->spare.v);

@@ -60,7 +60,7 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   name_worst_joint(run, run->trial.t, drawn, joint);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
-                     "drawing fits least in %s; draw the start pose closer",
+                     "drawing fits least in %s; draw the start configuration closer",
                      run->trial.t, baum_i_label(&body->element, "body", label), fabs(moved),
                      unit_of(body, coordinate), limit * scale, unit_of(body, coordinate), joint);
 }
@@ -127,9 +127,9 @@ static baum_status check_exact(baum_simulation *run)
 
 /* ---- velocities that rows hold hardly ---- */
 
-/* Rows may agree with velocities to their last digits and still not tell them: two pins a nanometre apart are met within
- * a nanometre per second by any rate between their bodies. Accelerations are then open by as much as projection would
- * change the velocities. */
+/* Rows may agree with velocities to their last digits and still not tell them: two pins a nanometre
+ * apart are met within a nanometre per second by any rate between their bodies. Accelerations are
+ * then open by as much as projection would change the velocities. */
 static const double OPEN = 1e-6;        /* of their size; more of it is told, */
 static const double CONTRADICTS = 1e-3; /* and of this is refused */
 static const double ROUNDING = 1e-13;   /* of the rows at these velocities, likewise */
@@ -168,8 +168,8 @@ static baum_status tell_open(baum_simulation *run, int row, double rate, double 
   return BAUM_OK;
 }
 
-/* Share of their size by which projection would change the velocities; all, where it does not get along. A pose that has lost
- * rows altogether asks for none. */
+/* Share of their size by which projection would change the velocities; all, where it does not get
+ * along. A configuration that has lost rows altogether asks for none. */
 static baum_status find_change(baum_workspace *w, const baum_i_state *state, double size,
                                double *change)
 {
@@ -366,7 +366,7 @@ baum_status baum_simulation_set_state(baum_simulation *simulation, double t, con
                                       const double *v)
 {
   BAUM_I_TRY(check_state(simulation, t, q, v));
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   double start_change = simulation->counters.start_change;
   double energy = 0.0;

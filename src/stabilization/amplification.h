@@ -35,7 +35,7 @@ typedef struct baum_i_method {
   double best[2]; /* (A, B) of baum_i_stability_best() where the search for it is long; else 0 */
 } baum_i_method;
 
-/* Sentences on what gains do with a method, also one that chooses its steps. Static. */
+/* Messages on what gains do with a method, also one that chooses its steps. Static. */
 const char *baum_i_method_statement(const baum_i_method *method, baum_i_method_family family,
                                     bool chooses_step);
 
@@ -67,15 +67,15 @@ double baum_i_stability_best_on_ray(const baum_i_method *method, double damping_
 
 /* ---- In the plane --------------------------------------------------------- */
 
-/* The point of least spectral radius with alpha h > 0: the dead-beat point where there is one. Where
- * there are several it is the one of least gains. */
+/* The point of least spectral radius with alpha h > 0: the dead-beat point where there is one.
+ * Where there are several it is the one of least gains. */
 void baum_i_stability_best(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
 /* The dead-beat point: all z are 0. False, and nothing is stored, where there is none. */
 bool baum_i_stability_deadbeat(const baum_i_method *method, double *alpha_h, double *beta2_h2);
 
-/* Nearest point with spectral radius <= 0.9, the point itself when it is good; the best one when none
- * is. Its distance is within 1 % of the least. */
+/* Nearest point with spectral radius <= 0.9, the point itself when it is good; the best one when
+ * none is. Its distance is within 1 % of the least. */
 void baum_i_stability_nearest(const baum_i_method *method, double alpha_h, double beta2_h2,
                               double *good_alpha_h, double *good_beta2_h2);
 
@@ -87,8 +87,8 @@ typedef struct baum_i_outline {
   int count;        /* of all points, also those beyond capacity */
 } baum_i_outline;
 
-/* Where spectral radius - 1 = growth; growth > -1. No points when that is nowhere, or the region has
- * no end. */
+/* Where spectral radius - 1 = growth; growth > -1. No points when that is nowhere, or the region
+ * has no end. */
 void baum_i_stability_outline(const baum_i_method *method, double growth, baum_i_outline *out);
 
 #endif

@@ -11,10 +11,10 @@
  * steps do; therefore RK3's pair and not its real zero (1.596, 2.547). Of several pairs the one of
  * least |mu|: least gains. It needs Re mu < 0, or alpha would be negative.
  *
- * Adams-Bashforth methods remember, so they have no such point. Their least radius over the plane is
- * at complex mu: of two real ones the worse decides, and it does as well twice. There it is looked
- * for in the chart, on a lattice that closes in on the best point so far, that of critical damping to
- * begin with. The largest of several |z| has valleys with a sharp
+ * Adams-Bashforth methods remember, so they have no such point. Their least radius over the plane
+ * is at complex mu: of two real ones the worse decides, and it does as well twice. There it is
+ * looked for in the chart, on a lattice that closes in on the best point so far, that of critical
+ * damping to begin with. The largest of several |z| has valleys with a sharp
  * bottom, along which a search by descent would stall; a lattice does not mind.
  */
 #include <math.h>
@@ -61,8 +61,9 @@ static bool is_better_zero(const double mu[2], const double best[2])
   return pair != best_is_pair ? pair : size < best_size * (1.0 - 1e-6);
 }
 
-/* The best zero of R with Re mu < 0; false when there is none. Every zero is reached from one of the
- * starts: they go round 0 at distances of up to the degree, and no zero of a method is farther. */
+/* The best zero of R with Re mu < 0; false when there is none. Every zero is reached from one of
+ * the starts: they go round 0 at distances of up to the degree, and no zero of a method is
+ * farther. */
 static bool find_zero(const baum_i_method *method, double best[2])
 {
   bool found = false;

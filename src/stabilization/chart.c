@@ -2,7 +2,8 @@
 /* How far a region reaches. A bound that holds for sure is too wide to draw in:
  *
  *   one step         |R(mu)| >= |c_n| m^n - sum_(k<n) |c_k| m^k, which grows once it is positive
- *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k (for k = 1
+ *   Adams-Bashforth  the product of the k roots is mu b_(k-1), so m |b_(k-1)| <= radius^k (for k =
+ *   1
  *                    the root is 1 + mu b_0)
  *
  * so the region is looked for from there inwards.

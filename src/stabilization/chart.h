@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A chart of the plane (A, B) = (alpha h, beta^2 h^2), A >= 0, B >= 0, in which regions have no sharp
- * tips: the larger |mu| = m, and how the two mu lie to each other, s in [-1, 1].
+/* A chart of the plane (A, B) = (alpha h, beta^2 h^2), A >= 0, B >= 0, in which regions have no
+ * sharp tips: the larger |mu| = m, and how the two mu lie to each other, s in [-1, 1].
  *
  *   s < 0   mu = -m, -m u,  u = 1 + s         A = m (1 + u) / 2,  B = m^2 u        overdamped
  *   s >= 0  mu = -m e^(+-i phi), phi = s pi/2 A = m cos(phi),     B = m^2
@@ -31,7 +31,8 @@ void baum_i_chart_edge(const baum_i_method *method, double growth, int bisection
                        const double outside[2], double inside[2]);
 
 /* A little more than the largest m where spectral radius - 1 <= growth; 0 when there is none,
- * infinite when there is no largest. Islands smaller than a fiftieth of the region may be missed. */
+ * infinite when there is no largest. Islands smaller than a fiftieth of the region may be
+ * missed. */
 double baum_i_chart_extent(const baum_i_method *method, double growth);
 
 #endif

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sentences about gains.
+/* Messages about gains.
  *
- * Near the edge: of (6) the slower mode decays by exp(-p), p = Re of A - sqrt(A^2 - B) per step. A method
- * that is consistent does the same but for O(p^2), so small gains never come near this warning; one whose
- * radius is above 0.95 and that damps less than a quarter of p is where its region ends.
+ * Near the edge: of (6) the slower mode decays by exp(-p), p = Re of A - sqrt(A^2 - B) per step. A
+ * method that is consistent does the same but for O(p^2), so small gains never come near this
+ * warning; one whose radius is above 0.95 and that damps less than a quarter of p is where its
+ * region ends.
  */
 #include "stabilization/gain_text.h"
 
@@ -144,8 +145,8 @@ static bool print_fixed_step(const baum_i_gain_context *context, const baum_i_ga
   return !stable || undamped || near_edge;
 }
 
-/* True when the clause warns. The error test keeps explicit and Adams methods where violations decay; BDF may take order and
- * step where they do not (statement.c). */
+/* True when the clause warns. The error test keeps explicit and Adams methods where violations
+ * decay; BDF may take order and step where they do not (statement.c). */
 static bool print_variable_step(baum_i_method_family family, const baum_i_gain_draft *gains,
                                 double max_step, char text[CLAUSE_SIZE])
 {

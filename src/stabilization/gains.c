@@ -12,10 +12,11 @@
  * A, B are carried beside alpha, beta, so that a rule of the step is judged exactly where it was
  * meant.
  *
- * auto: where freedom is left the violation pulls at the motion, and does so most at the rate of the motion itself. Below,
- * c takes off as much of the drift as a run of some tens of radians leaves time for. Measured, of 12 decades of
- * constant gains: docs/theory/gain_rules.md. Where drivers take all freedom, the violation is the whole error, and c is as
- * far as the method pays nothing.
+ * auto: where freedom is left the violation pulls at the motion, and does so most at the rate of
+ * the motion itself. Below, c takes off as much of the drift as a run of some tens of radians
+ * leaves time for. Measured, of 12 decades of constant gains: docs/theory/gain_rules.md. Where
+ * drivers take all freedom, the violation is the whole error, and c is as far as the method pays
+ * nothing.
  *
  * Variable steps: the step of an explicit method is capped where (alpha h, beta^2 h^2) leaves its
  * region. BDF of order 5 is A(51.84 degrees) stable: it damps any alpha h when alpha / beta, the
@@ -30,8 +31,9 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* auto, of the rate. With a fixed step of a Runge-Kutta method, of order 2 and above, and of other methods; with steps of
- * their own, for CVODE and IDA and for explicit methods; without freedom for all these. */
+/* auto, of the rate. With a fixed step of a Runge-Kutta method, of order 2 and above, and of other
+ * methods; with steps of their own, for CVODE and IDA and for explicit methods; without degrees of
+ * freedom for all these. */
 static const double AUTO_FIXED = 0.35;
 static const double AUTO_FIXED_ORDER_2 = 0.05;
 static const double AUTO_OTHERS = 0.2;
@@ -212,7 +214,7 @@ static baum_status check_step(const baum_i_gain_context *context)
   return BAUM_OK;
 }
 
-/* NULL with a sentence when there is no such rule. */
+/* NULL with a message when there is no such rule. */
 static const rule_type *find_rule(int32_t number)
 {
   if (number > BAUM_GAINS_DEFAULT && number < RULE_COUNT) {

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The nearest good point. The edge of the good region (spectral radius <= 0.9) is crossed by the lines
- * of a lattice in the chart, where the region has no tips that a lattice would miss. Around the
- * crossing that is nearest in the plane the lattice closes in. The region may have any shape and any
- * number of parts.
+/* The nearest good point. The edge of the good region (spectral radius <= 0.9) is crossed by the
+ * lines of a lattice in the chart, where the region has no tips that a lattice would miss. Around
+ * the crossing that is nearest in the plane the lattice closes in. The region may have any shape
+ * and any number of parts.
  */
 #include <math.h>
 #include <stdbool.h>

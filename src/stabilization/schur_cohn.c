@@ -4,10 +4,10 @@
  *   p(z) = c_0 + ... + c_n z^n,   p*(z) = z^n conj(p(1 / conj z)),  of coefficients conj(c_(n-k))
  *   Tp   = (conj(c_n) p - c_0 p*) / z,   of degree n - 1
  *
- * On the circle |p| = |p*|. So if |c_0| < |c_n|, the term with p is the larger one there, and Tp has
- * one root less inside than p (Rouche): all n roots of p are inside exactly when |c_0| < |c_n| and
- * all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, hence |c_0| >= |c_n| shows one
- * that is not inside. A circle of radius r is brought to 1 by c_k r^k.
+ * On the circle |p| = |p*|. So if |c_0| < |c_n|, the term with p is the larger one there, and Tp
+ * has one root less inside than p (Rouche): all n roots of p are inside exactly when |c_0| < |c_n|
+ * and all n - 1 roots of Tp are. |c_0 / c_n| is the product of the roots, hence |c_0| >= |c_n|
+ * shows one that is not inside. A circle of radius r is brought to 1 by c_k r^k.
  *
  * A bisection of r then gives the largest |z|.
  */

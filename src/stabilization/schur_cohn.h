@@ -16,7 +16,8 @@ typedef struct baum_i_polynomial {
 double baum_i_schur_cohn_margin(const baum_i_polynomial *p, double radius);
 
 /* The largest |z|, within 1e-9 of itself where no other root is as large, within some
- * 1e-16^(1/(m+1)) for a root of multiplicity m: the test divides by how far the last one was passed. Infinite when it is beyond double. c[degree] = 1. */
+ * 1e-16^(1/(m+1)) for a root of multiplicity m: the test divides by how far the last one was
+ * passed. Infinite when it is beyond double. c[degree] = 1. */
 double baum_i_schur_cohn_radius(const baum_i_polynomial *p);
 
 #endif

@@ -2,9 +2,9 @@
 /* Along a ray alpha = zeta beta of the plane (A, B) = (|alpha h|, (beta h)^2): A = zeta b, B = b^2.
  *
  * The roots mu grow in proportion to b, so changes between stable and unstable are looked for on a
- * geometric scale and then bisected. The smallest limits are those of weakly damped rays with methods
- * that are unstable on the imaginary axis: b = 2 zeta for explicit Euler. Nothing explicit is stable
- * beyond |mu| of about twice the degree.
+ * geometric scale and then bisected. The smallest limits are those of weakly damped rays with
+ * methods that are unstable on the imaginary axis: b = 2 zeta for explicit Euler. Nothing explicit
+ * is stable beyond |mu| of about twice the degree.
  */
 #include "stabilization/amplification.h"
 

@@ -61,14 +61,14 @@ static baum_status check_cost(const baum_study *study, baum_study_cost cost, con
   return BAUM_OK;
 }
 
-/* Entries from cheap to dear, as many as there is room for. */
+/* Entries from cheap to expensive, as many as there is room for. */
 typedef struct list {
   int32_t *entries;
   int capacity;
   int count; /* may be more than the capacity */
 } list;
 
-/* What is dearer moves up, and out beyond the capacity. */
+/* What is more expensive moves up, and out beyond the capacity. */
 static void insert(const baum_study *study, list *l, int k, baum_study_cost cost)
 {
   double c = cost_of(study->entries[k], cost);

@@ -6,8 +6,9 @@
  * of them with projection, each at a tight tolerance and at half of it: four runs, of which the
  * first formulation's tighter one is the reference and the largest difference of the others from it
  * the uncertainty. Where they cannot be run, or differ by more than CLOSE, looser tolerances and
- * implicit methods are tried too, and those that agree best are taken. Past singular poses, where
- * violations are blown up, the last of them goes: RK4 with STEPS and twice as many steps.
+ * implicit methods are tried too, and those that agree best are taken. Past singular
+ * configurations, where violations are blown up, the last of them goes: RK4 with STEPS and twice as
+ * many steps.
  */
 #include <math.h>
 #include <stdio.h>
@@ -55,7 +56,7 @@ static const attempt WITHOUT_FREEDOM[] = {
 typedef struct found {
   double *values; /* of the reference, or NULL */
   baum_i_differences most;
-  bool singular;                   /* a run was near a singular pose */
+  bool singular;                   /* a run was near a singular configuration */
   bool failed;                     /* a run did not reach the end */
   baum_simulation_options options; /* of the reference */
   char text[BAUM_I_TEXT_SIZE];
@@ -198,7 +199,7 @@ static void settle(baum_study *study, const found *best)
   baum_i_append(r->text, sizeof r->text, " agree to %.1f digits", out->digits);
   if (best->singular) {
     baum_i_append(r->text, sizeof r->text,
-                  "; not to be trusted: the motion passes near a singular pose");
+                  "; not to be trusted: the motion passes near a singular configuration");
   } else if (!out->trusted) {
     baum_i_append(r->text, sizeof r->text, "; not to be trusted");
   }

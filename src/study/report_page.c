@@ -82,7 +82,7 @@ void baum_i_report_page(const baum_i_snapshot *snapshot, baum_i_buffer *out)
     out->failed = true;
     return;
   }
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_i_putf(out, "%.*s{\"regions\": [", (int)(place - page), page);
   put_regions(snapshot, points, out);

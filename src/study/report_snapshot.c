@@ -92,7 +92,7 @@ static void read_advice(const baum_study *study, baum_study_cost cost, baum_i_ad
 static baum_status read_answers(baum_i_snapshot *out)
 {
   baum_status status = BAUM_OK;
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   for (int c = 0; c < BAUM_I_COSTS && status == BAUM_OK; c++) {
     status = read_front(out, (baum_study_cost)c);

@@ -23,7 +23,7 @@ typedef struct workers {
   int next;
   int done; /* entries measured, and entries timed or not to be */
   baum_status status;
-  baum_i_sentence sentence; /* of the status */
+  baum_i_kept_message message; /* of the status */
 } workers;
 
 /* ---- what a run says of its entry ---- */
@@ -110,7 +110,7 @@ static void give_up(workers *c, baum_status status)
 {
   if (c->status == BAUM_OK) {
     c->status = status;
-    baum_i_message_keep(&c->sentence);
+    baum_i_message_keep(&c->message);
   }
 }
 
@@ -479,7 +479,7 @@ static baum_status conclude(workers *c)
 {
   const baum_study *study = c->study;
   if (c->status != BAUM_OK) {
-    return baum_i_fail(c->status, "%s", c->sentence.text);
+    return baum_i_fail(c->status, "%s", c->message.text);
   }
   int left = waiting(study);
   if (left > 0) {

@@ -3,9 +3,10 @@
  *
  * How fast errors grow is a matter of the motion, and of the method: from one turn to the next they
  * may grow hundredfold. So entries that may be recommended are run again over twice the span, from
- * the start as designed and from two others whose velocities differ by NUDGE of their size, or, where
- * all is at rest, of the rate of the motion. There is a reference for each, by the setting of the
- * study's own. Entries that cost more than NEAR times another one that is as exact are left out.
+ * the start as designed and from two others whose velocities differ by NUDGE of their size, or,
+ * where all is at rest, of the rate of the motion. There is a reference for each, by the setting of
+ * the study's own. Entries that cost more than NEAR times another one that is as exact are left
+ * out.
  */
 #include <math.h>
 #include <string.h>

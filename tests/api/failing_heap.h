@@ -38,7 +38,8 @@ static inline long count_allocations(scenario *run, void *context)
   return allocations;
 }
 
-/* Every stride-th of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no block is lost. */
+/* Every stride-th of its allocations fails alone; nothing but BAUM_ERR_MEMORY comes of it, and no
+ * block is lost. */
 static inline void fail_allocations(scenario *run, void *context, long stride)
 {
   long allocations = count_allocations(run, context);

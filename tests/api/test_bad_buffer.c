@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is restored is looked at first: buffers that are cut off, damaged or of something else are refused with a
- * sentence that says so, and the run is as it was. */
+/* What is restored is looked at first: buffers that are cut off, damaged or of something else are
+ * refused with a message that says so, and the run is as it was. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -62,20 +62,20 @@ static baum_mechanism *pendulum(void)
   return mechanism;
 }
 
-/* It is refused with a sentence that has these words. */
+/* It is refused with a message that has these words. */
 static void check_refused(baum_simulation *run, const void *bytes, size_t size, const char *words)
 {
   baum_status status = baum_simulation_restore(run, bytes, size);
-  const char *sentence = baum_message();
-  if (status != BAUM_ERR_BUFFER || !strstr(sentence, words) ||
-      !strstr(sentence, "baum_simulation_restore: the buffer")) {
-    fail_msg("want \"%s\", got %s: %s", words, baum_status_name(status), sentence);
+  const char *message = baum_message();
+  if (status != BAUM_ERR_BUFFER || !strstr(message, words) ||
+      !strstr(message, "baum_simulation_restore: the buffer")) {
+    fail_msg("want \"%s\", got %s: %s", words, baum_status_name(status), message);
   }
-  assert_string_equal(baum_simulation_message(run), sentence);
+  assert_string_equal(baum_simulation_message(run), message);
 }
 
-/* The run saves the same bytes as before: all that is saved is unchanged. One-step methods with a fixed step lose
- * nothing by that. */
+/* The run saves the same bytes as before: all that is saved is unchanged. One-step methods with a
+ * fixed step lose nothing by that. */
 static void check_unchanged(baum_simulation *run, const saved *before)
 {
   saved now = save(run);
@@ -396,7 +396,8 @@ static void what_is_behind_a_saved_run_does_not_matter(void **state)
   close_scene(&s);
 }
 
-/* Jumps of inputs in a sealed buffer are looked at, too: one of an input that is not there would write anywhere. */
+/* Jumps of inputs in a sealed buffer are looked at, too: one of an input that is not there would
+ * write anywhere. */
 static void schedules_out_of_order_are_refused(void **state)
 {
   (void)state;
@@ -408,7 +409,8 @@ static void schedules_out_of_order_are_refused(void **state)
   baum_simulation *run = start(parts.mechanism, &o, 0.01);
   assert_int_equal(baum_simulation_schedule_input(run, parts.throttle, times, values, 2), BAUM_OK);
   saved s = save(run);
-  /* The second jump is where its value before stands for the second time: it was the first's after. */
+  /* The second jump is where its value before stands for the second time: it was the first's
+   * after. */
   size_t at = 0;
   for (size_t k = HEAD; k + 8 <= s.size; k += 8) {
     at = memcmp(s.bytes + k, &values[0], sizeof *values) == 0 ? k - BEFORE * sizeof *values : at;

@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 

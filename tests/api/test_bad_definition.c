@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, ids and mechanisms that are refused, with the sentence, and nothing changed. */
+/* Definitions, ids and mechanisms that are refused, with the message, and nothing changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 #include "user_models.h"
 
 static const any_id SENTINEL = {77, 88};
@@ -33,16 +33,16 @@ static void check_size(const baum_mechanism *mechanism, int nv, int nc)
 
 /* Refused by add, with the id as it was, and by set, with the definition as it was. */
 static void check_refused(every_element *parts, const element_kind *kind, const any_def *def,
-                          baum_status want, const char *sentence)
+                          baum_status want, const char *message)
 {
   any_id id = SENTINEL;
-  ASSERT_SAYS(kind->add(parts->mechanism, def, &id), want, sentence);
+  ASSERT_SAYS(kind->add(parts->mechanism, def, &id), want, message);
   assert_memory_equal(&id, &SENTINEL, sizeof id);
   any_id present = every_element_id(parts, kind);
   any_def before;
   any_def after;
   assert_int_equal(kind->get(parts->mechanism, present, &before, kind->size), BAUM_OK);
-  ASSERT_SAYS(kind->set(parts->mechanism, present, def), want, sentence);
+  ASSERT_SAYS(kind->set(parts->mechanism, present, def), want, message);
   assert_int_equal(kind->get(parts->mechanism, present, &after, kind->size), BAUM_OK);
   assert_memory_equal(&before, &after, kind->size);
 }
@@ -76,11 +76,11 @@ static void check_struct_sizes(every_element *parts, const element_kind *kind)
   any_def def;
   kind->good(parts, &def);
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-    char sentence[PARTS_SIZE];
-    (void)snprintf(sentence, sizeof sentence, "%s: struct_size is %zu|must be %zu|default",
+    char message[PARTS_SIZE];
+    (void)snprintf(message, sizeof message, "%s: struct_size is %zu|must be %zu|default",
                    kind->title, sizes[k], kind->size);
     def.head.struct_size = sizes[k];
-    check_refused(parts, kind, &def, BAUM_ERR_STRUCT, sentence);
+    check_refused(parts, kind, &def, BAUM_ERR_STRUCT, message);
   }
 }
 
@@ -146,7 +146,7 @@ static void null_is_refused_by_add_get_and_set(void **state)
 
 /* ---- numbers ---- */
 
-/* A name as in sentences: body 1 "crank". */
+/* A name as in messages: body 1 "crank". */
 static void check_number(every_element *parts, const element_kind *kind, const element_field *field,
                          size_t i, double bad)
 {
@@ -155,10 +155,10 @@ static void check_number(every_element *parts, const element_kind *kind, const e
   double values[2] = {0.0, 0.0};
   values[i] = bad;
   memcpy(def.bytes + field->offset, values, field->size);
-  char sentence[PARTS_SIZE];
-  (void)snprintf(sentence, sizeof sentence, "%s|\"%s\"|%s|%g|must be", kind->family, def.head.name,
+  char message[PARTS_SIZE];
+  (void)snprintf(message, sizeof message, "%s|\"%s\"|%s|%g|must be", kind->family, def.head.name,
                  field->name, bad);
-  check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, sentence);
+  check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, message);
 }
 
 static bool begins(const char *text, const char *with)
@@ -207,7 +207,7 @@ static void masses_inertias_and_lengths_out_of_range_are_refused(void **state)
     int kind;
     const char *field;
     double value;
-    const char *sentence;
+    const char *message;
   } bad[] = {
     {0, "mass", -2.0, "\"crank\": mass is -2 kg, must be finite and > 0"},
     {0, "mass", 0.0, "\"crank\": mass is 0 kg, must be finite and > 0"},
@@ -232,7 +232,7 @@ static void masses_inertias_and_lengths_out_of_range_are_refused(void **state)
         memcpy(def.bytes + fields.list[f].offset, &bad[k].value, sizeof(double));
       }
     }
-    check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, bad[k].sentence);
+    check_refused(&parts, kind, &def, BAUM_ERR_ARGUMENT, bad[k].message);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -248,7 +248,7 @@ static void check_ids(every_element *parts, const element_kind *kind)
       continue;
     }
     any_def def;
-    char sentence[PARTS_SIZE];
+    char message[PARTS_SIZE];
     kind->good(parts, &def);
     any_id good;
     memcpy(&good, def.bytes + field->offset, sizeof good);
@@ -257,10 +257,10 @@ static void check_ids(every_element *parts, const element_kind *kind)
     size_t first = strcmp(field->name, "input") == 0 ? 1 : 0; /* which may be none */
     for (size_t i = first; i < sizeof bad / sizeof *bad; i++) {
       memcpy(def.bytes + field->offset, &bad[i], sizeof bad[i]);
-      (void)snprintf(sentence, sizeof sentence, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
+      (void)snprintf(message, sizeof message, "%s|\"%s\"|%s is %s", kind->family, def.head.name,
                      field->name,
                      bad[i].index1 == 0 ? "none, must be given" : "not of this mechanism");
-      check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, sentence);
+      check_refused(parts, kind, &def, BAUM_ERR_ARGUMENT, message);
     }
   }
 }
@@ -303,12 +303,12 @@ static void check_other_kind(every_element *parts, const element_kind *kind)
       continue;
     }
     any_def def;
-    char sentence[PARTS_SIZE];
-    (void)snprintf(sentence, sizeof sentence, "is a %s, not a %s", other->title, kind->title);
+    char message[PARTS_SIZE];
+    (void)snprintf(message, sizeof message, "is a %s, not a %s", other->title, kind->title);
     any_id id = every_element_id(parts, other);
-    ASSERT_SAYS(kind->get(parts->mechanism, id, &def, kind->size), BAUM_ERR_ARGUMENT, sentence);
+    ASSERT_SAYS(kind->get(parts->mechanism, id, &def, kind->size), BAUM_ERR_ARGUMENT, message);
     kind->good(parts, &def);
-    ASSERT_SAYS(kind->set(parts->mechanism, id, &def), BAUM_ERR_ARGUMENT, sentence);
+    ASSERT_SAYS(kind->set(parts->mechanism, id, &def), BAUM_ERR_ARGUMENT, message);
   }
 }
 
@@ -398,13 +398,13 @@ static void nothing_is_added_or_set_after_freeze(void **state)
   (void)state;
   every_element parts = every_element_make(NULL);
   for (int k = 0; k < ELEMENT_KINDS; k++) {
-    char sentence[PARTS_SIZE];
+    char message[PARTS_SIZE];
     any_def def;
     const element_kind *kind = &element_kinds[k];
     kind->good(&parts, &def);
-    (void)snprintf(sentence, sizeof sentence, "%s: the mechanism is frozen; change a copy of it",
+    (void)snprintf(message, sizeof message, "%s: the mechanism is frozen; change a copy of it",
                    kind->title);
-    check_refused(&parts, kind, &def, BAUM_ERR_STATE, sentence);
+    check_refused(&parts, kind, &def, BAUM_ERR_STATE, message);
   }
   ASSERT_SAYS(baum_mechanism_set_gravity(parts.mechanism, 0.0, 0.0, 0.0), BAUM_ERR_STATE,
               "baum_mechanism_set_gravity: the mechanism is frozen");
@@ -516,10 +516,10 @@ static baum_mechanism *make_huge(int count, baum_body_id *ids)
 
 static void check_too_large(baum_mechanism *mechanism, const char *element)
 {
-  char sentence[120];
-  (void)snprintf(sentence, sizeof sentence,
+  char message[120];
+  (void)snprintf(message, sizeof message,
                  "%s|the mechanism has more than 2147483647 matrix entries here", element);
-  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT, sentence);
+  ASSERT_SAYS(baum_mechanism_freeze(mechanism), BAUM_ERR_ARGUMENT, message);
   assert_false(baum_mechanism_is_frozen(mechanism));
   baum_mechanism_destroy(mechanism);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs and laws of drivers that are refused, with the sentence, and nothing changed. */
+/* Inputs and laws of drivers that are refused, with the message, and nothing changed. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 
 static const baum_input_id NONE = {0, 0};
 static const baum_input_id SENTINEL = {77, 88};
@@ -53,13 +53,13 @@ static void a_mechanism_refuses_bad_inputs(void **state)
   ASSERT_SAYS(baum_mechanism_set_input(parts.mechanism, others.throttle, 2.0), BAUM_ERR_ARGUMENT,
               "baum_mechanism_set_input: input is not of this mechanism");
   for (int k = 0; k < BAD_VALUES; k++) {
-    char sentence[80];
-    (void)snprintf(sentence, sizeof sentence, "\" is %g, must be finite", bad_values[k]);
+    char message[80];
+    (void)snprintf(message, sizeof message, "\" is %g, must be finite", bad_values[k]);
     ASSERT_SAYS(baum_mechanism_add_input(parts.mechanism, "u", bad_values[k], &id),
-                BAUM_ERR_ARGUMENT, sentence);
+                BAUM_ERR_ARGUMENT, message);
     assert_non_null(strstr(baum_message(), "input 2 \"u\""));
     ASSERT_SAYS(baum_mechanism_set_input(parts.mechanism, parts.throttle, bad_values[k]),
-                BAUM_ERR_ARGUMENT, sentence);
+                BAUM_ERR_ARGUMENT, message);
     assert_non_null(strstr(baum_message(), "input 1 \"throttle\""));
   }
   ASSERT_SAYS(baum_mechanism_add_input(parts.mechanism, "", 0.0, &id), BAUM_ERR_ARGUMENT,
@@ -235,11 +235,11 @@ static void a_run_refuses_bad_laws_of_drivers(void **state)
   for (int k = 0; k < 3 * BAD_VALUES; k++) {
     double law[3] = {0.0, 0.0, 0.0};
     law[k % 3] = bad_values[k / 3];
-    char sentence[80];
-    (void)snprintf(sentence, sizeof sentence, "\"motor\": %s is %g rad|must be finite",
-                   names[k % 3], bad_values[k / 3]);
+    char message[80];
+    (void)snprintf(message, sizeof message, "\"motor\": %s is %g rad|must be finite", names[k % 3],
+                   bad_values[k / 3]);
     ASSERT_SAYS(baum_simulation_set_driver(run, parts.motor, law[0], law[1], law[2]),
-                BAUM_ERR_ARGUMENT, sentence);
+                BAUM_ERR_ARGUMENT, message);
   }
   assert_string_equal(baum_simulation_message(run), "");
   assert_true(crank_angle(run, parts.pin) == crank_angle(untouched, parts.pin));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options, starts, targets and channels that are refused, with the sentence, and nothing
+/* Options, starts, targets and channels that are refused, with the message, and nothing
  * changed. */
 #include <math.h>
 #include <setjmp.h>
@@ -14,7 +14,7 @@
 
 #include "assert_near.h"
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
 
@@ -27,10 +27,10 @@ static baum_simulation_options good_options(void)
 }
 
 static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          baum_status want, const char *sentence)
+                          baum_status want, const char *message)
 {
   baum_simulation *run = GARBAGE;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, sentence);
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, message);
   assert_null(run);
 }
 
@@ -58,11 +58,11 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   baum_simulation_options o = good_options();
   const size_t sizes[] = {0, 1, sizeof(size_t), sizeof o - 1, sizeof o + 8, SIZE_MAX};
   for (size_t k = 0; k < sizeof sizes / sizeof *sizes; k++) {
-    char sentence[96];
-    (void)snprintf(sentence, sizeof sentence, "struct_size of the options is %zu|must be %zu",
+    char message[96];
+    (void)snprintf(message, sizeof message, "struct_size of the options is %zu|must be %zu",
                    sizes[k], sizeof o);
     o.struct_size = sizes[k];
-    check_refused(parts.mechanism, &o, BAUM_ERR_STRUCT, sentence);
+    check_refused(parts.mechanism, &o, BAUM_ERR_STRUCT, message);
   }
   o = good_options();
   check_refused(NULL, &o, BAUM_ERR_ARGUMENT, "baum_simulation_create: the mechanism is NULL");
@@ -80,7 +80,7 @@ typedef struct bad_option {
   bool variable;
   size_t offset;
   double value;
-  const char *sentence;
+  const char *message;
 } bad_option;
 
 #define OPTION(name) offsetof(baum_simulation_options, name)
@@ -131,7 +131,7 @@ static void numbers_out_of_range_and_of_the_other_kind_are_refused(void **state)
       o.rtol = 1e-6;
     }
     memcpy((char *)&o + bad->offset, &bad->value, sizeof bad->value);
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, bad->sentence);
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, bad->message);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -187,17 +187,17 @@ static void check_pair(const baum_mechanism *mechanism, const baum_integrator *i
     baum_simulation_destroy(run);
     return;
   }
-  char sentence[256];
-  (void)snprintf(sentence, sizeof sentence, "%s does not offer the formulation %s; it offers",
+  char message[256];
+  (void)snprintf(message, sizeof message, "%s does not offer the formulation %s; it offers",
                  baum_integrator_name(integrator), baum_formulation_name(formulation));
   for (int f = BAUM_FORMULATION_UNSTABILIZED; f <= BAUM_FORMULATION_INDEX3; f++) {
     if (baum_integrator_offers(integrator, (baum_formulation)f)) {
-      size_t used = strlen(sentence);
-      (void)snprintf(sentence + used, sizeof sentence - used, "|%s",
+      size_t used = strlen(message);
+      (void)snprintf(message + used, sizeof message - used, "|%s",
                      baum_formulation_name((baum_formulation)f));
     }
   }
-  check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED, sentence);
+  check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
 }
 
 static void impossible_pairs_are_refused_with_what_is_offered(void **state)
@@ -227,11 +227,11 @@ static void integrators_that_are_not_built_in_refuse_by_name(void **state)
   o.rtol = 1e-6;
   const baum_integrator *absent[] = {baum_cvode_adams(), baum_cvode_bdf(), baum_ida()};
   for (int k = 0; k < 3; k++) {
-    char sentence[128];
-    (void)snprintf(sentence, sizeof sentence, "%s needs SUNDIALS, which this build does not have",
+    char message[128];
+    (void)snprintf(message, sizeof message, "%s needs SUNDIALS, which this build does not have",
                    baum_integrator_name(absent[k]));
     o.integrator = absent[k];
-    check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED, sentence);
+    check_refused(parts.mechanism, &o, BAUM_ERR_UNSUPPORTED, message);
   }
   baum_mechanism_destroy(parts.mechanism);
 }
@@ -284,13 +284,13 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
   every_element parts = every_element_make(NULL);
   const baum_integrator *const pairs[] = {baum_dp5(), baum_rk8()};
   for (int k = 0; k < 2; k++) {
-    char sentence[128];
+    char message[128];
     baum_simulation_options o = good_options();
     o.integrator = pairs[k];
-    (void)snprintf(sentence, sizeof sentence, "%s takes step|or rtol|and neither is given",
+    (void)snprintf(message, sizeof message, "%s takes step|or rtol|and neither is given",
                    baum_integrator_name(pairs[k]));
     o.step = (double)NAN;
-    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, sentence);
+    check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, message);
     o.step = 1e-3;
     o.rtol = 1e-6;
     check_refused(parts.mechanism, &o, BAUM_ERR_ARGUMENT, "takes step|or rtol|not both");
@@ -313,7 +313,7 @@ static void pairs_take_either_a_step_or_a_tolerance(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* The pair "(0.1234, 0.5678), that is alpha" in the sentence. */
+/* The pair "(0.1234, 0.5678), that is alpha" in the message. */
 static void read_nearest(double good[2])
 {
   const char *text = strstr(baum_message(), "nearest good pair: (");
@@ -327,14 +327,14 @@ static void check_unstable(const baum_mechanism *mechanism, const baum_integrato
                            double alpha_h, double beta2_h2)
 {
   baum_simulation_options o = good_options();
-  char sentence[160];
+  char message[160];
   double good[2];
   o.integrator = integrator;
   o.formulation = BAUM_FORMULATION_BAUMGARTE;
   o.gains = baum_gains_scaled(alpha_h, beta2_h2);
-  (void)snprintf(sentence, sizeof sentence, "%s and h = 0.001 s|= (%.6g, %.6g)|spectral radius",
+  (void)snprintf(message, sizeof message, "%s and h = 0.001 s|= (%.6g, %.6g)|spectral radius",
                  baum_integrator_name(integrator), alpha_h, beta2_h2);
-  check_refused(mechanism, &o, BAUM_ERR_UNSTABLE, sentence);
+  check_refused(mechanism, &o, BAUM_ERR_UNSTABLE, message);
   read_nearest(good);
   o.gains = baum_gains_scaled(good[0], good[1]);
   baum_simulation *run = NULL;
@@ -492,7 +492,7 @@ static void a_state_that_is_none_changes_nothing(void **state)
 /* ---- channels ---- */
 
 static void check_channel(baum_simulation *run, const every_element *parts, baum_channel bad,
-                          const char *sentence)
+                          const char *message)
 {
   const baum_channel channels[2] = {baum_channel_of(BAUM_Q), bad};
   double row[4 * EVERY_NV];
@@ -500,10 +500,10 @@ static void check_channel(baum_simulation *run, const every_element *parts, baum
   int64_t done = 9;
   row[0] = 7.0;
   assert_int_equal(baum_channels_width(parts->mechanism, channels, 2), -1);
-  ASSERT_SAYS(BAUM_ERR_ARGUMENT, BAUM_ERR_ARGUMENT, sentence);
-  ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_ARGUMENT, sentence);
+  ASSERT_SAYS(BAUM_ERR_ARGUMENT, BAUM_ERR_ARGUMENT, message);
+  ASSERT_SAYS(baum_simulation_get(run, channels, 2, row), BAUM_ERR_ARGUMENT, message);
   ASSERT_SAYS(baum_simulation_sample(run, &t, 1, channels, 2, row, &done), BAUM_ERR_ARGUMENT,
-              sentence);
+              message);
   assert_int_equal(done, 0);
   assert_true(row[0] == 7.0);
 }
@@ -517,7 +517,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
   snapshot before = take(run);
   const struct {
     baum_channel channel;
-    const char *sentence;
+    const char *message;
   } bad[] = {
     {baum_channel_of((baum_quantity)0), "channel 1: quantity is no baum_quantity"},
     {baum_channel_of((baum_quantity)15), "channel 1: quantity is no baum_quantity"},
@@ -535,7 +535,7 @@ static void channels_that_do_not_fit_are_refused(void **state)
     {baum_channel_of_body(BAUM_BODY_ACCELERATION, BAUM_GROUND), "channel 1: ground has no pose"},
   };
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
-    check_channel(run, &parts, bad[k].channel, bad[k].sentence);
+    check_channel(run, &parts, bad[k].channel, bad[k].message);
   }
   double row[12];
   const baum_channel account = baum_channel_of(BAUM_ENERGY_ACCOUNT);

@@ -13,7 +13,7 @@
 
 #include "assert_near.h"
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 #include "step_mode.h"
 
 static void *const GARBAGE = (void *)(uintptr_t)16;
@@ -27,10 +27,10 @@ static baum_simulation_options euler_options(void)
 }
 
 static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          baum_status want, const char *sentence)
+                          baum_status want, const char *message)
 {
   baum_simulation *run = GARBAGE;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, sentence);
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, message);
   assert_null(run);
 }
 
@@ -79,12 +79,12 @@ static baum_mechanism *make_bead(const bead_def *def)
   return mechanism;
 }
 
-static void check_bead_refused(const bead_def *def, baum_start start, const char *sentence)
+static void check_bead_refused(const bead_def *def, baum_start start, const char *message)
 {
   baum_mechanism *mechanism = make_bead(def);
   baum_simulation_options o = euler_options();
   o.start = start;
-  check_refused(mechanism, &o, BAUM_ERR_INCONSISTENT, sentence);
+  check_refused(mechanism, &o, BAUM_ERR_INCONSISTENT, message);
   baum_mechanism_destroy(mechanism);
 }
 
@@ -213,7 +213,7 @@ static baum_simulation_options start_options(step_mode mode)
 static const struct {
   int answer;
   baum_status status;
-  const char *sentence;
+  const char *message;
 } faults[] = {
   {-3, BAUM_ERR_CALLBACK, "returned -3 (stop)"},
   {4, BAUM_ERR_CALLBACK, "returned 4 (retry)"},
@@ -252,8 +252,8 @@ static void check_fault_on_the_way(step_mode mode, int f)
   o.max_step = mode.fixed ? (double)NAN : 0.02;
   baum_simulation *run = NULL;
   assert_int_equal(baum_simulation_create(parts.mechanism, &o, &run), BAUM_OK);
-  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].sentence);
-  assert_non_null(strstr(baum_simulation_message(run), faults[f].sentence));
+  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].message);
+  assert_non_null(strstr(baum_simulation_message(run), faults[f].message));
   assert_non_null(strstr(baum_simulation_message(run), "t = 0.0"));
   double t = baum_simulation_time(run);
   /* The step before the fault; Euler's last step ends after it, for it looks at the beginning of
@@ -261,11 +261,11 @@ static void check_fault_on_the_way(step_mode mode, int f)
   bool fixed = mode.fixed;
   if (t > (fixed ? 0.0525 : 0.0505) || t < (fixed ? 0.0495 : 0.02)) {
     fail_msg("%s, %s: the run stands at %.9g s", baum_integrator_name(mode.integrator),
-             faults[f].sentence, t);
+             faults[f].message, t);
   }
   assert_true(all_finite(baum_simulation_q(run), EVERY_NV));
   assert_true(all_finite(baum_simulation_v(run), EVERY_NV));
-  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].sentence);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 0.2), faults[f].status, faults[f].message);
   fault.fails = false;
   check_readable(run);
   baum_status status = baum_simulation_advance_to(run, 0.2);
@@ -309,7 +309,7 @@ static void check_fault_at_create(const baum_integrator *integrator, int f, baum
     run = GARBAGE;
     baum_status status = baum_simulation_create(parts.mechanism, &o, &run);
     if (!is_documented_failure(status, f) || run != NULL ||
-        strstr(baum_message(), faults[f].sentence) == NULL) {
+        strstr(baum_message(), faults[f].message) == NULL) {
       fail_msg("call %lld fails: %s: %s", (long long)n, baum_status_name(status), baum_message());
     }
   }

@@ -12,13 +12,13 @@
 #include <baum/baum.h>
 
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 
 static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          const char *sentence)
+                          const char *message)
 {
   baum_simulation *run = NULL;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), BAUM_ERR_ARGUMENT, sentence);
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), BAUM_ERR_ARGUMENT, message);
   assert_null(run);
 }
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every kind of function of the user, one after the other: it fails, gives NaN, or uses the library itself. What fails is
- * named, the run stands at its last good step and goes on from there as if nothing had been. What a function may not use
- * is refused, and the motion is the same to the last bit.
+/* Every kind of function of the user, one after the other: it fails, gives NaN, or uses the library
+ * itself. What fails is named, the run stands at its last good step and goes on from there as if
+ * nothing had been. What a function may not use is refused, and the motion is the same to the last
+ * bit.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -15,7 +16,7 @@
 
 #include "asked.h"
 #include "check.h"
-#include "sentence.h"
+#include "message.h"
 #include "step_mode.h"
 
 enum { GOOD = 5, STEPS = 10, BYTES = 1 << 16 };
@@ -73,7 +74,7 @@ static void run_well(asked *b, step_mode mode, state after[2])
   baum_simulation_destroy(run);
 }
 
-/* A method of its own past begins anew after a failure; one that has none goes on to the same bits. */
+/* A method of its own past restarts after a failure; one that has none goes on to the same bits. */
 static void fail_one(asked *b, step_mode mode, const state after[2])
 {
   char says[80];

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates: whichever of its allocations fails, it says BAUM_ERR_MEMORY or does without, what it
- * was called on is as before, and the same call with memory then does what it always does. Nothing is left behind.
- * tests/layout/check_allocation.sh finds each public function here or in test_calls_without_memory.c.
+/* Every public function that allocates: whichever of its allocations fails, it says BAUM_ERR_MEMORY
+ * or does without, what it was called on is as before, and the same call with memory then does what
+ * it always does. Nothing is left behind. tests/layout/check_allocation.sh finds each public
+ * function here or in test_calls_without_memory.c.
  */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>

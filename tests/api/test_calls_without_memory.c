@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that allocates nothing, called with good arguments while there is no memory at all.
- * tests/layout/check_allocation.sh finds each public function here or in test_calls_losing_memory.c.
+/* Every public function that allocates nothing, called with good arguments while there is no memory
+ * at all. tests/layout/check_allocation.sh finds each public function here or in
+ * test_calls_losing_memory.c.
  */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
@@ -294,7 +295,7 @@ static void end_scene(scene *s)
   baum_mechanism_destroy(s->pendulum);
 }
 
-/* There is no event, singular pose or warning to read. */
+/* There is no event, singular configuration or warning to read. */
 static bool is_done(baum_status status, const char *name)
 {
   return status >= BAUM_OK ||

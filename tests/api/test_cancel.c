@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run, a sampling or a study that is cancelled after any of its steps stands there and goes on to the same end, to the
- * last bit.
+/* A run, a sampling or a study that is cancelled after any of its steps stands there and goes on to
+ * the same end, to the last bit.
  */
 #include <math.h>
 #include <setjmp.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The catalogue as it is called: what entries and parameters say, what is refused and with which sentence, what errors mean;
- * and the elements of a mechanism in order and by name. */
+/* The catalogue as it is called: what entries and parameters say, what is refused and with which
+ * message, what errors mean; and the elements of a mechanism in order and by name. */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@
 
 #include "assert_near.h"
 #include "heap.h"
-#include "sentence.h"
+#include "message.h"
 
 enum { NQ = 9 }; /* of a slider-crank */
 
@@ -183,7 +183,7 @@ static void parameters_out_of_range_are_refused(void **state)
   static const struct {
     const char *name;
     baum_catalog_setting setting;
-    const char *sentence;
+    const char *message;
   } cases[] = {
     {"slider_crank", {"length", 1.0}, "no parameter \"length\"; there are: crank, rod, "},
     {"slider_crank", {NULL, 1.0}, "no parameter \"NULL\""},
@@ -197,7 +197,7 @@ static void parameters_out_of_range_are_refused(void **state)
   for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
     const baum_catalog_choice choice = {cases[k].name, &cases[k].setting, 1};
     baum_mechanism *out = NULL;
-    ASSERT_SAYS(baum_catalog_build(&choice, &out), BAUM_ERR_ARGUMENT, cases[k].sentence);
+    ASSERT_SAYS(baum_catalog_build(&choice, &out), BAUM_ERR_ARGUMENT, cases[k].message);
     assert_null(out);
   }
   const baum_catalog_choice lost = {"chain", NULL, 1};
@@ -351,13 +351,13 @@ static void references_and_errors_allocate_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* ---- sentences and elements ---- */
+/* ---- messages and elements ---- */
 
 static void libraries_on_top_set_the_sentence(void **state)
 {
   (void)state;
-  assert_int_equal(baum_fail(BAUM_ERR_STEP, "the 100 % sentence"), BAUM_ERR_STEP);
-  assert_string_equal(baum_message(), "the 100 % sentence");
+  assert_int_equal(baum_fail(BAUM_ERR_STEP, "the 100 % message"), BAUM_ERR_STEP);
+  assert_string_equal(baum_message(), "the 100 % message");
   assert_int_equal(baum_fail(BAUM_ERR_STEP, NULL), BAUM_ERR_STEP);
   assert_string_equal(baum_message(), baum_status_text(BAUM_ERR_STEP));
 }

@@ -12,8 +12,8 @@
 
 #include "assert_near.h"
 #include "every_element.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "user_models.h"
 
 static baum_simulation *run_of(const baum_mechanism *mechanism, const baum_integrator *integrator,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows that are chosen anew on the way, and put back by restoring: every allocation may fail. */
+/* Redundant rows that are chosen anew on the way, and put back by restoring: every allocation may
+ * fail. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>

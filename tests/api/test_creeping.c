@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run whose steps lead nowhere ends with a sentence; one whose steps are short for a reason goes on. */
+/* A run whose steps lead nowhere ends with a message; one whose steps are short for a reason goes
+ * on. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -61,7 +62,8 @@ static int64_t steps_of(baum_simulation *run)
   return c.steps;
 }
 
-/* Explicit steps are about 5 over the rate of decay: 1e-11 of the time of the motion, which is about 1 s. */
+/* Explicit steps are about 5 over the rate of decay: 1e-11 of the time of the motion, which is
+ * about 1 s. */
 static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
 {
   (void)state;
@@ -70,9 +72,9 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
   for (int k = 0; k < 2; k++) {
     baum_simulation *run = open_run(m, explicit[k], 1e-6);
     assert_int_equal(baum_simulation_advance_to(run, 1.0), BAUM_ERR_STEP);
-    const char *sentence = baum_simulation_message(run);
-    assert_non_null(strstr(sentence, "creeps: 10000 steps"));
-    assert_non_null(strstr(sentence, "\"pin\" bears the largest load"));
+    const char *message = baum_simulation_message(run);
+    assert_non_null(strstr(message, "creeps: 10000 steps"));
+    assert_non_null(strstr(message, "\"pin\" bears the largest load"));
     assert_true(steps_of(run) == STEPS);
     assert_true(baum_simulation_time(run) > 0.0); /* where its last step ended */
     baum_simulation_destroy(run);
@@ -80,7 +82,8 @@ static void an_explicit_method_that_a_stiff_force_holds_up_says_so(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Steps of 1e-6 of that time are what a stiff force costs; they are taken as long as max_steps allows. */
+/* Steps of 1e-6 of that time are what a stiff force costs; they are taken as long as max_steps
+ * allows. */
 static void short_steps_that_lead_on_are_taken(void **state)
 {
   (void)state;
@@ -92,7 +95,7 @@ static void short_steps_that_lead_on_are_taken(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Next to a flat pose BDF may get stuck; whatever comes of such a run, it comes soon. */
+/* Next to a flat configuration BDF may get stuck; whatever comes of such a run, it comes soon. */
 static void a_run_next_to_a_singular_pose_ends(void **state)
 {
   (void)state;

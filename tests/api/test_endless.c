@@ -15,7 +15,7 @@
 
 #include "check.h"
 #include "driven.h"
-#include "sentence.h"
+#include "message.h"
 #include "step_mode.h"
 
 enum { MOST_STEPS = 200, PATIENCE = 30 /* [s] for a case of some ms */, MOST_NV = 9 };

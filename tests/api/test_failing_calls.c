@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Whichever call of a user's function fails, in whatever the library was asked for: that fails with the sentence of
- * the function, nothing has changed, and the same is done right as soon as the function works again.
+/* Whichever call of a user's function fails, in whatever the library was asked for: that fails with
+ * the message of the function, nothing has changed, and the same is done right as soon as the
+ * function works again.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -311,7 +312,7 @@ static request request_of(baum_workspace *w)
 static const struct {
   int answer;
   baum_status status;
-  const char *sentence;
+  const char *message;
 } FAULTS[] = {
   {-3, BAUM_ERR_CALLBACK, "returned -3 (stop)"},
   {4, BAUM_ERR_CALLBACK, "returned 4 (retry"},
@@ -345,7 +346,7 @@ static void check_ask(baum_workspace *w, fault *f, int which)
     f->calls = 0;
     baum_status status = ASKS[which](&r);
     f->from = 0;
-    if (status != FAULTS[k].status || !strstr(baum_message(), FAULTS[k].sentence)) {
+    if (status != FAULTS[k].status || !strstr(baum_message(), FAULTS[k].message)) {
       fail_msg("request %d, call %lld of %lld, answer %d: %s: %s", which,
                (long long)((n + FAULT_COUNT - 1) / FAULT_COUNT), (long long)calls, FAULTS[k].answer,
                baum_status_name(status), baum_message());
@@ -403,7 +404,7 @@ static bool is_done(baum_status status)
 
 static bool is_of_fault(baum_status status, int k)
 {
-  return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].sentence);
+  return status == FAULTS[k].status && strstr(baum_message(), FAULTS[k].message);
 }
 
 /* Whether the run was made; it is at the end then, though a call may have failed on the way. */

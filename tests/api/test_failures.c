@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every way in which a run can end before its time: a sentence with time, step, joint or body, and advice; the last good
- * step stays readable; and another run goes on from there.
+/* Every way in which a run can end before its time: a message with time, step, joint or body, and
+ * advice; the last good step stays readable; and another run goes on from there.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -126,7 +126,7 @@ typedef struct expectation {
   fault fault;         /* FAULT_COUNT: the locking crank */
   int statuses;        /* one of these */
   const char *element; /* named */
-  const char *words;   /* in the sentence */
+  const char *words;   /* in the message */
 } expectation;
 
 static const expectation EXPECTED[] = {
@@ -141,16 +141,16 @@ static const expectation EXPECTED[] = {
 };
 enum { EXPECTATIONS = sizeof EXPECTED / sizeof *EXPECTED };
 
-/* The sentence of a failure: time, where it was, whose fault, and what to do. */
+/* The message of a failure: time, where it was, whose fault, and what to do. */
 static void check_sentence(const baum_simulation *run, const expectation *e, const char *name)
 {
-  const char *sentence = baum_simulation_message(run);
-  bool fine = strstr(sentence, "t = ") && strstr(sentence, e->element) &&
-              strstr(sentence, e->words) && strlen(sentence) < 1000;
-  bool advises = strstr(sentence, "take ") || strstr(sentence, "look at") ||
-                 strstr(sentence, "another step") || e->statuses == CALLBACK;
+  const char *message = baum_simulation_message(run);
+  bool fine = strstr(message, "t = ") && strstr(message, e->element) && strstr(message, e->words) &&
+              strlen(message) < 1000;
+  bool advises = strstr(message, "take ") || strstr(message, "look at") ||
+                 strstr(message, "another step") || e->statuses == CALLBACK;
   if (!fine || !advises) {
-    fail_msg("%s, fault %d: %s", name, e->fault, sentence);
+    fail_msg("%s, fault %d: %s", name, e->fault, message);
   }
 }
 
@@ -167,7 +167,8 @@ static bool is_still_a_pendulum(const baum_simulation *run)
   return fabs(hypot(q[0], q[1]) - 1.0) < 0.1 && hypot(v[0], v[1]) < 10.0;
 }
 
-/* Another method takes over where the run stands, and so does the run itself, now that the reason has gone. */
+/* Another method takes over where the run stands, and so does the run itself, now that the reason
+ * has gone. */
 static void check_goes_on(baum_simulation *run, const baum_mechanism *mechanism)
 {
   baum_simulation_options o = baum_simulation_options_default();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* RATTLE, which does not take the mechanism of test_allocation.c: steps and outputs allocate nothing, and every allocation
- * may fail. */
+/* RATTLE, which does not take the mechanism of test_allocation.c: steps and outputs allocate
+ * nothing, and every allocation may fail. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -42,8 +42,8 @@ static model make_crank(bool redundant)
   return m;
 }
 
-/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then, and blocks the rows to leave out; with KLU
- * these are looked at again and again. */
+/* The crank turns once in 0.04 s, so that KLU has chosen its pivots by then, and blocks the rows to
+ * leave out; with KLU these are looked at again and again. */
 static void steps_and_outputs_allocate_nothing(void **state)
 {
   static const baum_solver SOLVERS[] = {BAUM_SOLVER_AUTO, BAUM_SOLVER_KLU};

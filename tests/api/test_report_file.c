@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Files of reports: whole or not there, with the mode of the file they replace, and no harm to others in the folder. */
+/* Files of reports: whole or not there, with the mode of the file they replace, and no harm to
+ * others in the folder. */
 #define _GNU_SOURCE /* mkdtemp, chown */
 #include <dirent.h>
 #include <errno.h>
@@ -18,8 +19,8 @@
 
 #include <cmocka.h>
 
+#include "message.h"
 #include "report_scene.h"
-#include "sentence.h"
 
 enum { PATH = 300, TRIES = 100, OTHER_USER = 65534 };
 

@@ -12,7 +12,7 @@
 
 #include "assert_near.h"
 #include "every_element.h"
-#include "sentence.h"
+#include "message.h"
 #include "step_mode.h"
 
 static const double STEP = 0.01;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Saved runs go on in another process as in their own, bit for bit.
  *
- * This process takes a run through random times, saves it at each, and goes on. Then this program is started once more
- * with the buffers; it builds the same mechanism anew, restores, goes on likewise, and tells where it came to.
+ * This process takes a run through random times, saves it at each, and goes on. Then this program
+ * is started once more with the buffers; it builds the same mechanism anew, restores, goes on
+ * likewise, and tells where it came to.
  */
 #define _GNU_SOURCE /* fork */
 #include <math.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Saving and restoring allocate nothing, nor do the steps after them where nothing but blocks is factored; taking over from
- * another run may run out of memory without harm. */
+/* Saving and restoring allocate nothing, nor do the steps after them where nothing but blocks is
+ * factored; taking over from another run may run out of memory without harm. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -20,7 +20,8 @@ static bool chooses_pivots(const saved_scene *scene)
 {
   const baum_simulation_options *o = &scene->options;
   bool by_blocks = o->solver == BAUM_SOLVER_AUTO || o->solver == BAUM_SOLVER_BLOCK;
-  /* user coordinates have a varying mass, but go by blocks too; others factor matrices of their own */
+  /* user coordinates have a varying mass, but go by blocks too; others factor matrices of their
+   * own */
   bool explicit = isnan(o->rtol) && baum_integrator_has_fixed_step(o->integrator) &&
                   o->integrator != baum_generalized_alpha() && o->integrator != baum_rattle();
   return !(by_blocks && explicit);

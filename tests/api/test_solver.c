@@ -10,8 +10,8 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "user_models.h"
 
 #define PI 3.14159265358979323846
@@ -140,7 +140,8 @@ static baum_mechanism *make_massless(void)
   return m;
 }
 
-/* Particles, each tied to four others of which two are far away, so that no part hangs by few rods. */
+/* Particles, each tied to four others of which two are far away, so that no part hangs by few
+ * rods. */
 static baum_mechanism *make_net(void)
 {
   baum_body_id bodies[NET];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every allocation may fail of what test_allocation.c does not come by: bodies that are left out because they cannot
- * move, dense mass matrices with rows, break times, and the solver that is made when a pose is singular.
+/* Every allocation may fail of what test_allocation.c does not come by: bodies that are left out
+ * because they cannot move, dense mass matrices with rows, break times, and the solver that is made
+ * when a configuration is singular.
  */
 #define _GNU_SOURCE /* of heap.h */
 #include <setjmp.h>
@@ -150,7 +151,7 @@ static void fixed_bodies_survive_every_failing_allocation(void **state)
   fail_every_allocation(build_and_run, NULL);
 }
 
-/* ---- at a singular pose ---- */
+/* ---- at a singular configuration ---- */
 
 static baum_status solve_singular(void *context)
 {

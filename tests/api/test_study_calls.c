@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of a study that are refused, with the sentence and nothing changed; defaults; entries that cannot be run; memory that
- * runs out. */
+/* Calls of a study that are refused, with the message and nothing changed; defaults; entries that
+ * cannot be run; memory that runs out. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>
 #include <setjmp.h>
@@ -12,8 +12,8 @@
 #include <cmocka.h>
 
 #include "heap.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "study_entries.h"
 
 static baum_study *make(const model *m)
@@ -428,7 +428,8 @@ static void the_standard_grid_has_all_integrators_and_formulations(void **state)
   baum_study_destroy(study);
 }
 
-/* One method for each kind of step that an integrator takes, as it is when nothing else is given. */
+/* One method for each kind of step that an integrator takes, as it is when nothing else is
+ * given. */
 static void the_quick_grid_has_all_integrators_as_they_are_by_default(void **state)
 {
   baum_study *study = make(*state);
@@ -479,7 +480,8 @@ static baum_status study_little(const model *m)
   return status;
 }
 
-/* Every seventh, for there are some thousand; no entry is taken for refused because there was no memory for it. */
+/* Every seventh, for there are some thousand; no entry is taken for refused because there was no
+ * memory for it. */
 static void without_memory_a_study_fails_and_leaves_none_behind(void **state)
 {
   const model *m = *state;

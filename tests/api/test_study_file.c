@@ -17,8 +17,8 @@
 
 #include <cmocka.h>
 
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "study_entries.h"
 
 enum { PATH = 32, FILE_SIZE = 1 << 20, KILLED_AT = 23 };
@@ -353,7 +353,8 @@ static baum_status run_on_small_disk(baum_study *study, rlim_t size)
   return status;
 }
 
-/* In the head, in the reference, among the errors; what had no room is there as soon as there is some. */
+/* In the head, in the reference, among the errors; what had no room is there as soon as there is
+ * some. */
 static void a_full_disk_is_a_status_and_loses_nothing(void **state)
 {
   (void)state;

@@ -11,8 +11,8 @@
 
 #include <cmocka.h>
 
+#include "message.h"
 #include "report_scene.h"
-#include "sentence.h"
 
 static const baum_report_form FORMS[] = {BAUM_REPORT_TEXT, BAUM_REPORT_CSV, BAUM_REPORT_JSON,
                                          BAUM_REPORT_PAGE};

@@ -11,8 +11,8 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "study_entries.h"
 
 static int build(void **state)

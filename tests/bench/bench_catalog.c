@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The whole catalogue through a bounded grid: are errors of studies, with references of their own, those that the stored
- * references tell?
+/* The whole catalogue through a bounded grid: are errors of studies, with references of their own,
+ * those that the stored references tell?
  *
  * usage: bench_catalog [ENTRY]
  *
- * Every integrator with each of its formulations, gains by its rule, auto and two constants, at three settings; no run
- * takes more than 0.05 s. tests/support/catalog_grid.c says what must be so.
+ * Every integrator with each of its formulations, gains by its rule, auto and two constants, at
+ * three settings; no run takes more than 0.05 s. tests/support/catalog_grid.c says what must be so.
  */
 #include <stdio.h>
 #include <string.h>

@@ -9,13 +9,15 @@
  *   -c      print a line of CSV per run instead of the tables
  *   -e      with the option error_check
  *
- * Mechanisms, their equations and the reference are those of tests/judge, which share nothing with baum. A mechanism counts
- * when two runs of the reference agree to 1e-6. The error of a run is the largest of positions at ten samples, lengths by
- * the characteristic length: right below 0.01, grey below 0.1, else wrong. Growth is the largest amplification of a
- * perturbation from any of 20 times to any later one, velocities by the mean rate of the motion.
+ * Mechanisms, their equations and the reference are those of tests/judge, which share nothing with
+ * baum. A mechanism counts when two runs of the reference agree to 1e-6. The error of a run is the
+ * largest of positions at ten samples, lengths by the characteristic length: right below 0.01, grey
+ * below 0.1, else wrong. Growth is the largest amplification of a perturbation from any of 20 times
+ * to any later one, velocities by the mean rate of the motion.
  *
- * Fails when more than 3 % of the right runs of a setting are doubted, or when fixed steps are silently wrong: once at
- * growth up to 30, in more than 1 % of the wrong runs up to 1000, and with error_check once up to 1e4.
+ * Fails when more than 3 % of the right runs of a setting are doubted, or when fixed steps are
+ * silently wrong: once at growth up to 30, in more than 1 % of the wrong runs up to 1000, and with
+ * error_check once up to 1e4.
  */
 #include <math.h>
 #include <pthread.h>

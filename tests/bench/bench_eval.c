@@ -3,8 +3,9 @@
  *
  * usage: bench_eval [--json] [--case NAME] [--largest N]
  *
- * All solvers run in this process on the same scene and after the same geometry; rounds of one and the
- * other take turns. See parts/timing.h for what is taken as the time. --json prints one object a line.
+ * All solvers run in this process on the same scene and after the same geometry; rounds of one and
+ * the other take turns. See parts/timing.h for what is taken as the time. --json prints one object
+ * a line.
  */
 #include <math.h>
 #include <stdint.h>

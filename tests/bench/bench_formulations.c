@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a formulation is worth: error, violation, steps and evaluations of methods at the same tolerances, or steps.
+/* What a formulation is worth: error, violation, steps and evaluations of methods at the same
+ * tolerances, or steps.
  *
  * usage: bench_formulations [INTEGRATOR/FORMULATION ...]
  *
- * such as ida/ggl or rk4/projection; without arguments the forms of IDA, from the index 3 down. Methods of fixed step
- * are given steps of 1/100, 1/1000 and 1/10000 of the whole time. References: tests/data.
- * Error: the largest over all samples, lengths relative to the scale of the mechanism, angles in radians. Phi and
- * Phi': the largest over all steps, in m or rad and by the second. Evaluations: of residuals or accelerations.
- * Setups: matrices factored.
+ * such as ida/ggl or rk4/projection; without arguments the forms of IDA, from the index 3 down.
+ * Methods of fixed step are given steps of 1/100, 1/1000 and 1/10000 of the whole time. References:
+ * tests/data. Error: the largest over all samples, lengths relative to the scale of the mechanism,
+ * angles in radians. Phi and Phi': the largest over all steps, in m or rad and by the second.
+ * Evaluations: of residuals or accelerations. Setups: matrices factored.
  */
 #include <math.h>
 #include <stdio.h>

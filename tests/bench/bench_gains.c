@@ -3,15 +3,16 @@
  *
  * usage: bench_gains [--quick] [--table] [--problem K] [--integrator NAME] [--lot N]
  *
- * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over perturbed
- * starts. Cost: evaluations of (7), each of which factors its matrix, and factorizations of the integrator's
- * own matrix; for `auto` those of its pilot run too. Error: largest over all coordinates and samples,
- * relative to the scales. `auto` is beaten in a cell where a constant
+ * A cell is a problem, an integrator and an rtol. Cost and error of a cell are geometric means over
+ * perturbed starts. Cost: evaluations of (7), each of which factors its matrix, and factorizations
+ * of the integrator's own matrix; for `auto` those of its pilot run too. Error: largest over all
+ * coordinates and samples, relative to the scales. `auto` is beaten in a cell where a constant
  *   costs no more and has less than a third of the error, or
  *   has no more error and costs less than 1 / 1.25.
- * The sweep is of 12 decades, four a decade. Gains that cost more than twice of `auto` are not run to the end, for
- * they cannot beat it; one that fails from any start does not beat it either. --table prints every pair, and
- * follows them further. --quick takes every fourth alpha and two starts.
+ * The sweep is of 12 decades, four a decade. Gains that cost more than twice of `auto` are not run
+ * to the end, for they cannot beat it; one that fails from any start does not beat it either.
+ * --table prints every pair, and follows them further. --quick takes every fourth alpha and two
+ * starts.
  */
 #include <math.h>
 #include <stdio.h>

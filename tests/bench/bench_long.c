@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What grows in long runs, and how fast, with every integrator of fixed step: pendulum A01 and the slider-crank that is not
- * driven. Neither dissipates, so that their energy should stay.
+/* What grows in long runs, and how fast, with every integrator of fixed step: pendulum A01 and the
+ * slider-crank that is not driven. Neither dissipates, so that their energy should stay.
  *
  *   bench_long [STEPS [INTEGRATOR]]      10000000 and all by default
  *
- * A line for every decade of steps: least and largest change of energy since the start, of the largest kinetic energy,
- * over the looks of that decade; p in "the change grows like the p-th power of time", from this decade and the one before;
- * the largest violations since the start; heap in use; seconds. A run that blows up ends with its sentence.
+ * A line for every decade of steps: least and largest change of energy since the start, of the
+ * largest kinetic energy, over the looks of that decade; p in "the change grows like the p-th power
+ * of time", from this decade and the one before; the largest violations since the start; heap in
+ * use; seconds. A run that blows up ends with its message.
  */
 #include <malloc.h>
 #include <math.h>

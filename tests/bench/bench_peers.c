@@ -3,14 +3,15 @@
  *
  * usage: bench_peers [PROBLEM]      an entry of the catalogue, as printed; all without
  *
- * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the cheapest entry by CPU time,
- * from the making of a run to its end. Errors are of all positions at 50 samples; bench_work_precision has others, of N-four-bar one
- * angle at ten times, and finer ladders, so that its cheapest runs cost less. Runs through flat positions find and tell each
- * of them, which is a fifth of the cost of N = 1 at 1e-4; the others do not.
+ * A study of rk8, dp5 and rk4 with every formulation, steps and tolerances; for each error the
+ * cheapest entry by CPU time, from the making of a run to its end. Errors are of all positions at
+ * 50 samples; bench_work_precision has others, of N-four-bar one angle at ten times, and finer
+ * ladders, so that its cheapest runs cost less. Runs through flat positions find and tell each of
+ * them, which is a fifth of the cost of N = 1 at 1e-4; the others do not.
  *
- * The others' times are own measurements on a similar machine, whole runs, the cheapest of Exudyn 1.13.6, MuJoCo 4.0.0,
- * Pinocchio 4.1.0 with RK4, DOP853 and CVODE around compiled right-hand sides, and a hand-written RK4; no command repeats
- * them. Trust ratios of 2 and more only.
+ * The others' times are own measurements on a similar machine, whole runs, the cheapest of Exudyn
+ * 1.13.6, MuJoCo 4.0.0, Pinocchio 4.1.0 with RK4, DOP853 and CVODE around compiled right-hand
+ * sides, and a hand-written RK4; no command repeats them. Trust ratios of 2 and more only.
  */
 #include <math.h>
 #include <stdio.h>

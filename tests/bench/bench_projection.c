@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Is projection as exact as Baumgarte's gains? For every integrator that offers both, at the same step or tolerance:
- * the error with PROJECTION, with BAUMGARTE and the gains of `auto`, and with the best of a sweep of constant gains,
- * alpha = beta, four a decade over twelve decades, among those runs that take at most a quarter more evaluations.
+/* Is projection as exact as Baumgarte's gains? For every integrator that offers both, at the same
+ * step or tolerance: the error with PROJECTION, with BAUMGARTE and the gains of `auto`, and with
+ * the best of a sweep of constant gains, alpha = beta, four a decade over twelve decades, among
+ * those runs that take at most a quarter more evaluations.
  *
  * usage: bench_projection
  *
- * The best of a sweep is found by knowing the answer, and of 49 errors that scatter it is the luckiest: the mean of its
- * neighbours, in brackets, tells how much of it is luck.
+ * The best of a sweep is found by knowing the answer, and of 49 errors that scatter it is the
+ * luckiest: the mean of its neighbours, in brackets, tells how much of it is luck.
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,7 +24,7 @@ typedef struct outcome {
 } outcome;
 
 typedef struct swept {
-  double error[GAINS]; /* infinite where the run failed or was dearer */
+  double error[GAINS]; /* infinite where the run failed or was more expensive */
   int best;
 } swept;
 

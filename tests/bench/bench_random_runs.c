@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs of random mechanisms, by every integrator and formulation, against a tight reference.
  *
- *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     50 mechanisms from seed 0, at 0 s over 2 s by default
+ *   bench_random_runs [COUNT [FIRST SEED [BEGIN [SPAN]]]]     50 mechanisms from seed 0, at 0 s
+ *   over 2 s by default
  *
- * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12; rk8 with gains and KLU must
- * agree with it, else the mechanism is left out and counted. An error is the largest of positions at the end, lengths
- * by the scale. With a variable step it may be PROMISE rtol times the growth of what is between neighbours, with a fixed
- * one WRONG, or the step times that growth. More than that without a warning is poor, and above WRONG silently wrong, but
- * where a quarter of the step halves it. Errors that arise on the way may grow by more than those of the start: look there
- * first. Prints what is wrong without a word, what fails where the reference does not, and warnings in vain.
+ * A negative span is backward in time. The reference is rk8 with projection at rtol 1e-12; rk8 with
+ * gains and KLU must agree with it, else the mechanism is left out and counted. An error is the
+ * largest of positions at the end, lengths by the scale. With a variable step it may be PROMISE
+ * rtol times the growth of what is between neighbours, with a fixed one WRONG, or the step times
+ * that growth. More than that without a warning is poor, and above WRONG silently wrong, but where
+ * a quarter of the step halves it. Errors that arise on the way may grow by more than those of the
+ * start: look there first. Prints what is wrong silently, what fails where the reference does not,
+ * and warnings in vain.
  */
 #include <math.h>
 #include <setjmp.h>

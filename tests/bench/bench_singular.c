@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What becomes of runs through singular poses, and what they say of it.
+/* What becomes of runs through singular configurations, and what they say of it.
  *
  *   bench_singular [STARTS [MECHANISM [SEED]]]
  *
- * STARTS: 20 by default. MECHANISM: all by default, or one of MECHANISMS. SEED of the starts: 1 by default.
+ * STARTS: 20 by default. MECHANISM: all by default, or one of MECHANISMS. SEED of the starts: 1 by
+ * default.
  *
- * A line for each mechanism and setting: runs that failed; right ones, those of them with a branch warning, and their
- * largest error; wrong ones (an angle off by more than 0.1 rad), and those of them without a branch warning and without
- * any. The last two columns: near-singular intervals and forced steps of all runs.
+ * A line for each mechanism and setting: runs that failed; right ones, those of them with a branch
+ * warning, and their largest error; wrong ones (an angle off by more than 0.1 rad), and those of
+ * them without a branch warning and without any. The last two columns: near-singular intervals and
+ * forced steps of all runs.
  */
 #include <math.h>
 #include <stdio.h>

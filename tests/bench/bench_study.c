@@ -3,9 +3,10 @@
  *
  * usage: bench_study [PROBLEM]
  *
- * A study of the standard grid recommends a setting for each error. These and all entries of the grid are then run from
- * perturbed starts over twice the span, in a study of their own. A recommendation is met where its error there is at most
- * the one asked for; its price is its cost over that of the cheapest entry of the grid that was met there.
+ * A study of the standard grid recommends a setting for each error. These and all entries of the
+ * grid are then run from perturbed starts over twice the span, in a study of their own. A
+ * recommendation is met where its error there is at most the one asked for; its price is its cost
+ * over that of the cheapest entry of the grid that was met there.
  */
 #include <math.h>
 #include <stdio.h>
@@ -139,7 +140,7 @@ static void ask(const baum_study *study, advice *out)
 typedef struct tally {
   int asked;
   int met;
-  int dear; /* price above 1.5 */
+  int expensive; /* price above 1.5 */
   double worst;
   double sum;
   int priced;
@@ -181,7 +182,7 @@ static void judge(const baum_study *study, const advice *given, int grid, tally 
     t->asked++;
     t->met += met;
     if (isfinite(least)) {
-      t->dear += price > 1.5;
+      t->expensive += price > 1.5;
       t->worst = fmax(t->worst, price);
       t->sum += log(price);
       t->priced++;
@@ -228,7 +229,7 @@ static void print_tallies(const tally tallies[TARGETS])
     const tally *t = &tallies[k];
     printf("  %.0e: met %d of %d, price %.2f on average, %.2f at most, above 1.5 %d times\n",
            TARGET[k], t->met, t->asked, exp(t->sum / (t->priced > 0 ? t->priced : 1)), t->worst,
-           t->dear);
+           t->expensive);
   }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sweeps over steps and tolerances in scenes that are hard on a method: how many runs are wrong, and which of them
- * silently.
+/* Sweeps over steps and tolerances in scenes that are hard on a method: how many runs are wrong,
+ * and which of them silently.
  *
  *   bench_sweeps [four-bar | euler | taut | rtol | singular | all] [--full] [--csv FILE]
  *
@@ -10,10 +10,11 @@
  *   rtol      the same rod, 320 mass ratios, every method of variable step at rtol 1e-9
  *   singular  through singular configurations, 60 tolerances, every method of variable step
  *
- * References are integrated in reduced coordinates and owe nothing to the library. Errors are the largest of positions at
- * ten samples, lengths by the characteristic length: right below 0.01, grey below 0.1, wrong above. A false alarm is
- * a right run with a warning that doubts the motion; a silent one is wrong without. The last table adds up all parts. --full: every linkage with and without
- * gravity, and more steps. --csv: a line for each run. Fails where a run is silently wrong.
+ * References are integrated in reduced coordinates and owe nothing to the library. Errors are the
+ * largest of positions at ten samples, lengths by the characteristic length: right below 0.01, grey
+ * below 0.1, wrong above. A false alarm is a right run with a warning that doubts the motion; a
+ * silent one is wrong without. The last table adds up all parts. --full: every linkage with and
+ * without gravity, and more steps. --csv: a line for each run. Fails where a run is silently wrong.
  */
 #include <math.h>
 #include <stdio.h>
@@ -47,7 +48,8 @@ static void sweep_steps(const sweep_scene *s, double first, double last, int n)
   }
 }
 
-/* From a step that is too long down to one that is right, then to both sides of it: about half of the runs are right. */
+/* From a step that is too long down to one that is right, then to both sides of it: about half of
+ * the runs are right. */
 static void sweep_limit_of(const sweep_scene *s, int method, double longest, int n)
 {
   double step = longest;

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a second thread is worth to a study: the standard grid of a free slider-crank with one and with two.
+/* What a second thread is worth to a study: the standard grid of a free slider-crank with one and
+ * with two.
  *
- * Errors are found by all threads, times are taken one by one afterwards, so that the wall ratio stays above one half; the
- * repeats are one here. Total CPU time should not grow.
+ * Errors are found by all threads, times are taken one by one afterwards, so that the wall ratio
+ * stays above one half; the repeats are one here. Total CPU time should not grow.
  */
 #include <stdio.h>
 #include <stdlib.h>

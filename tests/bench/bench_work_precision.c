@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an error costs: for every integrator and formulation the cheapest run, over a ladder of steps or tolerances,
- * whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
+/* What an error costs: for every integrator and formulation the cheapest run, over a ladder of
+ * steps or tolerances, whose largest error over all samples is at most 1e-4, 1e-6, 1e-8, 1e-10.
  *
  * usage: bench_work_precision [PROBLEM]
  *
- * Errors: lengths relative to the scale of the mechanism, angles in radians. Time: CPU time of this thread from the
- * start to the last sample, with the making of the run, the smallest of some repeats. Ladders end where a run takes
- * longer than LONGEST or gets no better.
+ * Errors: lengths relative to the scale of the mechanism, angles in radians. Time: CPU time of this
+ * thread from the start to the last sample, with the making of the run, the smallest of some
+ * repeats. Ladders end where a run takes longer than LONGEST or gets no better.
  */
 #include <math.h>
 #include <stdio.h>

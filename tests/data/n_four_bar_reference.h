@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A02, N = 40, from upright to the first flat position: 1e-6 s before it.
- * Columns: angle of all cranks; departure from parallel cranks and level couplers. Origin: README.md here. */
+ * Columns: angle of all cranks; departure from parallel cranks and level couplers. Origin:
+ * README.md here. */
 #ifndef BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 #define BAUM_TEST_N_FOUR_BAR_REFERENCE_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of any definitions: built, frozen, looked at and evaluated. What a call gives with success is
- * finite, and a copy gives the same.
+/* Mechanisms of any definitions: built, frozen, looked at and evaluated. What a call gives with
+ * success is finite, and a copy gives the same.
  */
 #include <math.h>
 #include <stdlib.h>
@@ -80,7 +80,7 @@ static void move(baum_workspace *w, pose *p, int nv)
   FUZZ_CHECK(status == BAUM_OK || memcmp(&before, p, sizeof before) == 0);
 }
 
-/* Its accelerations at one pose, NaN where there are none. */
+/* Its accelerations at one configuration, NaN where there are none. */
 static void accelerations_of(const baum_mechanism *m, const pose *p, double *a, int nv)
 {
   baum_workspace *w = NULL;

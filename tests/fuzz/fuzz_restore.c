@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Restoring from bytes: any, or those of a saved run with some words changed and the sum put right. What is
- * refused changes nothing; with what is taken the run may fail, but no worse; and then it goes back to where it
- * was, to the last bit.
+/* Restoring from bytes: any, or those of a saved run with some words changed and the sum put right.
+ * What is refused changes nothing; with what is taken the run may fail, but no worse; and then it
+ * goes back to where it was, to the last bit.
  */
 #include <stdlib.h>
 #include <string.h>

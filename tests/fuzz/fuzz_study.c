@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies that go on from any file: bytes, or a true file with bits and lines changed, lines of another study among them;
- * or with fields changed and the sum of their line put right. What is refused is left alone. What is taken gives the entries
- * that the study has without a file, to the last bit, unless a sum was put right; and in any case a study that is over is over
- * when it goes on once more.
+/* Studies that go on from any file: bytes, or a true file with bits and lines changed, lines of
+ * another study among them; or with fields changed and the sum of their line put right. What is
+ * refused is left alone. What is taken gives the entries that the study has without a file, to the
+ * last bit, unless a sum was put right; and in any case a study that is over is over when it goes
+ * on once more.
  */
 #define _GNU_SOURCE /* mkstemp */
 #include <stdio.h>
@@ -289,7 +290,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
   size_t length = read_file(text);
   baum_study *study = make_study(0);
   baum_status status = fuzz_status(baum_study_run(study));
-  /* A forged line may call an entry done that cannot be run: then the study says so when it takes its time. */
+  /* A forged line may call an entry done that cannot be run: then the study says so when it takes
+   * its time. */
   FUZZ_CHECK(status == BAUM_OK || status == BAUM_ERR_BUFFER || sealed);
   if (status == BAUM_ERR_BUFFER) {
     check_left_alone(study, text, length);

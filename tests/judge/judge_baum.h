@@ -7,7 +7,8 @@
 
 #include "judge_scene.h"
 
-/** Build and freeze; the scene must outlive the mechanism, whose laws point into it. NULL on failure. */
+/** Build and freeze; the scene must outlive the mechanism, whose laws point into it. NULL on
+ *  failure. */
 baum_mechanism *judge_build(const judge_scene *s);
 
 #endif

@@ -82,7 +82,8 @@ static double scale_error(const run *r, const double *error, const double *y)
   return most / r->tolerance;
 }
 
-/* Rows of Aitken and Neville's table are overwritten from the left; returns the error over the tolerance. */
+/* Rows of Aitken and Neville's table are overwritten from the left; returns the error over the
+ * tolerance. */
 static double extrapolate(const run *r, double t, const double *y, const double *dy, double h,
                           double *out)
 {
@@ -209,7 +210,8 @@ static double along(const judge_scene *s, const double *direction, const double 
   return sum;
 }
 
-/* What becomes of small independent changes of positions and velocities over one segment, by differences. */
+/* What becomes of small independent changes of positions and velocities over one segment, by
+ * differences. */
 static bool differentiate(const judge_scene *s, const judge_reference *ref, int k, double h,
                           matrix *out)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The true motion of a judge_scene, and how it amplifies perturbations. Extrapolation of the modified midpoint rule
- * (Gragg 1965, Bulirsch and Stoer 1966) over the accelerations of judge_equations, with a projection after each step. */
+/* The true motion of a judge_scene, and how it amplifies perturbations. Extrapolation of the
+ * modified midpoint rule (Gragg 1965, Bulirsch and Stoer 1966) over the accelerations of
+ * judge_equations, with a projection after each step. */
 #ifndef BAUM_JUDGE_REFERENCE_H
 #define BAUM_JUDGE_REFERENCE_H
 
@@ -25,8 +26,8 @@ typedef struct judge_reference {
   const char *failed; /* why there is none; NULL when there is one */
 } judge_reference;
 
-/** From (q, v), which fulfil the constraints to rounding, at t = 0 to the end of the scene. `length` is what errors of
- *  positions are relative to. True when both runs agree to 1e-6. */
+/** From (q, v), which fulfil the constraints to rounding, at t = 0 to the end of the scene.
+ *  `length` is what errors of positions are relative to. True when both runs agree to 1e-6. */
 bool judge_find_reference(const judge_scene *s, const double *q, const double *v, double length,
                           judge_reference *out);
 

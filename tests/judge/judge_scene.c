@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The generator: links are placed in a design configuration, joints where they meet, so that it fulfils the constraints;
- * velocities are random ones projected onto them. Lengths are about 1 m. */
+/* The generator: links are placed in a design configuration, joints where they meet, so that it
+ * fulfils the constraints; velocities are random ones projected onto them. Lengths are about 1
+ * m. */
 #include "judge_scene.h"
 
 #include <math.h>
@@ -426,7 +427,8 @@ static bool draw_loop(pen *p)
   return true;
 }
 
-/* A light rod between a slot and a bob, which comes taut, or a body of it that swings on a slider. */
+/* A light rod between a slot and a bob, which comes taut, or a body of it that swings on a
+ * slider. */
 static void draw_taut(pen *p)
 {
   judge_dice *d = &p->dice;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random planar mechanisms as plain numbers, for bench_doubts: what the generator draws, what baum is given, and what the
- * reference integrates. Nothing here is shared with the other random mechanisms of the tests. Conventions of coordinates,
- * axes and rows are those of planar.h. */
+/* Random planar mechanisms as plain numbers, for bench_doubts: what the generator draws, what baum
+ * is given, and what the reference integrates. Nothing here is shared with the other random
+ * mechanisms of the tests. Conventions of coordinates, axes and rows are those of planar.h. */
 #ifndef BAUM_JUDGE_SCENE_H
 #define BAUM_JUDGE_SCENE_H
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms that tests have in common: those of the catalogue, and variants of them.
  *
- * Each call gives a frozen mechanism in its exact start pose and returns BAUM_OK, or gives no
- * mechanism and returns what failed. SI units; gravity along -y where there is any.
+ * Each call gives a frozen mechanism in its exact start configuration and returns BAUM_OK, or gives
+ * no mechanism and returns what failed. SI units; gravity along -y where there is any.
  */
 #ifndef BAUM_TEST_MODELS_H
 #define BAUM_TEST_MODELS_H
@@ -75,8 +75,8 @@ typedef struct model_slider_crank {
   const model_units *units; /* NULL: SI */
 } model_slider_crank;
 
-/* Three bodies, three pins, a guide, the second guide if doubled, the motor if driven, and frames with
- * their welds. q = (x, y, angle) of crank, rod, slider, frames. */
+/* Three bodies, three pins, a guide, the second guide if doubled, the motor if driven, and frames
+ * with their welds. q = (x, y, angle) of crank, rod, slider, frames. */
 baum_status model_slider_crank_build(model_slider_crank options, model *out);
 
 /* ---- Andrews' squeezing mechanism ------------------------------------------------------------ */
@@ -107,7 +107,8 @@ baum_status model_sundials_slider_crank(model *out);
 baum_status model_four_bar(model *out);
 baum_status model_four_bar_in(const model_units *units, model *out); /* NULL: SI */
 
-/* ---- N-four-bar: N windows of uniform rods of 1 m ---------------------------------------------- */
+/* ---- N-four-bar: N windows of uniform rods of 1 m
+ * ---------------------------------------------- */
 
 typedef struct model_n_four_bar {
   int loops;                /* N */
@@ -123,7 +124,8 @@ model_n_four_bar model_n_four_bar_a02(int loops);
 /* q = (x, y, angle) of crank 0, coupler 0, crank 1, ..., crank N: 2 N + 1 bodies, 6 N + 2 rows. */
 baum_status model_n_four_bar_build(const model_n_four_bar *data, model *out);
 
-/* ---- chain: uniform rods one after the other, pinned to the ground at the origin --------------- */
+/* ---- chain: uniform rods one after the other, pinned to the ground at the origin
+ * --------------- */
 
 typedef struct model_chain {
   int links;
@@ -140,7 +142,8 @@ model_chain model_chain_3_data(void);
 /* q = (x, y, angle) of each link: 3 N coordinates, 2 N rows. */
 baum_status model_chain_build(const model_chain *data, model *out);
 
-/* ---- parallelogram: cranks of 1 m that carry one coupler of 2 m -------------------------------- */
+/* ---- parallelogram: cranks of 1 m that carry one coupler of 2 m
+ * -------------------------------- */
 
 typedef enum model_parallelogram {
   MODEL_TWO_CRANKS,   /* one at each end: 9 coordinates, 8 rows */

@@ -2,9 +2,9 @@
 /* Cranks of 1 m and 1 kg from (0, 0), (2, 0) and (1, above), which carry a coupler of 2 m and 2 kg.
  *
  * Two cranks keep the coupler level; a third one of the same length then moves along by itself, and
- * one of the two rows of its pin says nothing new. A massless rod of 1 m instead, from its tip to the
- * coupler's left end, gives the one row that is needed. Above the others' line the third crank takes away the singular
- * poses that the two of them have where they are flat.
+ * one of the two rows of its pin says nothing new. A massless rod of 1 m instead, from its tip to
+ * the coupler's left end, gives the one row that is needed. Above the others' line the third crank
+ * takes away the singular poses that the two of them have where they are flat.
  */
 #include "models.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and e = 0
- * they fall on each other at pi / 2, and J loses rank. */
+/* Variants of the eccentric slider-crank of the catalogue. With a rod as long as the crank and e =
+ * 0 they fall on each other at pi / 2, and J loses rank. */
 #include "models.h"
 
 #include <math.h>

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Do mechanisms keep their constraints where baum_stability_at() says so? A mechanism starts with all
- * rows violated, and a pair of gains is observed to be stable when the largest violation of the last
- * quarter of a run is below that of the first. All pairs of a grid over the part of the plane of
- * (alpha h, beta^2 h^2) that holds the predicted region, for every fixed-step integrator; one program
- * per mechanism, so that they run side by side. Include after cmocka.h.
+/* Do mechanisms keep their constraints where baum_stability_at() says so? A mechanism starts with
+ * all rows violated, and a pair of gains is observed to be stable when the largest violation of the
+ * last quarter of a run is below that of the first. All pairs of a grid over the part of the plane
+ * of (alpha h, beta^2 h^2) that holds the predicted region, for every fixed-step integrator; one
+ * program per mechanism, so that they run side by side. Include after cmocka.h.
  *
  * The step: the motion itself keeps up a violation of (alpha h / beta^2 h^2) h^2 |gamma|, which
  * must stay far below the start's. With h omega = 1e-5 it is 1e-10 of the length scale, times 20 in
@@ -22,8 +22,9 @@ static const double OFF = 1e-6; /* of the length scale, and rad */
 /* Times the start's violation: 1e-3 of the scale, hardly still linear. */
 static const double GROWN = 1e3;
 /* Of the start's violation. A start with Phi' = 0 gives a mode of a one-step method a share of
- * (1 - z1) / (z2 - z1), 1/100 or more here, so that no mode hides below this from the beginning. The
- * modes that a method of several steps has besides may well hide: such runs never end as decayed. */
+ * (1 - z1) / (z2 - z1), 1/100 or more here, so that no mode hides below this from the beginning.
+ * The modes that a method of several steps has besides may well hide: such runs never end as
+ * decayed. */
 static const double DECAYED = 1e-3;
 
 /* The grid reaches so much farther than the region. */

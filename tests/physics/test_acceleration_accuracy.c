@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations and multipliers against quadruple precision: how much of the accuracy of M, J, g and
- * gamma the solution keeps. The worst of a and of lambda, each relative to its largest element, is
- * printed for every case.
+/* Accelerations and multipliers against quadruple precision: how much of the accuracy of M, J, g
+ * and gamma the solution keeps. The worst of a and of lambda, each relative to its largest element,
+ * is printed for every case.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,9 +16,9 @@ static const double PI = 3.14159265358979324;
 
 /* A dozen units of rounding, times condition numbers of some hundred after refinement. */
 static const double ORDINARY = 1e-12;
-/* At a distance d from a singular pose errors of lambda grow like those of J a over d^2. A residual in
- * double precision leaves 1e-16 / d^2; only one that is formed wider lets 1e-4 rad not be felt, and
- * leaves digits at 1e-6 rad. */
+/* At a distance d from a singular configuration errors of lambda grow like those of J a over d^2. A
+ * residual in double precision leaves 1e-16 / d^2; only one that is formed wider lets 1e-4 rad not
+ * be felt, and leaves digits at 1e-6 rad. */
 static const double NEAR = 1e-12;
 static const double NEAREST = 1e-7;
 /* Masses differ by 1e6: six digits of a few units of rounding may go. */
@@ -145,7 +145,7 @@ static posed chain(uint64_t *seed, int size)
   return pose_chain(seed, size, NULL);
 }
 
-/* ---- ordinary poses ---- */
+/* ---- ordinary configurations ---- */
 
 /* What the oracle says of the N-four-bar must be what one equation says of it. */
 static void the_oracle_finds_the_motion_of_the_n_four_bar(void **state)
@@ -210,7 +210,7 @@ static void ordinary_poses_keep_twelve_digits(void **state)
   assert_int_equal(t.failures, 0);
 }
 
-/* ---- near singular poses ---- */
+/* ---- near singular configurations ---- */
 
 static errors measure_folded_crank(double gap, bool driven)
 {
@@ -234,7 +234,7 @@ static void near_singular_poses_keep_what_their_condition_allows(void **state)
 {
   (void)state;
   table t = {0};
-  print_head("near a singular pose");
+  print_head("near a singular configuration");
   note(&t, "slider-crank, 1e-4 rad", measure_folded_crank(1e-4, false), NEAR, NEAR);
   note(&t, "slider-crank, 1e-6 rad", measure_folded_crank(1e-6, false), NEAREST, NEAREST);
   note(&t, "slider-crank, driven, 1e-4 rad", measure_folded_crank(1e-4, true), NEAR, NEAR);

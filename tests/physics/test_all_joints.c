@@ -193,7 +193,7 @@ static void scenes_have_their_freedoms_and_move_far(void **state)
   }
 }
 
-/* ---- without freedom ---- */
+/* ---- without degrees of freedom ---- */
 
 /* The first joint whose coordinate is not driven by a driver at the end; -1: none. */
 static int find_free_joint(const baum_mechanism *m)
@@ -220,8 +220,8 @@ static void read_start(const baum_mechanism *m, int joint, double out[2])
   baum_simulation_destroy(run);
 }
 
-/* A scene of one freedom with a driver that takes it and goes on from its start; NULL where there is
- * no joint for it. */
+/* A scene of one freedom with a driver that takes it and goes on from its start; NULL where there
+ * is no joint for it. */
 static baum_mechanism *make_driven(const joint_scene *scene)
 {
   baum_mechanism *free_one = joint_scene_make(scene);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Out and back in time on both slider-cranks, with stabilization, and by IDA with the constraints themselves: the violation is damped in either
- * direction, and the start is found again as well as the method found the far end.
+/* Out and back in time on both slider-cranks, with stabilization, and by IDA with the constraints
+ * themselves: the violation is damped in either direction, and the start is found again as well as
+ * the method found the far end.
  */
 #include <setjmp.h>
 #include <stdarg.h>

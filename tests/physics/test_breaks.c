@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Declared breaks: a body on a pin without gravity, turned by a torque that jumps at three times, whose motion is known:
- * polynomials of degree 2 in time, which every method of order 2 follows to rounding if it keeps to one side of a jump.
+/* Declared breaks: a body on a pin without gravity, turned by a torque that jumps at three times,
+ * whose motion is known: polynomials of degree 2 in time, which every method of order 2 follows to
+ * rounding if it keeps to one side of a jump.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -114,9 +115,9 @@ static baum_counters counters_of(baum_simulation *run)
   return counters;
 }
 
-/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2) |torque| t in the angle. Steps of their
- * own: ten tolerances of rates up to 6 rad/s. Generalized-alpha begins with accelerations that are not of its
- * order: with h^2 50 times 20. */
+/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2)
+ * |torque| t in the angle. Steps of their own: ten tolerances of rates up to 6 rad/s.
+ * Generalized-alpha begins with accelerations that are not of its order: with h^2 50 times 20. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -208,7 +209,8 @@ static void outputs_change_nothing(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The energy that the torque brings is the kinetic energy: nothing else works, and no jump is smeared over a step. */
+/* The energy that the torque brings is the kinetic energy: nothing else works, and no jump is
+ * smeared over a step. */
 static void the_account_closes_over_breaks(void **state)
 {
   (void)state;
@@ -225,7 +227,8 @@ static void the_account_closes_over_breaks(void **state)
     double angle = 0.0;
     double rate = 0.0;
     exact(2.0, &angle, &rate);
-    /* Angles and rates are off by what is allowed, torques are up to 50 N m and rates up to 6 rad/s. */
+    /* Angles and rates are off by what is allowed, torques are up to 50 N m and rates up to 6
+     * rad/s. */
     double most = (50.0 + 6.0) * allowed(mode);
     ASSERT_NEAR(account.user_forces, 0.5 * rate * rate, 0.0, most);
     ASSERT_NEAR(account.residual, 0.0, 0.0, most);
@@ -234,7 +237,8 @@ static void the_account_closes_over_breaks(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* The rate of the driver jumps at the first time, and its acceleration at the second: s, s', s''. */
+/* The rate of the driver jumps at the first time, and its acceleration at the second: s, s',
+ * s''. */
 static int kinked(double t, double s[3], void *user)
 {
   (void)user;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Grids of studies against the stored references of the catalogue; bench_catalog takes all of it. */
+/* Grids of studies against the stored references of the catalogue; bench_catalog takes all of
+ * it. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>

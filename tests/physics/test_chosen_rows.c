@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows are chosen anew on the way: two bars that two pins lock turn over and over, through every integrator,
- * formulation and solver, as if they were welded.
+/* Redundant rows are chosen anew on the way: two bars that two pins lock turn over and over,
+ * through every integrator, formulation and solver, as if they were welded.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -47,8 +47,8 @@ static void find_motion(double exact[LOCKED_NV])
   baum_mechanism_destroy(m);
 }
 
-/* Without a warning but that of multipliers that are not unique, and with KLU, whose pivots are rough, of poses that look
- * singular. */
+/* Without a warning but that of multipliers that are not unique, and with KLU, whose pivots are
+ * rough, of configurations that look singular. */
 static baum_simulation *run_to_end(const baum_mechanism *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;
@@ -104,7 +104,8 @@ static void bars_locked_by_two_pins_turn_as_if_welded(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* RATTLE and generalized-alpha, whose matrices keep their pivots from step to step: not those of other rows. */
+/* RATTLE and generalized-alpha, whose matrices keep their pivots from step to step: not those of
+ * other rows. */
 static void methods_of_index_3_turn_too(void **state)
 {
   (void)state;

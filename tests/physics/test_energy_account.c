@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account closes: to 100 times the tolerance with steps of the method's choice, and with the method's order
- * in steps of one length; on quiet, driven, damped and violated mechanisms and one with M(q), with every formulation.
- * Residuals are the largest of 8 times, in units of the largest energy or work.
+/* The energy account closes: to 100 times the tolerance with steps of the method's choice, and with
+ * the method's order in steps of one length; on quiet, driven, damped and violated mechanisms and
+ * one with M(q), with every formulation. Residuals are the largest of 8 times, in units of the
+ * largest energy or work.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -58,8 +59,8 @@ static void print_head(const account_scene *scene, const baum_simulation_options
 
 /* ---- steps of one length ---- */
 
-/* Steps of the coarsest rung, by order: residuals of the finest are above 1e-13, and the largest terms of the next
- * order are gone. */
+/* Steps of the coarsest rung, by order: residuals of the finest are above 1e-13, and the largest
+ * terms of the next order are gone. */
 static int coarsest_of(const baum_integrator *method)
 {
   int order = baum_integrator_order(method);
@@ -69,8 +70,8 @@ static int coarsest_of(const baum_integrator *method)
   return order == 1 || order == 4 ? 512 : 256;
 }
 
-/* Slopes are above the order where terms of higher order still lead, and below by at most so much where they have the
- * other sign. */
+/* Slopes are above the order where terms of higher order still lead, and below by at most so much
+ * where they have the other sign. */
 static const double BELOW = 0.35;
 
 static void observe_order(const account_scene *scene, baum_simulation_options options)
@@ -93,8 +94,8 @@ static void observe_order(const account_scene *scene, baum_simulation_options op
   assert_true(slope >= order - BELOW || error[RUNGS - 1] < 1e-12);
 }
 
-/* At index 3 with steps of one length a start off the constraints is left in a jump within the first step, which is no
- * motion; RATTLE takes neither dampers nor M(q). */
+/* At index 3 with steps of one length a start off the constraints is left in a jump within the
+ * first step, which is no motion; RATTLE takes neither dampers nor M(q). */
 static bool suits(const account_scene *scene, const baum_simulation_options *options)
 {
   bool index3 = options->formulation == BAUM_FORMULATION_INDEX3;
@@ -129,8 +130,8 @@ static void closes_with_the_order(void **state)
 
 /* ---- steps of the method's choice ---- */
 
-/* In units of rtol. Index 3 of IDA, whose velocities are outside of its error test, is far above its tolerance in all
- * else too: measured at most 197, and 340 with other last digits. */
+/* In units of rtol. Index 3 of IDA, whose velocities are outside of its error test, is far above
+ * its tolerance in all else too: measured at most 197, and 340 with other last digits. */
 static double allowed(const baum_simulation_options *options)
 {
   return options->formulation == BAUM_FORMULATION_INDEX3 ? 500.0 : 100.0;
@@ -186,7 +187,8 @@ static void sundials_closes_to_the_tolerance(void **state)
 
 /* ---- what the residual is ---- */
 
-/* Largest of a motion: q against another one's (where there is one) and the energies of an account. */
+/* Largest of a motion: q against another one's (where there is one) and the energies of an
+ * account. */
 typedef struct motion {
   double q[TIMES][WIDTH];
   double error;    /* of q, in m and rad: links of 1 m */
@@ -221,8 +223,9 @@ static motion follow(const baum_mechanism *m, baum_simulation_options options, c
   return out;
 }
 
-/* Where next to nothing does work, the residual is the change of T + V, without any sum of works. It is no larger than
- * the error of the motion: what BDF and IDA leave at tight tolerances is theirs. */
+/* Where next to nothing does work, the residual is the change of T + V, without any sum of works.
+ * It is no larger than the error of the motion: what BDF and IDA leave at tight tolerances is
+ * theirs. */
 static void what_is_left_is_the_error_of_the_motion(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events against motions that are known: the swing of pendulum_events.h, which passes 0 at odd multiples of a quarter
- * period and rests at even ones, for every integrator in each of its ways to step. */
+/* Events against motions that are known: the swing of pendulum_events.h, which passes 0 at odd
+ * multiples of a quarter period and rests at even ones, for every integrator in each of its ways to
+ * step. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -76,16 +77,18 @@ static baum_event_record record_of(const baum_simulation *run, int64_t k)
   return record;
 }
 
-/* What a run of this mode is off by in time at t, of the motion itself. The events are where the method's motion
- * passes zero. */
+/* What a run of this mode is off by in time at t, of the motion itself. The events are where the
+ * method's motion passes zero. */
 static double motion_error(step_mode mode, double t)
 {
   if (!mode.fixed) {
-    /* Ten tolerances a radian of the swing, about 2.8 rad/s: the error grows with time, as that of a period does. */
+    /* Ten tolerances a radian of the swing, about 2.8 rad/s: the error grows with time, as that of
+     * a period does. */
     return 10.0 * RTOL * fmax(t, 1.0);
   }
-  /* Measured over 12 s at h = 1e-3 against the exact times: Euler 5.4e-2, order 1 in h; the semi-implicit one 5.3e-4, order 2 at the events of
-   * a swing; rk2, RATTLE, generalized-alpha and ab2 below 1e-4, order 2; all others below 1e-6. Each doubled. */
+  /* Measured over 12 s at h = 1e-3 against the exact times: Euler 5.4e-2, order 1 in h; the
+   * semi-implicit one 5.3e-4, order 2 at the events of a swing; rk2, RATTLE, generalized-alpha and
+   * ab2 below 1e-4, order 2; all others below 1e-6. Each doubled. */
   const char *name = baum_integrator_name(mode.integrator);
   int order = baum_integrator_order(mode.integrator);
   double h = STEP / 1e-3;
@@ -109,8 +112,8 @@ static void bounce(baum_simulation *run)
   assert_int_equal(baum_simulation_set_state(run, baum_simulation_time(run), q, v), BAUM_OK);
 }
 
-/* Ten bounces at the bottom, forward or backward in time. Events in both directions, so that leaving the stop would
- * show. Returns the largest error in time. */
+/* Ten bounces at the bottom, forward or backward in time. Events in both directions, so that
+ * leaving the stop would show. Returns the largest error in time. */
 static double bounce_ten_times(step_mode mode, double sign)
 {
   swing s = swing_make(1.0);
@@ -245,7 +248,8 @@ static baum_mechanism *make_mirrored(double angle, baum_joint_id pins[2])
   return m;
 }
 
-/* Their times differ by rounding, and by 5e-13 s where IDA's iteration ends; the tolerance makes them one. */
+/* Their times differ by rounding, and by 5e-13 s where IDA's iteration ends; the tolerance makes
+ * them one. */
 static void two_bodies_at_their_stops_are_one_stop(void **state)
 {
   (void)state;
@@ -396,8 +400,9 @@ static baum_status go_on(baum_simulation *run, uint64_t *seed, double end)
   return baum_simulation_sample(run, times, 5, &all, 1, rows, NULL);
 }
 
-/* A swing of random height, watched at 0 and at rest, each terminal or not, by random calls. Returns how many events
- * are not the right ones; `worst` becomes at least the error of a time, of the time. */
+/* A swing of random height, watched at 0 and at rest, each terminal or not, by random calls.
+ * Returns how many events are not the right ones; `worst` becomes at least the error of a time, of
+ * the time. */
 static int random_case(step_mode mode, uint64_t *seed, double *worst)
 {
   swing s = swing_make(uniform(seed, 0.3, 2.5));
@@ -425,7 +430,8 @@ static int random_case(step_mode mode, uint64_t *seed, double *worst)
   return wrong;
 }
 
-/* Of the time. With tolerances ten of them: measured at most 8, the more the nearer a swing comes to the top. */
+/* Of the time. With tolerances ten of them: measured at most 8, the more the nearer a swing comes
+ * to the top. */
 static double random_error(step_mode mode)
 {
   return mode.fixed ? 0.1 : 10.0 * RANDOM_RTOL;

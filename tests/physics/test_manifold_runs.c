@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms whose positions are no vector (support/manifold_scenes.c) through every integrator of
- * this build in every formulation that it offers: against their twins of ordinary bodies, or against
- * the motion about the fixed point.
+ * this build in every formulation that it offers: against their twins of ordinary bodies, or
+ * against the motion about the fixed point.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -331,7 +331,7 @@ static void the_account_of_energy_is_as_of_ordinary_bodies(void **state)
   }
 }
 
-/* ---- without freedom ---- */
+/* ---- without degrees of freedom ---- */
 
 static void kinematics_follows_the_driver(void **state)
 {

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A joint that is there twice, nearly: a slider-crank with a second pin, guide or rod that is off by 1e-14 to 1e-6 in place
- * or in direction. Whichever solver is asked, accelerations are those of quadruple precision from the same M, J, g and
- * gamma, where rows less than 1e-10 apart count as one; or the run is refused, and the sentence names a joint.
- * Likewise where it moves, with accelerations at the velocities that the rows leave of the given ones.
+/* A joint that is there twice, nearly: a slider-crank with a second pin, guide or rod that is off
+ * by 1e-14 to 1e-6 in place or in direction. Whichever solver is asked, accelerations are those of
+ * quadruple precision from the same M, J, g and gamma, where rows less than 1e-10 apart count as
+ * one; or the run is refused, and the message names a joint. Likewise where it moves, with
+ * accelerations at the velocities that the rows leave of the given ones.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -150,12 +151,12 @@ typedef struct tally {
   int wrong;
 } tally;
 
-static bool names_a_joint(const char *sentence)
+static bool names_a_joint(const char *message)
 {
   static const char *const JOINTS[] = {"\"foot\"", "\"crank pin\"", "\"slider pin\"", "\"guide\"",
                                        "\"again\""};
   for (size_t k = 0; k < sizeof JOINTS / sizeof JOINTS[0]; k++) {
-    if (strstr(sentence, JOINTS[k])) {
+    if (strstr(message, JOINTS[k])) {
       return true;
     }
   }
@@ -189,8 +190,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
   return most / rows.size;
 }
 
-/* Where it moves, velocities may be open by OPEN of start.c without a word, and accelerations by twice as much and more,
- * for they go with the square. */
+/* Where it moves, velocities may be open by OPEN of start.c silently, and accelerations by twice as
+ * much and more, for they go with the square. */
 static double allowed(double rate)
 {
   return rate > 0.0

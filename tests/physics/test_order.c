@@ -49,8 +49,8 @@ static const reference REFERENCES[] = {
  * larger, begin with 4 times as many. */
 static const int COARSEST[ORDER_MAX + 1] = {0, 2048, 256, 128, 256};
 
-/* Orders 5 and 8 come down to rounding before terms of the next order are gone, which gains make larger: their ladders
- * end there, and a slope that is too steep by such a term is no fault. */
+/* Orders 5 and 8 come down to rounding before terms of the next order are gone, which gains make
+ * larger: their ladders end there, and a slope that is too steep by such a term is no fault. */
 typedef struct high_ladder {
   int order;
   physics_mechanism which;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three parallel cranks out of line turn freely, as the wheels of a locomotive do: one row is redundant in every pose, but
- * whichever is left out, the others have singular poses. Every integrator with every formulation goes round as a pendulum
- * of the same inertia does, without a word of singular poses.
+/* Three parallel cranks out of line turn freely, as the wheels of a locomotive do: one row is
+ * redundant in every configuration, but whichever is left out, the others have singular poses.
+ * Every integrator with every formulation goes round as a pendulum of the same inertia does,
+ * silently of singular poses.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -35,7 +36,8 @@ static model make(bool framed)
 
 /* ---- the pendulum ---- */
 
-/* All cranks turn alike, by the angle x[0] at the rate x[1]; the coupler's centre goes round with 1 m. */
+/* All cranks turn alike, by the angle x[0] at the rate x[1]; the coupler's centre goes round with 1
+ * m. */
 static void fall(const double x[2], double dx[2])
 {
   double inertia = 3.0 / 3.0 + 2.0;
@@ -78,9 +80,10 @@ static baum_simulation *start(const model *m, step_mode mode, baum_formulation f
   return run;
 }
 
-/* The first order is good for nothing at this step, nor is the second of semi-implicit Euler where projection has taken it
- * away. Others are off by (w h)^p, the more the more turns, or by rounding. BDF and IDA, which begins anew with every choice of rows, are
- * off by 1e4 rtol, the others by 10 rtol. */
+/* The first order is good for nothing at this step, nor is the second of semi-implicit Euler where
+ * projection has taken it away. Others are off by (w h)^p, the more the more turns, or by rounding.
+ * BDF and IDA, which restarts with every choice of rows, are off by 1e4 rtol, the others by 10
+ * rtol. */
 static double allowed(step_mode mode)
 {
   int order = baum_integrator_order(mode.integrator);
@@ -159,7 +162,8 @@ static void a_body_that_cannot_move_stays_left_out(void **state)
   model_destroy(&m);
 }
 
-/* A quarter of a turn on, and half a turn behind the start, where the rows of the start are next to dependent. */
+/* A quarter of a turn on, and half a turn behind the start, where the rows of the start are next to
+ * dependent. */
 static void a_state_from_elsewhere_has_rows_of_its_own(void **state)
 {
   (void)state;
@@ -255,7 +259,8 @@ static void the_energy_account_closes(void **state)
   model_destroy(&m);
 }
 
-/* Flat, where two of the cranks alone leave the third one's turn open: all turn by -w / inertia under their weight. */
+/* Flat, where two of the cranks alone leave the third one's turn open: all turn by -w / inertia
+ * under their weight. */
 static void accelerations_are_right_where_rows_of_the_start_are_singular(void **state)
 {
   (void)state;

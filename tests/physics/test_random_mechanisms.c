@@ -15,8 +15,8 @@
 #include "quad_saddle.h"
 #include "random_judge.h"
 
-/* Errors are relative to the largest element. Chance gives a few poses in a thousand whose condition costs
- * a handful of digits; there the solver of the whole system may lose as many. */
+/* Errors are relative to the largest element. Chance gives a few poses in a thousand whose
+ * condition costs a handful of digits; there the solver of the whole system may lose as many. */
 static const double ERROR = 1e-9;
 static const double AS_OTHERS = 30.0;
 /* Phi, Phi' and gamma are sums of some dozen terms of size 10. */
@@ -178,7 +178,7 @@ static void check_projection(pair *p)
   if (status != BAUM_OK) {
     return;
   }
-  /* Singular poses may be near; both must give the same change all the same. */
+  /* Singular configurations may be near; both must give the same change all the same. */
   for (int i = 0; i < p->nv; i++) {
     assert_true(fabs(p->q[i] - q[i]) <= 1e-8 * (1.0 + fabs(q[i])));
     assert_true(fabs(p->v[i] - v[i]) <= 1e-8 * (3.0 + fabs(v[i])));
@@ -224,7 +224,8 @@ static void spoil(pair *p, int call)
   assert_int_equal(rows->fail_at, 0);
 }
 
-/* An evaluation that has failed leaves no trace in the next one: by blocks, and to the last digit. */
+/* An evaluation that has failed leaves no trace in the next one: by blocks, and to the last
+ * digit. */
 static void failed_evaluations_leave_no_trace(void **state)
 {
   pair *p = *state;
@@ -334,7 +335,7 @@ static void accelerations_are_met_or_rightly_refused(void **state)
   assert_int_equal(tally.counts[RANDOM_WRONG], 0);
   assert_int_equal(tally.counts[RANDOM_FALSE_ALARM], 0);
   assert_int_equal(tally.counts[RANDOM_CONFLICT], 0);
-  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* of three poses each */
+  assert_true(tally.counts[RANDOM_MET] > 2 * MECHANISMS); /* of three configurations each */
   assert_true(tally.counts[RANDOM_REFUSED] > 0);
   assert_true(tally.dependent > MECHANISMS / 10);
 }

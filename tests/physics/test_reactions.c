@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reactions balance the forces whatever rows are redundant and however uneven masses are; who shares forces is named. */
+/* Reactions balance the forces whatever rows are redundant and however uneven masses are; who
+ * shares forces is named. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +15,8 @@
 
 enum { MECHANISMS = 60, RATIOS = 15, HARD = 2 };
 
-/* Seeds of mechanisms whose light bodies would keep the rounding of large forces that null vectors take off them. */
+/* Seeds of mechanisms whose light bodies would keep the rounding of large forces that null vectors
+ * take off them. */
 static const uint64_t HARD_SEEDS[HARD] = {7379, 9183};
 
 static baum_simulation *run_bracket(const baum_mechanism *m)

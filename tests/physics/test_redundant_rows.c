@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows that say nothing new change nothing: a third parallel crank, a second guide on the same line,
- * against the same bodies without them.
+/* Rows that say nothing new change nothing: a third parallel crank, a second guide on the same
+ * line, against the same bodies without them.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,8 +14,8 @@
 
 enum { POSES = 8 };
 
-/* Two paths to the same numbers, both of an ordinary pose's accuracy; the redundant rows are fulfilled
- * to rounding only, as the pose is. */
+/* Two paths to the same numbers, both of an ordinary configuration's accuracy; the redundant rows
+ * are fulfilled to rounding only, as the configuration is. */
 static const double LIMIT = 1e-10;
 
 /* ---- the pairs ---- */
@@ -108,7 +108,7 @@ static void accelerations_are_those_of_quadruple_precision(void **state)
                                   p.want_lambda));
     double error = quad_error(p.nv, p.a, p.want_a);
     printf("%-34s error of a %.1e\n", PAIRS[pair].name, error);
-    assert_true(error <= 1e-12); /* an ordinary pose, see test_acceleration_accuracy.c */
+    assert_true(error <= 1e-12); /* an ordinary configuration, see test_acceleration_accuracy.c */
     unpose(&p);
   }
 }
@@ -202,8 +202,9 @@ static void multipliers_that_are_not_unique_are_marked(void **state)
 
 /* ---- redundant for ever, or singular for a moment ---- */
 
-/* Rows of a pin that is there twice, 1e-10 off, are redundant; those that depend on others at a flat pose only are
- * not, 1e-8 rad from there no more than 1 rad from there; and both together. */
+/* Rows of a pin that is there twice, 1e-10 off, are redundant; those that depend on others at a
+ * flat configuration only are not, 1e-8 rad from there no more than 1 rad from there; and both
+ * together. */
 static const struct {
   const char *name;
   model_parallelogram_data data;
@@ -263,7 +264,8 @@ static void permanent_and_momentary_are_told_apart_in_any_unit(void **state)
   }
 }
 
-/* The cranks go on turning as one, th'' = -k cos th, with rows redundant, singular or both at the start. */
+/* The cranks go on turning as one, th'' = -k cos th, with rows redundant, singular or both at the
+ * start. */
 static void a_run_may_start_next_to_a_singular_pose(void **state)
 {
   (void)state;
@@ -283,7 +285,8 @@ static void a_run_may_start_next_to_a_singular_pose(void **state)
     check(baum_simulation_counters(run, &counters, sizeof counters));
     const double *q = baum_simulation_q(run);
     const double *v = baum_simulation_v(run);
-    /* v^2 / 2 + k sin th = const; the first accelerations at the flat pose itself are not unique, which costs 3e-6 */
+    /* v^2 / 2 + k sin th = const; the first accelerations at the flat configuration itself are not
+     * unique, which costs 3e-6 */
     double energy = v[2] * v[2] / 2.0 + pull * (sin(q[2]) - sin(data->angle));
     printf("%-34s angle %.9f, energy off by %.1e\n", TELL_APART[k].name, q[2], energy - 2.0);
     assert_true(fabs(energy - 2.0) <= 1e-5);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A parallelogram with three cranks and one pin twice, three rows too many, through every integrator, formulation and
- * solver: the motion is that of the same mechanism without them; the joints whose multipliers are not unique are named.
+/* A parallelogram with three cranks and one pin twice, three rows too many, through every
+ * integrator, formulation and solver: the motion is that of the same mechanism without them; the
+ * joints whose multipliers are not unique are named.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -117,8 +118,9 @@ static void run_alone(comparison *c, const baum_simulation_options *options)
   baum_simulation_destroy(run);
 }
 
-/* Of two choices of rows each drifts in its own way, or fails in its own way within IDA's iteration: by parts of the
- * method's error. A method with a step of its own has that error where its tolerance is. */
+/* Of two choices of rows each drifts in its own way, or fails in its own way within IDA's
+ * iteration: by parts of the method's error. A method with a step of its own has that error where
+ * its tolerance is. */
 static double allowed(const comparison *c, const method *with)
 {
   return with->mode.fixed ? 1e-2 * c->own + 1e-11 : 10.0 * RTOL;
@@ -166,8 +168,8 @@ static void redundant_rows_change_no_motion(void **state)
 
 /* ---- rows that were left out are looked after ---- */
 
-/* A link driven twice at its pin to the ground, by rate t and by rate t + acceleration t^2 / 2, and another one that
- * hangs on it. */
+/* A link driven twice at its pin to the ground, by rate t and by rate t + acceleration t^2 / 2, and
+ * another one that hangs on it. */
 static baum_mechanism *driven_twice(double acceleration)
 {
   baum_mechanism *m = NULL;
@@ -213,7 +215,8 @@ static void part(const method *with, void *context)
     bool warned =
       warns(run, counters.warnings, "motor\" that was left out as redundant is violated", "t = ");
     expect(warned == (k == 1), with, "motors that part are told of", k);
-    /* off by the method's own violation, 1e-2 at first order; the last of its own steps may go beyond END */
+    /* off by the method's own violation, 1e-2 at first order; the last of its own steps may go
+     * beyond END */
     expect(k == 1 ? counters.max_phi >= ANGLE - 2e-2 : counters.max_phi <= 2e-2, with,
            "largest violation", counters.max_phi);
     baum_simulation_destroy(run);

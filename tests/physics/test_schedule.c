@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scheduled inputs: a body on a pin without gravity, turned by a torque that is an input and jumps at three times. Its
- * motion is known: polynomials of degree 2 in time, which every method of order 2 follows to rounding if it keeps to one
- * side of a jump.
+/* Scheduled inputs: a body on a pin without gravity, turned by a torque that is an input and jumps
+ * at three times. Its motion is known: polynomials of degree 2 in time, which every method of order
+ * 2 follows to rounding if it keeps to one side of a jump.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -128,9 +128,9 @@ static double error_now(const baum_simulation *run)
   return fmax(fabs(baum_simulation_q(run)[2] - angle), fabs(baum_simulation_v(run)[2] - rate));
 }
 
-/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2) |torque| t in the
- * angle. Steps of their own: ten tolerances of rates up to 6 rad/s. Generalized-alpha begins with accelerations that are not of its
- * order: with h^2 50 times 20. */
+/* Fixed steps of order 2 and higher: rounding of about 200 steps. Eulers have their error of (h/2)
+ * |torque| t in the angle. Steps of their own: ten tolerances of rates up to 6 rad/s.
+ * Generalized-alpha begins with accelerations that are not of its order: with h^2 50 times 20. */
 static double allowed(step_mode mode)
 {
   if (!mode.fixed) {
@@ -220,7 +220,8 @@ static void steps_stop_at_jumps(void **state)
   }
 }
 
-/* Two inputs that jump together and nearer to each other than a break is wide: back at the start both are as they were. */
+/* Two inputs that jump together and nearer to each other than a break is wide: back at the start
+ * both are as they were. */
 static void jumps_together_are_all_undone(void **state)
 {
   (void)state;
@@ -263,7 +264,8 @@ static void a_schedule_may_be_given_late(void **state)
     assert_int_equal(baum_simulation_schedule_input(run, d.torque, later, none, 1), BAUM_OK);
     assert_int_equal(step_mode_advance(mode, run, 1.6), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate + 0.2 * TORQUE[JUMPS], 0.0, allowed(mode));
-    /* What the schedule was before is no more: back in time it has the value that it had at the call. */
+    /* What the schedule was before is no more: back in time it has the value that it had at the
+     * call. */
     assert_int_equal(step_mode_advance(mode, run, 1.0), BAUM_OK);
     ASSERT_NEAR(baum_simulation_v(run)[2], rate - 0.3 * TORQUE[JUMPS], 0.0, 2.0 * allowed(mode));
     close_all(run, &d);
@@ -402,7 +404,7 @@ static void setting_an_input_ends_its_schedule(void **state)
   assert_int_equal(baum_simulation_schedule_input(run, d.other, TIMES, TORQUE, 1), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 0.3), BAUM_OK);
   int64_t restarts = counters_of(run).restarts;
-  /* Likewise with the value that it has; no step begins anew. */
+  /* Likewise with the value that it has; no step restarts. */
   assert_int_equal(baum_simulation_set_input(run, d.torque, TORQUE[0]), BAUM_OK);
   assert_int_equal(baum_simulation_schedule_input(run, d.other, NULL, NULL, 0), BAUM_OK);
   assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs through singular poses tell what has become of them, and runs away from such poses say nothing. A part of what
- * bench_singular counts: two starts of each mechanism.
+/* Runs through singular configurations tell what has become of them, and runs away from such
+ * configurations say nothing. A part of what bench_singular counts: two starts of each mechanism.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -13,7 +13,8 @@
 
 #include "singular_scenes.h"
 
-/* Branches that are left end up radians away; errors of the loosest tolerance here stay below it. */
+/* Branches that are left end up radians away; errors of the loosest tolerance here stay below
+ * it. */
 static const double WRONG = 0.1;
 
 static const struct {
@@ -67,7 +68,8 @@ static void every_wrong_run_warns_and_right_ones_have_no_branch_warning(void **s
   assert_true(20 * alarmed <= right);
 }
 
-/* The setting that docs/theory/singular.md recommends. Its errors there are at most 1e-8; the bound is what is promised. */
+/* The setting that docs/theory/singular.md recommends. Its errors there are at most 1e-8; the bound
+ * is what is promised. */
 static void recommended_setting_is_accurate(void **state)
 {
   (void)state;
@@ -84,8 +86,9 @@ static void recommended_setting_is_accurate(void **state)
   }
 }
 
-/* The first flat pose of the second start is 5e-7 rad from the end of a step: an acceleration as the equations have it there,
- * of no digit, made the run wrong by 1.1 rad. In the ninth of 20 windows projection did not converge. Others are off by 4e-6. */
+/* The first flat configuration of the second start is 5e-7 rad from the end of a step: an
+ * acceleration as the equations have it there, of no digit, made the run wrong by 1.1 rad. In the
+ * ninth of 20 windows projection did not converge. Others are off by 4e-6. */
 static void fixed_steps_may_end_in_a_pose(void **state)
 {
   (void)state;
@@ -109,7 +112,7 @@ static void fixed_steps_may_end_in_a_pose(void **state)
   }
 }
 
-/* An interval as it is at the first flat pose of a four-bar: time, joint, branch. */
+/* An interval as it is at the first flat configuration of a four-bar: time, joint, branch. */
 static void intervals_have_times_joints_and_branches(void **state)
 {
   (void)state;
@@ -131,8 +134,9 @@ static void intervals_have_times_joints_and_branches(void **state)
   assert_int_equal(baum_simulation_near_singular(run, 0, &entry, sizeof entry), BAUM_OK);
   assert_int_equal(entry.struct_size, sizeof entry);
   assert_true(entry.begin < entry.t && entry.t < entry.end);
-  /* Flat where the crank has turned by a right angle, by the equation of the angle (mpmath, 25 digits). The time is known
-   * to a millionth of two steps, 1e-8 s, and the pivot to its square; the method's error here is 3e-9. */
+  /* Flat where the crank has turned by a right angle, by the equation of the angle (mpmath, 25
+   * digits). The time is known to a millionth of two steps, 1e-8 s, and the pivot to its square;
+   * the method's error here is 3e-9. */
   assert_true(fabs(entry.t - 0.7084500088357589) <= 3e-8);
   assert_true(entry.pivot < 1e-11);
   assert_int_equal(entry.branch, BAUM_BRANCH_CONTINUED);
@@ -145,7 +149,7 @@ static void intervals_have_times_joints_and_branches(void **state)
   model_destroy(&m);
 }
 
-/* ---- away from singular poses ---- */
+/* ---- away from singular configurations ---- */
 
 /* The configuration at 10 s; false where the run has stopped or doubts the motion. */
 static bool trusts(const model *m, const baum_integrator *method, baum_formulation formulation,
@@ -166,8 +170,8 @@ static bool trusts(const model *m, const baum_integrator *method, baum_formulati
   return status >= BAUM_OK && c.doubts == 0;
 }
 
-/* A small kick at a singular configuration leaves a violation that takes the next ones out of reach: the motion turns before
- * them, to the other branch. */
+/* A small kick at a singular configuration leaves a violation that takes the next ones out of
+ * reach: the motion turns before them, to the other branch. */
 static void drifting_runs_that_leave_their_branch_doubt_the_motion(void **state)
 {
   (void)state;
@@ -286,8 +290,8 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
   return c;
 }
 
-/* Pivots fall to the ratio of masses where the slot holds the bob by the light rod; J keeps its rank. No step may go over
- * that, as one does over a singular pose. */
+/* Pivots fall to the ratio of masses where the slot holds the bob by the light rod; J keeps its
+ * rank. No step may go over that, as one does over a singular pose. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs that start in a singular pose, or all but in one: methods that choose their steps go on with a warning, or end
- * with a sentence; either soon.
+/* Runs that start in a singular configuration, or all but in one: methods that choose their steps
+ * go on with a warning, or end with a message; either soon.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -13,8 +13,9 @@
 
 #include "models.h"
 
-/* A few steps lead out of a pose, and 10 tries next to it that lead nowhere are the last: 34 at most have been seen. How many
- * it takes depends on rounding. A run that creeps takes a hundred thousand and more. */
+/* A few steps lead out of a configuration, and 10 tries next to it that lead nowhere are the last:
+ * 34 at most have been seen. How many it takes depends on rounding. A run that creeps takes a
+ * hundred thousand and more. */
 enum { MOST_TRIES = 1000 };
 
 static const double END = 0.3; /* [s] most of a radian at 3 rad/s */
@@ -31,7 +32,7 @@ static baum_simulation *create(const model *m, const baum_integrator *integrator
   return run;
 }
 
-/* To `end`, with a warning or a sentence in a few tries. */
+/* To `end`, with a warning or a message in a few tries. */
 static baum_status run_to(baum_simulation *run, double end)
 {
   baum_counters c;
@@ -46,7 +47,7 @@ static baum_status run_to(baum_simulation *run, double end)
 
 /* ---- four-bars ---- */
 
-/* want: [rad] the cranks at END; NaN: a sentence is as good. */
+/* want: [rad] the cranks at END; NaN: a message is as good. */
 static void run_all(int loops, double angle, double rate, double want)
 {
   model m;
@@ -59,7 +60,8 @@ static void run_all(int loops, double angle, double rate, double want)
     baum_status status = run_to(run, END);
     assert_true(status == BAUM_WARNED || (isnan(want) && status < BAUM_OK));
     for (int i = 2; !isnan(want) && i < 3 * m.body_count; i += 6) {
-      /* The cranks of another branch are radians off; dp5 at the loosest tolerance is off by 2e-5. */
+      /* The cranks of another branch are radians off; dp5 at the loosest tolerance is off by
+       * 2e-5. */
       assert_true(fabs(baum_simulation_q(run)[i] - want) <= 1e-4);
     }
     baum_simulation_destroy(run);
@@ -67,8 +69,8 @@ static void run_all(int loops, double angle, double rate, double want)
   model_destroy(&m);
 }
 
-/* [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th with N windows, from 0 and 3 rad/s, by the classical method with
- * steps of 1e-5 s. */
+/* [(N + 1) / 3 + N] th'' = -[(N + 1) / 2 + N] g cos th with N windows, from 0 and 3 rad/s, by the
+ * classical method with steps of 1e-5 s. */
 static const struct {
   int loops;
   double want; /* [rad] at END */
@@ -92,8 +94,8 @@ static void at_rest_a_run_goes_on_with_a_warning_or_ends(void **state)
 
 /* ---- slider-crank of equal links ---- */
 
-/* At pi/2 + off and 150 rad/s, the rod turning the other way. The angle of the rod must be given: what follows from the
- * sine of the crank's has lost half of its digits here. */
+/* At pi/2 + off and 150 rad/s, the rod turning the other way. The angle of the rod must be given:
+ * what follows from the sine of the crank's has lost half of its digits here. */
 static void fold(baum_simulation *run, double off)
 {
   static const double L = 0.153;

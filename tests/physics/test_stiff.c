@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two rods of 1 m and 1 kg: one is pinned to the ground, the other hangs at its tip by a bushing, a spring of 1e6 N/m and a
- * damper of 1e3 N s/m in each of two directions. In the bushing motion dies at some 1e3 to 1e4 1/s, and is gone after
- * milliseconds; the rods swing at 3 to 7 1/s. What is stiff for Adams must not be for BDF, at the same tolerance.
+/* Two rods of 1 m and 1 kg: one is pinned to the ground, the other hangs at its tip by a bushing, a
+ * spring of 1e6 N/m and a damper of 1e3 N s/m in each of two directions. In the bushing motion dies
+ * at some 1e3 to 1e4 1/s, and is gone after milliseconds; the rods swing at 3 to 7 1/s. What is
+ * stiff for Adams must not be for BDF, at the same tolerance.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -115,7 +116,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
   (void)state;
   need_sundials();
   baum_mechanism *mechanism = make_rods();
-  /* An explicit method of another kind, whose steps the bushing bounds so that its error is far below all others. */
+  /* An explicit method of another kind, whose steps the bushing bounds so that its error is far
+   * below all others. */
   stiff_run want = run_to_the_end(mechanism, baum_rk8(), BAUM_FORMULATION_PROJECTION, 1e-9);
   printf("\n%-12s %-13s %8s %8s %12s %10s\n", "bushing", "", "rtol", "steps", "evaluations",
          "error");
@@ -126,7 +128,8 @@ static void bdf_takes_a_bushing_in_large_steps(void **state)
     stiff_run bdf = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-4, &want);
     assert_true(20 * bdf.counters.steps <= adams.counters.steps);
     stiff_run finer = report(mechanism, baum_cvode_bdf(), formulations[k], 1e-7, &want);
-    /* Three decades of order 4 to 5 give some 250; a Jacobian that is wrong shows in steps, not here. */
+    /* Three decades of order 4 to 5 give some 250; a Jacobian that is wrong shows in steps, not
+     * here. */
     assert_true(error_of(&finer, &want) <= error_of(&bdf, &want) / 10.0);
   }
   baum_mechanism_destroy(mechanism);

@@ -102,7 +102,7 @@ static void own_references_agree_with_those_of_the_catalogue(void **state)
   }
 }
 
-/* Ground over a crossing of a flat pose: branches cross there. */
+/* Ground over a crossing of a flat configuration: branches cross there. */
 static void a_motion_past_a_singular_pose_has_no_trusted_reference(void **state)
 {
   (void)state;
@@ -216,7 +216,8 @@ static void two_threads_give_the_entries_of_one(void **state)
 
 /* ---- answers ---- */
 
-/* An entry is on the front if no entry on it is as good in both; and the front goes from cheap to exact. */
+/* An entry is on the front if no entry on it is as good in both; and the front goes from cheap to
+ * exact. */
 static void check_front(const baum_study *study, const int32_t *entries, int32_t count)
 {
   for (int32_t k = 0; k < baum_study_entry_count(study); k++) {

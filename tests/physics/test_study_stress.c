@@ -27,8 +27,8 @@ static baum_study *stress_of(const baum_mechanism *mechanism, const baum_integra
   return study;
 }
 
-/* What an entry without a warning promises: errors of all steps add up, each up to ten tolerances, and so does rounding; a
- * fixed step promises no more than the motion itself. */
+/* What an entry without a warning promises: errors of all steps add up, each up to ten tolerances,
+ * and so does rounding; a fixed step promises no more than the motion itself. */
 static double promise(const baum_study_entry *entry)
 {
   const double rounding = 1e-12;
@@ -41,7 +41,7 @@ static void check_entry(const baum_study_entry *entry)
   if (entry->state != BAUM_STUDY_DONE) {
     assert_string_not_equal(entry->message, "");
   } else if (entry->warnings == 0 && !(entry->error <= promise(entry))) {
-    fail_msg("%s is off by %g without a word", entry->name, entry->error);
+    fail_msg("%s is off by %g silently", entry->name, entry->error);
   }
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Studies with many threads on one mechanism, several of them at once: entries are those of one thread, to the last bit.
- * To be run under the thread sanitizer as well.
+/* Studies with many threads on one mechanism, several of them at once: entries are those of one
+ * thread, to the last bit. To be run under the thread sanitizer as well.
  *
  * cmocka's checks are for the main thread: the others only report.
  */

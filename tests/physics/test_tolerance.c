@@ -24,8 +24,8 @@ enum { MIDDLE = TOLERANCES / 2 };
 static const double LEAST_FALL = 7.0;
 /* At order p it is like rtol^(p / (p + 1)), so that BDF, which ends at order 5, has 6.8 if it is
  * always there: measured 7.0 (CVODE) and 7.2 to 7.3 (IDA) here, and 6.5 and 6.4 in the mean of 40
- * start poses or ends of each mechanism. Order 3 would have 5.6, and an error that stops falling
- * less. */
+ * start configurations or ends of each mechanism. Order 3 would have 5.6, and an error that stops
+ * falling less. */
 static const double LEAST_FALL_OF_BDF = 6.0;
 /* Of a single mechanism, where a lucky run at one end weighs more. */
 static const double LEAST_SINGLE_FALL = 5.5;

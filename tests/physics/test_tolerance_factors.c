@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* tolerance_q and tolerance_v: each governs the error alone where the other is out of the way, and both together are
- * as another rtol, for every method that chooses its steps.
+/* tolerance_q and tolerance_v: each governs the error alone where the other is out of the way, and
+ * both together are as another rtol, for every method that chooses its steps.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,8 +24,9 @@ static const reference SWING = {.name = "pendulum",
 static const double RTOL = 1e-5;
 static const double SMALL = 1e-3;
 static const double OUT_OF_THE_WAY = 1e6;
-/* A thousandth of the tolerance: with order p the error falls by (1e3)^(p/(p+1)), 100 to 500 at the orders 2 to 8 that
- * methods are at here; the rest is for luck at both ends, which a single swing has. Measured 22 to 7e3. */
+/* A thousandth of the tolerance: with order p the error falls by (1e3)^(p/(p+1)), 100 to 500 at the
+ * orders 2 to 8 that methods are at here; the rest is for luck at both ends, which a single swing
+ * has. Measured 22 to 7e3. */
 static const double LEAST_FALL = 10.0;
 
 typedef struct factors {

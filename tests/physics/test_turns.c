@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Angles that have gone round 10000 times: a body does not know how often it has turned, but what an
- * angle of 6e4 rad can hold: 7e-12 rad.
+/* Angles that have gone round 10000 times: a body does not know how often it has turned, but what
+ * an angle of 6e4 rad can hold: 7e-12 rad.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -93,15 +93,16 @@ static baum_simulation *start_run(const posed *p, const baum_simulation_options 
   return run;
 }
 
-/* Largest difference, lengths by the scale of the mechanism, after the same time with and without the
- * turns. */
+/* Largest difference, lengths by the scale of the mechanism, after the same time with and without
+ * the turns. */
 static double compare_runs(int which, const baum_simulation_options *options, double end)
 {
   posed p = pose_case(which, TURNS * TURN);
   double scale = (double)NAN;
   check(baum_mechanism_get_characteristic_length(p.m.mechanism, &scale));
   baum_simulation *turned = start_run(&p, options);
-  /* A mechanism of its own, so that nothing is measured from a turned pose: a driver's start. */
+  /* A mechanism of its own, so that nothing is measured from a turned configuration: a driver's
+   * start. */
   posed other = pose_case(which, 0.0);
   turn_back(p.nv, p.q);
   (void)memcpy(other.q, p.q, (size_t)p.nv * sizeof *p.q);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same mechanism in metres, kilograms, seconds and in millimetres, grams, milliseconds: the same
- * motion, by the same steps.
+/* The same mechanism in metres, kilograms, seconds and in millimetres, grams, milliseconds: the
+ * same motion, by the same steps.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -15,8 +15,8 @@ enum { CASES = 6, LINKS = 10 };
 
 static const char *const NAMES[CASES] = {"slider-crank", "slider-crank, driven", "four-bar",
                                          "Andrews",      "four-bar N = 10",      "chain N = 10"};
-/* [s] Some turns of slider-crank and Andrews, swings of the others: short enough that differences of
- * rounding do not grow into others. */
+/* [s] Some turns of slider-crank and Andrews, swings of the others: short enough that differences
+ * of rounding do not grow into others. */
 static const double END[CASES] = {0.02, 0.02, 0.5, 0.005, 0.5, 0.5};
 
 static baum_status build_chain(const model_units *units, model *m)

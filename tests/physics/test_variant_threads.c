@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A thousand variants of one mechanism, made by copy, set and freeze in several threads at once. To be
- * run under the thread sanitizer as well.
+/* A thousand variants of one mechanism, made by copy, set and freeze in several threads at once. To
+ * be run under the thread sanitizer as well.
  *
- * The crank is driven, so that accelerations do not depend on the slider's mass m, and multipliers are
- * lambda_0 + m lambda_1.
+ * The crank is driven, so that accelerations do not depend on the slider's mass m, and multipliers
+ * are lambda_0 + m lambda_1.
  *
  * cmocka's checks are for the main thread: the others only report.
  */

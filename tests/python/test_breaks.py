@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Break times, and what a run says of singular poses; the rest is tested in C."""
+"""Break times, and what a run says of singular configurations; the rest is tested in C."""
 
 import math
 import unittest
@@ -45,7 +45,7 @@ class NearSingular(unittest.TestCase):
         m.revolute("D", m.ground, c, point=(2, 0))
         s = m.copy(a=dict(angular_velocity=2)).freeze().simulation("rk8", rtol=1e-8)
         self.assertEqual(s.near_singular, [])
-        with self.assertWarnsRegex(baum.Warning, "near a singular pose"):
+        with self.assertWarnsRegex(baum.Warning, "near a singular configuration"):
             s.advance_to(1)
         crossings = s.near_singular
         self.assertEqual(len(crossings), s.counters.near_singular_intervals)

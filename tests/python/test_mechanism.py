@@ -98,7 +98,7 @@ class Building(unittest.TestCase):
         self.assertEqual((mobility.degrees_of_freedom, mobility.redundant_rows), (1, 0))
         self.assertIsInstance(mobility.worst_phi, float)
         self.assertEqual(str(mobility), mobility.text)
-        self.assertIn("1 freedom", str(mobility))
+        self.assertIn("1 degree of freedom", str(mobility))
 
     def test_report_tells_what_it_costs(self):
         report = slider_crank().report()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What is no number, no truth, no name or no whole is refused with a sentence; nothing is guessed. What a
+"""What is no number, no truth, no name or no whole is refused with a message; nothing is guessed. What a
 run had recorded survives whatever ends it."""
 
 import copy
@@ -13,8 +13,8 @@ from mechanisms import pendulum, rod_pendulum
 
 
 class Values(unittest.TestCase):
-    def says(self, kind, sentence, call, *arguments, **fields):
-        with self.assertRaisesRegex(kind, sentence):
+    def says(self, kind, message, call, *arguments, **fields):
+        with self.assertRaisesRegex(kind, message):
             call(*arguments, **fields)
 
     def test_text_is_no_number(self):
@@ -80,8 +80,8 @@ class Values(unittest.TestCase):
 class Instead(unittest.TestCase):
     """Messages say what to do in Python, and speak of nothing else."""
 
-    def says(self, kind, sentence, call, *arguments, **fields):
-        with self.assertRaisesRegex(kind, sentence) as caught:
+    def says(self, kind, message, call, *arguments, **fields):
+        with self.assertRaisesRegex(kind, message) as caught:
             call(*arguments, **fields)
         self.assertNotRegex(str(caught.exception), r"baum_|BAUM_")
 

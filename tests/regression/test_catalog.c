@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The catalogue against itself and against tables that were made otherwise (tests/data): references fulfil the constraints
- * of their mechanisms and begin where these begin, runs come to them, and formulas are as exact as they say.
+/* The catalogue against itself and against tables that were made otherwise (tests/data): references
+ * fulfil the constraints of their mechanisms and begin where these begin, runs come to them, and
+ * formulas are as exact as they say.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -183,7 +184,8 @@ static baum_catalog_error run(const known *k, double rtol)
 static void look_at_run(const known *k)
 {
   baum_catalog_error error = run(k, 1e-11);
-  /* Measured up to 5e-10, where errors of a step add up over hundreds of steps, and 6e-9 past flat poses. */
+  /* Measured up to 5e-10, where errors of a step add up over hundreds of steps, and 6e-9 past flat
+   * poses. */
   double wanted = k->entry.smooth ? 1e-9 : 1e-7;
   assert_true(error.q <= wanted && error.v <= wanted);
   assert_true(error.q_final <= error.q && error.v_final <= error.v);

@@ -57,8 +57,8 @@ static void the_closed_form_is_that_of_the_table(void **state)
   }
 }
 
-/* Prints how the error grows; returns the last. A period that is off by a constant share makes an error
- * like t, one that drifts, as energy does, one like t^2. */
+/* Prints how the error grows; returns the last. A period that is off by a constant share makes an
+ * error like t, one that drifts, as energy does, one like t^2. */
 static double follow(const model *m, const baum_simulation_options *o)
 {
   baum_simulation *run = NULL;

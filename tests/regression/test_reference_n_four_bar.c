@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* IFToMM/A Coruna A02 with 40 windows, 243 coordinates and 242 rows, from upright up to its first flat
- * position, where J loses 40 rows, against tests/data.
+/* IFToMM/A Coruna A02 with 40 windows, 243 coordinates and 242 rows, from upright up to its first
+ * flat position, where J loses 40 rows, against tests/data.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -39,8 +39,8 @@ static void angle_and_departure(const double *q, double *out)
   }
 }
 
-/* The last sample is 5e-6 rad away from flat. On the flat position itself no digits can be promised:
- * whether a step ends there is chance, and there J has lost rank to rounding. */
+/* The last sample is 5e-6 rad away from flat. On the flat position itself no digits can be
+ * promised: whether a step ends there is chance, and there J has lost rank to rounding. */
 static const reference TO_FLAT = {.name = "four-bar N = 40",
                                   .samples = N_FOUR_BAR_SAMPLES,
                                   .width = N_FOUR_BAR_WIDTH,
@@ -81,8 +81,9 @@ static void adams_reaches_the_first_flat_position_within_1e_8(void **state)
   model_destroy(&m);
 }
 
-/* Ten seconds lead through the flat position several times, where other branches cross and cranks may part, by
- * radians: they do with INDEX2 and BAUMGARTE. On the branch they move alike, and errors with them; measured at most
+/* Ten seconds lead through the flat position several times, where other branches cross and cranks
+ * may part, by radians: they do with INDEX2 and BAUMGARTE. On the branch they move alike, and
+ * errors with them; measured at most
  * 5e-8. */
 static void ida_with_ggl_stays_on_the_branch_through_flat_positions(void **state)
 {

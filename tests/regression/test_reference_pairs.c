@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All trajectories of tests/data that stay away from singular poses by both Runge-Kutta pairs with projection, rtol from
+/* All trajectories of tests/data that stay away from singular configurations by both Runge-Kutta
+ * pairs with projection, rtol from
  * 1e-4 to 1e-12: none needs a library.
  */
 #include <setjmp.h>
@@ -72,7 +73,8 @@ static void three_coordinates(const double *q, double *out)
     .q = NAME##_Q[0], .lengths = (units)                                              \
   }
 
-/* What both pairs reach. Pendulum and chain swing on for long, and errors of 1e-12 in each step add up or grow. */
+/* What both pairs reach. Pendulum and chain swing on for long, and errors of 1e-12 in each step add
+ * up or grow. */
 typedef struct problem {
   reference with;
   baum_status (*build)(model *m);

@@ -222,11 +222,11 @@ static void sweep_violation(cell_list *list)
   }
 }
 
-/* Towards the flat pose and through it, or away from it. */
+/* Towards the flat configuration and through it, or away from it. */
 static void sweep_singular(cell_list *list)
 {
   for (int decade = 0; decade <= 16; decade++) {
-    cell c = ordinary("singular pose", SCENE_WINDOWS);
+    cell c = ordinary("singular configuration", SCENE_WINDOWS);
     c.scene.gap = decade == 16 ? 0.0 : pow(10.0, -decade);
     c.scene.angle = c.scene.gap;
     c.scene.rate = -2.0;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The same stress grid without this library: the pendulum and the slider-crank as one would write them for CVODE
- * and IDA in an afternoon. Dense matrices, gains of 5 1/s out of the textbook, atol = rtol, the start as it is
- * drawn; nothing is scaled, assembled or watched.
+/* The same stress grid without this library: the pendulum and the slider-crank as one would write
+ * them for CVODE and IDA in an afternoon. Dense matrices, gains of 5 1/s out of the textbook, atol
+ * = rtol, the start as it is drawn; nothing is scaled, assembled or watched.
  *
  *   bare [--list]
  *
- * The counts stand beside those of the library on the same cells, with the same oracle and the same promise.
+ * The counts stand beside those of the library on the same cells, with the same oracle and the same
+ * promise.
  */
 #include <cvode/cvode.h>
 #include <ida/ida.h>

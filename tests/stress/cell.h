@@ -48,7 +48,7 @@ typedef struct grade {
   double all_seconds; /* and of the oracle */
   int64_t steps;
   baum_status status;
-  char sentence[400];
+  char message[400];
 } grade;
 
 const char *outcome_name(outcome o);

@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a run promises, and whether it has kept it.
  *
- * Errors are the largest of positions at the end, of the length scale or in radians. Where steps are
- * chosen, the error of each, a mean over all coordinates, is estimated and held at rtol; later it grows
- * as neighbouring motions part. So the promise is
+ * Errors are the largest of positions at the end, of the length scale or in radians. Where steps
+ * are chosen, the error of each, a mean over all coordinates, is estimated and held at rtol; later
+ * it grows as neighbouring motions part. So the promise is
  *
  *   CONSTANT x rtol x steps x growth
  *
- * with the growth of the oracle's own neighbours, and a constant for what is between the mean and the
- * largest, and between an error and its estimate. With a fixed step it is what a method of order p leaves,
+ * with the growth of the oracle's own neighbours, and a constant for what is between the mean and
+ * the largest, and between an error and its estimate. With a fixed step it is what a method of
+ * order p leaves,
  *
  *   CONSTANT x rate T x (rate h)^p x growth
  *
- * for the fastest rate of the motion: error constants of all methods here are below 1, and derivatives of
- * a motion are a few times powers of that rate. Both have the rounding of a double for each step added.
+ * for the fastest rate of the motion: error constants of all methods here are below 1, and
+ * derivatives of a motion are a few times powers of that rate. Both have the rounding of a double
+ * for each step added.
  */
 #include <math.h>
 #include <stdio.h>
@@ -25,8 +27,8 @@
 enum { LOOKS = 8 };
 
 static const double CONSTANT = 10.0;
-/* An error above this share of the mechanism, and above so many tolerances, is no answer, whatever a step may leave and
- * however neighbours part. */
+/* An error above this share of the mechanism, and above so many tolerances, is no answer, whatever
+ * a step may leave and however neighbours part. */
 static const double WORTHLESS = 0.1;
 static const double TOLERANCES = 30.0;
 static const double ROUNDING = 1e-15;
@@ -146,9 +148,9 @@ static baum_simulation_options options_of(const cell *c, double period)
   return o;
 }
 
-static void note(grade *out, const char *sentence)
+static void note(grade *out, const char *message)
 {
-  (void)snprintf(out->sentence, sizeof out->sentence, "%s", sentence);
+  (void)snprintf(out->message, sizeof out->message, "%s", message);
 }
 
 static void count(trial *t)
@@ -259,7 +261,7 @@ static void measure(const cell *c, const trial *t, cell_time time, grade *out)
   cell_measure(c, &t->scene, baum_simulation_q(t->run), &time, out);
 }
 
-/* Below this distance a pose is singular for doubles. */
+/* Below this distance a configuration is singular for doubles. */
 static const double SINGULAR = 1e-10;
 
 static outcome judge(const trial *t, const grade *g)
@@ -328,7 +330,8 @@ grade cell_grade(const cell *c)
     measure(c, &t, time, &out);
   }
   out.outcome = judge(&t, &out);
-  /* Which way a motion goes from a singular pose is open, however well one of them has been followed. */
+  /* Which way a motion goes from a singular configuration is open, however well one of them has
+   * been followed. */
   bool open = c->scene.gap <= SINGULAR;
   out.false_alarm = (out.outcome == WARNED && out.error <= out.promise && !open) ||
                     (out.outcome == REFUSED && refused_in_vain(c, &o, time, t.status));

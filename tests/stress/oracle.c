@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard, Numerische Mathematik
- * 41 (1983) 373). Its error is a series in h^2 whatever the Jacobian, which therefore may be taken by
- * differences; with none it is the method of Gragg, Bulirsch and Stoer.
+/* Extrapolation of the linearly implicit midpoint rule (G. Bader, P. Deuflhard, Numerische
+ * Mathematik
+ * 41 (1983) 373). Its error is a series in h^2 whatever the Jacobian, which therefore may be taken
+ * by differences; with none it is the method of Gragg, Bulirsch and Stoer.
  */
 #include "oracle.h"
 

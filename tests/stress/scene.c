@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* With the pose p(x) of all coordinates as a function of one angle, and masses m,
+/* With the configuration p(x) of all coordinates as a function of one angle, and masses m,
  *
  *   (sum m p'^2) x'' = sum (G p' - m p' p'' x'^2) - k (x - x_r) - d x'
  *
@@ -19,9 +19,10 @@ scene scene_of(scene_kind kind)
 {
   return (scene){.kind = kind,
                  .count = kind == SCENE_CHAIN ? 3 : 2,
-                 .angle = kind == SCENE_FOUR_BAR  ? 1.0
-                          : kind == SCENE_WINDOWS ? -1.0 /* hangs, and does not reach flat poses */
-                                                  : 0.3,
+                 .angle = kind == SCENE_FOUR_BAR ? 1.0
+                          : kind == SCENE_WINDOWS
+                            ? -1.0 /* hangs, and does not reach flat configurations */
+                            : 0.3,
                  .rate = kind == SCENE_CHAIN ? 3.0 : 1.0,
                  .gravity = kind == SCENE_CHAIN ? 0.0 : 9.81,
                  .ratio = 1.0,
@@ -190,7 +191,8 @@ static double mass_of(const scene *s, int body)
   return last && s->kind != SCENE_PENDULUM ? mass * s->ratio : mass;
 }
 
-/* The one body of a pendulum is all its mass; its ratio is that of its inertia to a uniform rod's. */
+/* The one body of a pendulum is all its mass; its ratio is that of its inertia to a uniform
+ * rod's. */
 static double inertia_of(const scene *s, int body)
 {
   double length = length_of(s, body);

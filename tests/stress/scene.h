@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of one freedom whose motion is known from one equation for one angle, with every number
- * that the stress grid goes through. SI units; `units` only says in which ones the mechanism is built.
+/* Mechanisms of one freedom whose motion is known from one equation for one angle, with every
+ * number that the stress grid goes through. SI units; `units` only says in which ones the mechanism
+ * is built.
  */
 #ifndef BAUM_TEST_SCENE_H
 #define BAUM_TEST_SCENE_H
@@ -34,7 +35,8 @@ typedef struct scene {
   double violation; /* [m] by which the last body is drawn beside its place */
   int spare;        /* joints that say again what others say */
   double off;       /* [m] by which spare joints disagree */
-  double gap; /* [rad] or [-] from a singular pose at start; tells the grade, not the mechanism */
+  double
+    gap; /* [rad] or [-] from a singular configuration at start; tells the grade, not the mechanism */
   model_units units;
 } scene;
 
@@ -44,7 +46,8 @@ const char *scene_name(scene_kind kind);
 
 baum_status scene_build(const scene *s, model *out);
 
-/* Where the motor, in doubles, has the first body at start [rad]; the angle at start without one. */
+/* Where the motor, in doubles, has the first body at start [rad]; the angle at start without
+ * one. */
 double scene_begin(const scene *s);
 /* Numbers of q per body. */
 int scene_width(const scene *s);

@@ -53,7 +53,7 @@ static void print_cell(const cell *c, const grade *g)
     "  %s = %g, %s (%d), %s: %s%s, error %.1e, promised %.1e, %lld steps, %.2f s of %.2f s%s%s\n",
     c->axis, c->value, scene_name(c->scene.kind), scene_bodies(&c->scene), c->way->name,
     outcome_name(g->outcome), g->false_alarm ? ", false alarm" : "", g->error, g->promise,
-    (long long)g->steps, g->seconds, g->all_seconds, g->sentence[0] ? "\n      " : "", g->sentence);
+    (long long)g->steps, g->seconds, g->all_seconds, g->message[0] ? "\n      " : "", g->message);
   (void)fflush(stdout);
 }
 
@@ -138,7 +138,8 @@ int main(int argc, char **argv)
   if (w.json) {
     print_json(&all);
   }
-  /* One in twenty; of the hundred cells of a thinned map so many may be nearly twice that by chance. */
+  /* One in twenty; of the hundred cells of a thinned map so many may be nearly twice that by
+   * chance. */
   int cells_to_an_alarm = w.thin > 1 ? 10 : 20;
   bool fine = all.of[WRONG] == 0 && cells_to_an_alarm * all.false_alarms <= all.cells;
   return fine ? EXIT_SUCCESS : EXIT_FAILURE;

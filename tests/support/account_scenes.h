@@ -23,7 +23,7 @@ typedef struct account_scene {
 
 extern const account_scene account_scenes[ACCOUNT_SCENES];
 
-/* Frozen. NULL on failure, with the sentence. */
+/* Frozen. NULL on failure, with the message. */
 baum_mechanism *account_build(const account_scene *scene);
 
 #endif

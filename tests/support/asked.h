@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A mechanism with every kind of function that a user may give, each of which can be put at fault, or calls back.
+/* A mechanism with every kind of function that a user may give, each of which can be put at fault,
+ * or calls back.
  *
- *   masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling, torsion spring, user force),
- *   a driven crank, a pea on a curve with a spring; one input, the stiffness of the masses
+ *   masses (user coordinates), a bead on a hoop (user constraint), two arms (coupling, torsion
+ *   spring, user force), a driven crank, a pea on a curve with a spring; one input, the stiffness
+ *   of the masses
  */
 #ifndef BAUM_TEST_ASKED_H
 #define BAUM_TEST_ASKED_H
@@ -31,7 +33,7 @@ typedef enum asked_kind {
   ASKED_PROGRESS = ASKED_KINDS
 } asked_kind;
 
-/* Element and function as sentences name them. */
+/* Element and function as messages name them. */
 typedef struct asked_name {
   const char *element;
   const char *function;

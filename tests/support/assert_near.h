@@ -5,7 +5,8 @@
 
 #include <math.h>
 
-/* |got - want| <= atol + rtol |want|, in double; prints both sides. NaN fails; equal infinities pass. */
+/* |got - want| <= atol + rtol |want|, in double; prints both sides. NaN fails; equal infinities
+ * pass. */
 #define ASSERT_NEAR(got, want, rtol, atol) \
   assert_near_((got), (want), (rtol), (atol), #got, __FILE__, __LINE__)
 

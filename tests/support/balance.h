@@ -6,8 +6,8 @@
 #include "point.h"
 
 /* Forces and moments on all its bodies add up to nothing for every joint of one row and without
- * ground, at the present state: it does not resist a motion of its bodies as one. (Two rows of a pin
- * are in ground axes; their moments balance only where the points coincide.) */
+ * ground, at the present state: it does not resist a motion of its bodies as one. (Two rows of a
+ * pin are in ground axes; their moments balance only where the points coincide.) */
 void check_rows_balance(test_point *p);
 
 #endif

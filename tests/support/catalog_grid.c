@@ -28,7 +28,8 @@ int catalog_tally_wrong(const catalog_tally *of)
 
 /* ---- two studies ---- */
 
-/* An entry, studied twice up to the sample until which times of the catalogue are equally spaced, as those of a study are. */
+/* An entry, studied twice up to the sample until which times of the catalogue are equally spaced,
+ * as those of a study are. */
 typedef struct pair {
   const baum_catalog_entry *entry;
   double *times; /* of the catalogue */
@@ -213,7 +214,8 @@ static int count_entries(const baum_study *study, const baum_integrator *integra
   return count;
 }
 
-/* Every integrator has each of its formulations with all settings, BAUMGARTE with all constants and a rule. */
+/* Every integrator has each of its formulations with all settings, BAUMGARTE with all constants and
+ * a rule. */
 static int count_missing(const baum_study *study, const baum_study_grid *grid)
 {
   int missing = 0;

@@ -25,8 +25,9 @@ void catalog_tally_add(catalog_tally *sum, const catalog_tally *of);
 /* How many entries are not as they should be. */
 int catalog_tally_wrong(const catalog_tally *of);
 
-/* Study an entry that has a reference twice, with these settings: with the study's own reference and with the stored one.
- * Entries that are wrong are printed. limit [s] is the option entry_limit. */
+/* Study an entry that has a reference twice, with these settings: with the study's own reference
+ * and with the stored one. Entries that are wrong are printed. limit [s] is the option
+ * entry_limit. */
 baum_status catalog_grid_judge(const baum_catalog_entry *entry, const baum_study_grid *grid,
                                double limit, catalog_tally *out);
 

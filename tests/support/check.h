@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a test takes for granted: calls that do not fail, a build with SUNDIALS. Include after cmocka.h. */
+/* What a test takes for granted: calls that do not fail, a build with SUNDIALS. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_CHECK_H
 #define BAUM_TEST_CHECK_H
 

@@ -11,11 +11,11 @@
 
 #include "mechanism/mechanism.h"
 
-void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *sentence)
+void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *message)
 {
   const int before[3] = {mechanism->body_count, mechanism->joint_count, mechanism->force_count};
   assert_int_equal(add(mechanism, def), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), sentence);
+  assert_string_equal(baum_message(), message);
   const int after[3] = {mechanism->body_count, mechanism->joint_count, mechanism->force_count};
   assert_memory_equal(before, after, sizeof before);
 }
@@ -28,7 +28,7 @@ void check_bad_numbers(baum_mechanism *mechanism, add_fn *add, const void *good,
     assert_non_null(def);
     memcpy(def, good, size);
     memcpy(def + numbers[i].offset, &numbers[i].value, sizeof(double));
-    check_refused(mechanism, add, def, numbers[i].sentence);
+    check_refused(mechanism, add, def, numbers[i].message);
     free(def);
   }
 }

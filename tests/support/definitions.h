@@ -15,14 +15,14 @@
 /* One kind's add function, without its id. */
 typedef baum_status add_fn(baum_mechanism *mechanism, const void *def);
 
-/* The definition is refused with BAUM_ERR_ARGUMENT and this sentence, and nothing is added. */
-void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *sentence);
+/* The definition is refused with BAUM_ERR_ARGUMENT and this message, and nothing is added. */
+void check_refused(baum_mechanism *mechanism, add_fn *add, const void *def, const char *message);
 
 /* A good definition with one number replaced. */
 typedef struct bad_number {
   size_t offset;
   double value;
-  const char *sentence;
+  const char *message;
 } bad_number;
 
 void check_bad_numbers(baum_mechanism *mechanism, add_fn *add, const void *good, size_t size,
@@ -35,8 +35,8 @@ void check_same_definition(const void *got, const void *want, size_t size);
 #define FILLED_SIZE(NAME, LAST) \
   (offsetof(baum_##NAME##_def, LAST) + sizeof(((baum_##NAME##_def *)0)->LAST))
 
-/* Add first, read it back, replace it by second, read that back. FAMILY: body, joint, force; NAME as in
- * baum_NAME_def, LAST its last member. */
+/* Add first, read it back, replace it by second, read that back. FAMILY: body, joint, force; NAME
+ * as in baum_NAME_def, LAST its last member. */
 #define CHECK_ROUND_TRIP(FAMILY, NAME, LAST, mechanism, first, second)                          \
   do {                                                                                          \
     baum_##FAMILY##_id id_;                                                                     \

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences are of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with h = 1e-3: truncation h^4 f''''' / 30 is
- * 3e-14 times the fifth derivative, rounding about 1e-12 times f. With both up to some thousands at the states that
- * test_point_random() makes, 1e-8 of the value and of 1 is what the tolerance must be.
+/* Differences are of five points, (8 (f_1 - f_-1) - (f_2 - f_-2)) / 12 h with h = 1e-3: truncation
+ * h^4 f''''' / 30 is
+ * 3e-14 times the fifth derivative, rounding about 1e-12 times f. With both up to some thousands at
+ * the states that test_point_random() makes, 1e-8 of the value and of 1 is what the tolerance must
+ * be.
  */
 #include "derivatives.h"
 
@@ -19,7 +21,8 @@ static const double TOLERANCE = 1e-8;
 
 enum { MATRIX = TEST_SIZE_MAX * TEST_SIZE_MAX };
 
-/* What functions below are evaluated with; fixed numbers, so that they are functions of the state alone. */
+/* What functions below are evaluated with; fixed numbers, so that they are functions of the state
+ * alone. */
 typedef struct directions {
   double w[TEST_SIZE_MAX];
   double lambda[TEST_SIZE_MAX];

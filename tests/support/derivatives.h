@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every derivative that a mechanism's elements give, against differences at the point's present state. */
+/* Every derivative that a mechanism's elements give, against differences at the point's present
+ * state. */
 #ifndef BAUM_TEST_DERIVATIVES_H
 #define BAUM_TEST_DERIVATIVES_H
 

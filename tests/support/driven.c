@@ -164,7 +164,8 @@ static const double COUPLER = 3.0;
 static const double ROCKER = 2.5;
 static const double FRAME = 2.8;
 
-/* Where coupler and rocker meet: of two places that above the line from the crank's tip to the rocker's foot. */
+/* Where coupler and rocker meet: of two places that above the line from the crank's tip to the
+ * rocker's foot. */
 static void find_knee(double angle, double tip[2], double knee[2])
 {
   tip[0] = CRANK * cos(angle);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose driver leaves no freedom, with their motion in closed form. Public interface only. */
+/* Mechanisms whose driver leaves no freedom, with their motion in closed form. Public interface
+ * only. */
 #ifndef BAUM_TEST_DRIVEN_H
 #define BAUM_TEST_DRIVEN_H
 
@@ -30,10 +31,11 @@ typedef struct slider_crank {
 baum_mechanism *slider_crank_make(const slider_crank *data);
 /* One more in a mechanism that is not yet frozen. */
 void slider_crank_add(baum_mechanism *mechanism, const slider_crank *data);
-/* x of the slider, its rate and acceleration while the crank at an angle turns at a constant rate. */
+/* x of the slider, its rate and acceleration while the crank at an angle turns at a constant
+ * rate. */
 void slider_crank_motion(const slider_crank *data, double angle, double x[3]);
-/* Angle between the crank at some angle and the nearest one at which rod and guide are square: a lock-up where the
- * rod is too short. INFINITY where there is none. */
+/* Angle between the crank at some angle and the nearest one at which rod and guide are square: a
+ * lock-up where the rod is too short. INFINITY where there is none. */
 double slider_crank_to_lock(const slider_crank *data, double angle);
 
 /* ---- four-bar: crank 1 m, coupler 3 m, rocker 2.5 m, pins of the frame 2.8 m apart ----
@@ -46,7 +48,8 @@ baum_mechanism *four_bar_make(const drive *motor);
 /* Angle of the rocker, up to turns. */
 double four_bar_rocker(double angle);
 
-/* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a redundant row ----
+/* ---- parallelogram: three cranks of 1 m at x = 0, 1, 2 on one coupler, the first driven; a
+ * redundant row ----
  *
  * q = (x, y, angle) of coupler and cranks. */
 

@@ -9,7 +9,7 @@
  *   (coupling); pea on a curve of the bar; a wheel on a hinge that is driven along a spline
  *   (cam).
  *
- * 26 coordinates and 22 rows, 4 freedoms; drawn in its exact start pose.
+ * 26 coordinates and 22 rows, 4 degrees of freedom; drawn in its exact start pose.
  */
 #ifndef BAUM_TEST_EVERY_ELEMENT_H
 #define BAUM_TEST_EVERY_ELEMENT_H
@@ -103,7 +103,7 @@ typedef struct element_field {
 
 typedef struct element_kind {
   const char *name;  /* baum_<name>_def */
-  const char *title; /* in sentences */
+  const char *title; /* in messages */
   const char *family;
   size_t size;
   void (*init)(any_def *def, size_t caller_size);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One integrator on one mechanism, driven as a simulation drives it but without its monitors; and small mechanisms
- * whose motion is known. */
+/* One integrator on one mechanism, driven as a simulation drives it but without its monitors; and
+ * small mechanisms whose motion is known. */
 #ifndef BAUM_TEST_INTEGRATOR_RUN_H
 #define BAUM_TEST_INTEGRATOR_RUN_H
 
@@ -10,7 +10,8 @@ enum { RUN_SIZE_MAX = 24 };
 
 /* What to run; integrator_setup() gives the rest to start from. */
 typedef struct integrator_setup {
-  baum_mechanism *mechanism; /* frozen, drawn in its exact start pose; stays the caller's */
+  baum_mechanism
+    *mechanism; /* frozen, drawn in its exact start configuration; stays the caller's */
   const baum_integrator *integrator;
   baum_formulation formulation; /* BAUM_FORMULATION_DEFAULT: the first of the integrator's */
   bool fixed;                   /* step of one length, else of the integrator's choice */
@@ -43,7 +44,8 @@ typedef struct integrator_run {
 baum_status integrator_run_open(integrator_run *run, const integrator_setup *setup);
 void integrator_run_close(integrator_run *run);
 
-/* One step. Fixed: of run->step, projected where the formulation says so; state untouched on failure. */
+/* One step. Fixed: of run->step, projected where the formulation says so; state untouched on
+ * failure. */
 baum_status integrator_run_step(integrator_run *run);
 
 /* Steps up to t, which is on the grid of a fixed step; then q and v. */
@@ -56,8 +58,8 @@ baum_status integrator_run_restart(integrator_run *run, double t, const double *
 /* q and v (2) of a known motion. */
 typedef void motion_fn(double t, double q[2], double v[2]);
 
-/* By what factor the largest error up to t falls when rtol falls tenfold: slope of log error over log rtol, from
- * seven tolerances between 1e-4 and 1e-10. */
+/* By what factor the largest error up to t falls when rtol falls tenfold: slope of log error over
+ * log rtol, from seven tolerances between 1e-4 and 1e-10. */
 double tolerance_factor(const integrator_setup *setup, double t, motion_fn *motion, double rate);
 
 /* ---- mechanisms; destroy them ---- */
@@ -79,12 +81,13 @@ baum_mechanism *make_faulty_pendulum(force_fault *fault);
 baum_mechanism *make_throw(void);
 void throw_motion(double t, double q[2], double v[2]);
 
-/* Free point of 1 kg on a spring of 4 N/m and no length, at rest at (1, 0), no gravity: x = cos 2 t. */
+/* Free point of 1 kg on a spring of 4 N/m and no length, at rest at (1, 0), no gravity: x = cos 2
+ * t. */
 baum_mechanism *make_oscillator(void);
 void oscillator_motion(double t, double q[2], double v[2]);
 
-/* Free point of 1 kg on a damper of 1e4 N s/m and a weak spring about the origin, from (1, 0) at rest: it swings
- * nearly as the pendulum does, and along the damper motion dies at 1e4 1/s. */
+/* Free point of 1 kg on a damper of 1e4 N s/m and a weak spring about the origin, from (1, 0) at
+ * rest: it swings nearly as the pendulum does, and along the damper motion dies at 1e4 1/s. */
 baum_mechanism *make_stiff(void);
 
 /* Largest of |q - q'| and |v - v'| / rate over (nv). */

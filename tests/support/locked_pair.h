@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A bar that turns about a pin on the ground, and another that it carries by two pins, of whose four rows three suffice: which
- * three changes twice in a turn. Include after cmocka.h.
+/* A bar that turns about a pin on the ground, and another that it carries by two pins, of whose
+ * four rows three suffice: which three changes twice in a turn. Include after cmocka.h.
  */
 #ifndef BAUM_TEST_LOCKED_PAIR_H
 #define BAUM_TEST_LOCKED_PAIR_H

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid bodies that turn about a fixed point, with a unit quaternion: a free top, a heavy one held by
- * three user constraints, with and without their Jacobian, and a ball. Their motion is integrated
- * here. */
+/* Rigid bodies that turn about a fixed point, with a unit quaternion: a free top, a heavy one held
+ * by three user constraints, with and without their Jacobian, and a ball. Their motion is
+ * integrated here. */
 #ifndef BAUM_TEST_MANIFOLD_TOPS_H
 #define BAUM_TEST_MANIFOLD_TOPS_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The methods of fixed step, as src/stabilization sees them, and numbers that repeat from run to run. */
+/* The methods of fixed step, as src/stabilization sees them, and numbers that repeat from run to
+ * run. */
 #ifndef BAUM_TEST_METHODS_H
 #define BAUM_TEST_METHODS_H
 

@@ -14,7 +14,8 @@ static inline wide wide_size(wide x)
   return x < 0 ? -x : x;
 }
 
-/* Newton's iteration from the root in double precision, which has a quarter of the digits at least. */
+/* Newton's iteration from the root in double precision, which has a quarter of the digits at
+ * least. */
 static inline wide wide_root(wide x)
 {
   wide root = (wide)__builtin_sqrt((double)x);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations in quadruple precision where rows may depend on each other, and how far from it they are, from M, J, g and
- * gamma in double precision as they are. With M = L L^T, y = L^T a and the rows of J L^-T scaled to length 1, the
- * constraints are W^T y = c, and of all such y the one nearest to L^-1 g is wanted: by a QR factorization of W with
- * pivoting. No part of the library solves anything here.
+/* Accelerations in quadruple precision where rows may depend on each other, and how far from it
+ * they are, from M, J, g and gamma in double precision as they are. With M = L L^T, y = L^T a and
+ * the rows of J L^-T scaled to length 1, the constraints are W^T y = c, and of all such y the one
+ * nearest to L^-1 g is wanted: by a QR factorization of W with pivoting. No part of the library
+ * solves anything here.
  */
 #ifndef BAUM_TEST_QUAD_ROWS_H
 #define BAUM_TEST_QUAD_ROWS_H
@@ -22,13 +23,13 @@ typedef struct quad_rows {
 
 static const double QUAD_DEPENDENT = 1e-10;
 
-/* Through the public functions of a workspace; a is (nv). false: they fail, M is not positive definite, or there is no
- * memory. */
+/* Through the public functions of a workspace; a is (nv). false: they fail, M is not positive
+ * definite, or there is no memory. */
 bool quad_rows_accelerate(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                           const double *v, double *a, quad_rows *out);
 
-/* Likewise the velocities nearest to v, in the metric of M, that fulfil constraints which do not depend on time; as
- * accelerations without bending, M v for forces. */
+/* Likewise the velocities nearest to v, in the metric of M, that fulfil constraints which do not
+ * depend on time; as accelerations without bending, M v for forces. */
 bool quad_rows_project(baum_workspace *workspace, int nv, int nc, double t, const double *q,
                        const double *v, double *projected, quad_rows *out);
 

@@ -67,7 +67,8 @@ static void add(quad_system *s, int row, int column, double value)
 
 /* ---- order ---- */
 
-/* A velocity stands at twice its number, a row of J between the first and the last velocity in it. */
+/* A velocity stands at twice its number, a row of J between the first and the last velocity in
+ * it. */
 typedef struct seat {
   int at;
   int unknown;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of random kinds, and what the library says of their accelerations against quadruple precision. */
+/* Mechanisms of random kinds, and what the library says of their accelerations against quadruple
+ * precision. */
 #ifndef BAUM_TEST_RANDOM_JUDGE_H
 #define BAUM_TEST_RANDOM_JUDGE_H
 
@@ -17,7 +18,7 @@ typedef enum random_verdict {
 /* Relative to the largest acceleration with or without the constraints, whichever is larger. */
 static const double RANDOM_ERROR = 1e-9;
 
-/* Of all poses so far. */
+/* Of all configurations so far. */
 typedef struct random_tally {
   long mechanisms;
   long poses;
@@ -27,8 +28,9 @@ typedef struct random_tally {
   uint64_t worst_seed;
 } random_tally;
 
-/* One mechanism of the kind that its seed draws: at its design configuration in motion, at another that fulfils the constraints, and, with
- * independent rows, at one that does not. What is wrong or a false alarm is printed. `room` holds the mechanism. */
+/* One mechanism of the kind that its seed draws: at its design configuration in motion, at another
+ * that fulfils the constraints, and, with independent rows, at one that does not. What is wrong or
+ * a false alarm is printed. `room` holds the mechanism. */
 void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mechanisms by chance: bodies of all kinds, a random graph of joints of all kinds between them and
- * to ground, loads. The design configuration fulfils all constraints; rows may be redundant. The same seed
- * gives the same mechanism on every machine.
+ * to ground, loads. The design configuration fulfils all constraints; rows may be redundant. The
+ * same seed gives the same mechanism on every machine.
  */
 #ifndef BAUM_TEST_RANDOM_MECHANISM_H
 #define BAUM_TEST_RANDOM_MECHANISM_H

@@ -83,7 +83,8 @@ static void add_slider(builder *b, baum_body_id body_a, baum_body_id body_b, dou
   check(baum_mechanism_add_planar_translational(b->m, &def, NULL));
 }
 
-/* Between points that lie in the design configuration at these places beside the centres; bodies are drawn upright. */
+/* Between points that lie in the design configuration at these places beside the centres; bodies
+ * are drawn upright. */
 static void add_rod(builder *b, baum_body_id body_a, baum_body_id body_b, const double at_a[2],
                     const double at_b[2])
 {
@@ -291,7 +292,8 @@ double redundant_imbalance(const redundant_state *s, double *rows)
 
 /* ---- uniqueness: a row has a multiplier of its own where it does not depend on the others ---- */
 
-/* Take the parts along some orthonormal rows (count x n) away; what is left. Twice, because once leaves rounding. */
+/* Take the parts along some orthonormal rows (count x n) away; what is left. Twice, because once
+ * leaves rounding. */
 static double leave(const double *rows, int count, int n, double *row)
 {
   double size = 0.0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Planar mechanisms with redundant rows and uneven masses, drawn at random; what M a + J^T lambda = g leaves.
- * The same seed gives the same mechanism on every machine.
+/* Planar mechanisms with redundant rows and uneven masses, drawn at random; what M a + J^T lambda =
+ * g leaves. The same seed gives the same mechanism on every machine.
  */
 #ifndef BAUM_TEST_REDUNDANT_MECHANISM_H
 #define BAUM_TEST_REDUNDANT_MECHANISM_H
@@ -10,8 +10,8 @@
 
 #include <baum/baum.h>
 
-/* Frozen. Kind by seed: doubled pins, welds with pins, parallel cranks, stacked parallelograms, closed chains. Masses lie
- * between 1/ratio and 1 kg. */
+/* Frozen. Kind by seed: doubled pins, welds with pins, parallel cranks, stacked parallelograms,
+ * closed chains. Masses lie between 1/ratio and 1 kg. */
 baum_mechanism *redundant_mechanism(uint64_t seed, double *ratio);
 
 /* A bracket of 1/ratio kg, pinned and welded to the ground, holds 1 kg at rest. */
@@ -29,9 +29,9 @@ typedef struct redundant_state {
   bool *unique;   /* (nc) */
 } redundant_state;
 
-/* The largest row of M a + J^T lambda - g against the largest term on its body, or against 1e-14 of the largest term of all;
- * NaN is infinite. *rows, where it is given, receives the largest row of J a - gamma against the largest
- * term of all, with or without the constraints. */
+/* The largest row of M a + J^T lambda - g against the largest term on its body, or against 1e-14 of
+ * the largest term of all; NaN is infinite. *rows, where it is given, receives the largest row of J
+ * a - gamma against the largest term of all, with or without the constraints. */
 double redundant_imbalance(const redundant_state *s, double *rows);
 
 typedef enum redundant_verdict {
@@ -55,7 +55,8 @@ typedef struct redundant_tally {
     wrong_unique; /* multipliers that the run calls unique and are not, or the reverse, on the constraints */
 } redundant_tally;
 
-/* Judge the workspace and a run that starts as given, in the three states. What is wrong is printed. */
+/* Judge the workspace and a run that starts as given, in the three states. What is wrong is
+ * printed. */
 void redundant_judge(uint64_t seed, redundant_tally *tally);
 
 #endif

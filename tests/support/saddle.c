@@ -315,7 +315,8 @@ static wide size_of(wide x)
   return x < 0 ? -x : x;
 }
 
-/* The dense system in wide arithmetic with right side, (n) rows of (n + 1); dropped rows say lambda_i = 0. */
+/* The dense system in wide arithmetic with right side, (n) rows of (n + 1); dropped rows say
+ * lambda_i = 0. */
 static wide *write_wide(const saddle *system, int n)
 {
   int nv = system->structure.nv;

@@ -28,12 +28,13 @@ typedef struct saddle {
 /* Deterministic, uniform in [-1, 1). */
 double saddle_random(uint64_t *seed);
 
-/* Bodies of 3 or 6 velocities with dense positive definite masses, in a chain of joints of 1 to 3 rows with some
- * loops of one row; rows of J are independent. Blocks are listed out of order, columns too, with gaps between
- * values. f, r are random; no shift, no dropped rows. */
+/* Bodies of 3 or 6 velocities with dense positive definite masses, in a chain of joints of 1 to 3
+ * rows with some loops of one row; rows of J are independent. Blocks are listed out of order,
+ * columns too, with gaps between values. f, r are random; no shift, no dropped rows. */
 saddle saddle_make_random(uint64_t seed, int bodies);
 
-/* N coupled planar four-bars: N + 1 unit rods on the ground, their tips joined by N unit rods. 2 N + 1 bodies of mass
+/* N coupled planar four-bars: N + 1 unit rods on the ground, their tips joined by N unit rods. 2 N
+ * + 1 bodies of mass
  * 1, nc = 6 N + 2. saddle_pose_four_bar() fills mass and jacobian at a crank angle; flat at 0. */
 saddle saddle_make_four_bar(int loops);
 void saddle_pose_four_bar(saddle *system, double angle);
@@ -50,13 +51,15 @@ void saddle_make_consistent(saddle *system, uint64_t seed);
 void saddle_use_omitted(saddle *system);
 void saddle_use_shift(saddle *system);
 
-/* want (nv + nc) = (a, lambda) by elimination in quadruple precision (long double where there is none). */
+/* want (nv + nc) = (a, lambda) by elimination in quadruple precision (long double where there is
+ * none). */
 void saddle_solve(const saddle *system, double *want);
 
 /* matrix ((nv + nc)^2), row-major: K as one would write it down, without dropping. */
 void saddle_write_dense(const saddle *system, double *matrix);
 
-/* Largest componentwise backward error of system->a, system->lambda: max |b - K x| / (|K| |x| + |b|). */
+/* Largest componentwise backward error of system->a, system->lambda: max |b - K x| / (|K| |x| +
+ * |b|). */
 double saddle_backward_error(const saddle *system);
 
 #endif

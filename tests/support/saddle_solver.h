@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A solver of saddle-point systems on the systems of saddle.h, and its results compared. Include after cmocka.h. */
+/* A solver of saddle-point systems on the systems of saddle.h, and its results compared. Include
+ * after cmocka.h. */
 #ifndef BAUM_TEST_SADDLE_SOLVER_H
 #define BAUM_TEST_SADDLE_SOLVER_H
 

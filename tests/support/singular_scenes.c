@@ -120,7 +120,8 @@ static void slider_crank(singular_scene *scene, double off)
   know(scene, &s, off, 150.0);
 }
 
-/* Cranks of 1 m from (0, 0) and (2, 0), of which the second one stands where the coupler of 2.0001 m puts it. */
+/* Cranks of 1 m from (0, 0) and (2, 0), of which the second one stands where the coupler of 2.0001
+ * m puts it. */
 static void near_parallelogram(singular_scene *scene, double off)
 {
   static const double COUPLER = 2.0001;
@@ -167,8 +168,9 @@ static void near_parallelogram(singular_scene *scene, double off)
   must(model_finish(&parts, NULL, &scene->m));
 }
 
-/* By rk4 with projection and steps of 2e-5 s, by which the sharpest turn, of a hundredth of a radian, is cut into
- * hundreds of pieces: halving them changes angles by less than 1e-7 rad up to the end. */
+/* By rk4 with projection and steps of 2e-5 s, by which the sharpest turn, of a hundredth of a
+ * radian, is cut into hundreds of pieces: halving them changes angles by less than 1e-7 rad up to
+ * the end. */
 static void compute_reference(singular_scene *scene)
 {
   int nq = 3 * scene->m.body_count;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms whose motion leads through singular poses and is known: on its branch each is one turning angle th with
+/* Mechanisms whose motion leads through singular configurations and is known: on its branch each is
+ * one turning angle th with
  *
  *   (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0
  *

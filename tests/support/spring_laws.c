@@ -36,7 +36,7 @@ int spring_law_cubic(double length, double rate, double out[3], void *user)
   return law->answer;
 }
 
-void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *sentence)
+void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double force[TEST_SIZE_MAX];
   double squares[2 * TEST_SIZE_MAX * TEST_SIZE_MAX];
@@ -46,7 +46,7 @@ void check_spring_law_fails(test_point *p, baum_status status, bool retry, const
     assert_int_equal(i == 0 ? baum_i_mechanism_force(&p->point, force)
                             : baum_i_mechanism_linearize_forces(&p->point, &blocks),
                      status);
-    assert_string_equal(baum_message(), sentence);
+    assert_string_equal(baum_message(), message);
     assert_int_equal(p->point.retry, retry);
   }
 }

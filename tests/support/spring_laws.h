@@ -23,7 +23,7 @@ int spring_law_cubic(double length, double rate, double out[3], void *user);
 void spring_law_cubic_at(double length, double rate, double out[3]);
 
 /* Force and linearize fail alike. */
-void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *sentence);
+void check_spring_law_fails(test_point *p, baum_status status, bool retry, const char *message);
 
 /* The check of derivatives finds the wrong entry of the law of force 1, or 0 none; gives the
  * mechanism up. */

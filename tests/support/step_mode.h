@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Integrators in each of their ways to step: of one length, or of their own choice. Include after cmocka.h. */
+/* Integrators in each of their ways to step: of one length, or of their own choice. Include after
+ * cmocka.h. */
 #ifndef BAUM_TEST_STEP_MODE_H
 #define BAUM_TEST_STEP_MODE_H
 
@@ -38,7 +39,7 @@ static inline bool step_mode_is_adams(step_mode mode)
   return strncmp(baum_integrator_name(mode.integrator), "ab", 2) == 0;
 }
 
-/* Steps of its own choice and multistep methods begin anew where a motion is changed. */
+/* Steps of its own choice and multistep methods restart where a motion is changed. */
 static inline bool step_mode_remembers(step_mode mode)
 {
   bool alpha = strcmp(baum_integrator_name(mode.integrator), "generalized_alpha") == 0;

@@ -5,7 +5,8 @@
 
 #include <baum/study.h>
 
-/* A study of a pendulum over 1 s with a small grid: RK4 and RK8, all formulations and gains. Entries that are timed once. */
+/* A study of a pendulum over 1 s with a small grid: RK4 and RK8, all formulations and gains.
+ * Entries that are timed once. */
 baum_study *small_study(const baum_mechanism *mechanism, const baum_study_options *options);
 baum_study_options small_study_options(void);
 

@@ -31,10 +31,10 @@ void user_check_right(baum_mechanism *mechanism)
   }
 }
 
-void user_check_wrong(baum_mechanism *mechanism, const char *sentence)
+void user_check_wrong(baum_mechanism *mechanism, const char *message)
 {
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), sentence);
+  assert_string_equal(baum_message(), message);
 }
 
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,

@@ -10,7 +10,7 @@ baum_mechanism *user_make_empty(void);
 /* Freeze, check, give up. */
 baum_status user_check(baum_mechanism *mechanism);
 void user_check_right(baum_mechanism *mechanism);
-void user_check_wrong(baum_mechanism *mechanism, const char *sentence);
+void user_check_wrong(baum_mechanism *mechanism, const char *message);
 
 /* Two coordinates drawn at (0.6, -0.8), and one row named "circle" without `user`. */
 baum_mechanism *user_make_constraint(baum_q_fn *phi, baum_q_fn *jacobian, baum_q_fn *nu,

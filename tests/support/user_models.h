@@ -3,7 +3,8 @@
  *
  *   circle  (x, y)        Phi = x^2 + y^2 - l^2
  *   loop    (b, th, ga)   the first loop of Andrews' squeezer, lengths times l:
- *                         Phi = (r cos b - d cos(b + th) - s sin ga - x_b, r sin b - d sin(b + th) + s cos ga - y_b)
+ *                         Phi = (r cos b - d cos(b + th) - s sin ga - x_b, r sin b - d sin(b + th)
+ *                         + s cos ga - y_b)
  *   swing   (x, y)        Phi = x sin(w t) + y^2 cos(w t) / l - l sin(w t) cos(w t)
  */
 #ifndef BAUM_TEST_USER_MODELS_H

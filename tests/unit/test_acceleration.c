@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations, multipliers, energy and reactions: against dense LU, and against what mechanics says. */
+/* Accelerations, multipliers, energy and reactions: against dense LU, and against what mechanics
+ * says. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -149,8 +150,8 @@ static void a_hanging_rod_pulls_its_pin_with_its_weight_and_turns_it_with_none(v
   baum_mechanism_destroy(m);
 }
 
-/* Newton and Euler for every body of the slider-crank, with the reactions of its joints as the only unknown forces:
- * the balance that a user would check. */
+/* Newton and Euler for every body of the slider-crank, with the reactions of its joints as the only
+ * unknown forces: the balance that a user would check. */
 static void reactions_on_each_body_balance_inertia_and_weight(void **state)
 {
   (void)state;
@@ -261,7 +262,8 @@ static int force_of_six(double t, const double *q, const double *v, const double
   return 0;
 }
 
-/* Blocks divide by the mass's root; what has none goes to the solver of the whole, and what is zero to nobody. */
+/* Blocks divide by the mass's root; what has none goes to the solver of the whole, and what is zero
+ * to nobody. */
 static void a_mass_that_is_positive_no_more_is_handed_over(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The energy account, class by class, on motions that are known in closed form; and what begins, continues and does not
- * enter it.
+/* The energy account, class by class, on motions that are known in closed form; and what begins,
+ * continues and does not enter it.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@
 
 #include "assert_near.h"
 #include "check.h"
-#include "sentence.h"
+#include "message.h"
 #include "user_models.h"
 
 /* rk8 at rtol 1e-12, whose errors over a second are some 1e-12. */
@@ -174,7 +174,8 @@ static int growing_mass(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* M v' = 0 with v = 1 and M = 1 + q^2, which is no equation of Lagrange's: v^2 (q^2 / 2) comes from M' alone. */
+/* M v' = 0 with v = 1 and M = 1 + q^2, which is no equation of Lagrange's: v^2 (q^2 / 2) comes from
+ * M' alone. */
 static void a_varying_mass_is_in_the_account(void **state)
 {
   (void)state;
@@ -258,7 +259,8 @@ static void violation_does_work(void **state)
   ASSERT_NEAR(a.gains, 0.0, 0.0, CLOSE);
 }
 
-/* x - 1 = t exp(-2 t) with alpha = beta = 2, v = (1 - 2 t) exp(-2 t); what the weight asks for is no work of the gains. */
+/* x - 1 = t exp(-2 t) with alpha = beta = 2, v = (1 - 2 t) exp(-2 t); what the weight asks for is
+ * no work of the gains. */
 static void gains_are_a_part_of_the_violation(void **state)
 {
   (void)state;
@@ -327,7 +329,8 @@ static void inputs_continue_and_states_begin_anew(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Off the grid the work of the shorter step is in the sample, and in nothing else; and the motion knows nothing of it. */
+/* Off the grid the work of the shorter step is in the sample, and in nothing else; and the motion
+ * knows nothing of it. */
 static void samples_and_motion_stay_apart(void **state)
 {
   (void)state;

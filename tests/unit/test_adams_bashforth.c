@@ -11,8 +11,8 @@
 #include "assert_near.h"
 #include "check.h"
 #include "integrator_run.h"
+#include "message.h"
 #include "one_coordinate.h"
-#include "sentence.h"
 
 typedef const baum_integrator *method_fn(void);
 static method_fn *const METHODS[] = {baum_ab2, baum_ab3, baum_ab4};
@@ -81,7 +81,8 @@ static void one_power_more_shows_the_error_constant(void **state)
   }
 }
 
-/* x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise of v, with the b_j that stability is computed from. */
+/* x_{n+1} = x_n + h sum b_j x'_{n-j}, likewise of v, with the b_j that stability is computed
+ * from. */
 static void steps_are_those_whose_stability_is_known(void **state)
 {
   (void)state;
@@ -256,8 +257,8 @@ static void another_state_does_not_cost_the_order(void **state)
   demand_order(error_with_set_state);
 }
 
-/* Samples a third and two thirds into every step: the motion is to the last digit that without them,
- * and they are as exact as the points of the grid. */
+/* Samples a third and two thirds into every step: the motion is to the last digit that without
+ * them, and they are as exact as the points of the grid. */
 static void samples_beside_the_grid_are_exact_and_alter_nothing(void **state)
 {
   (void)state;

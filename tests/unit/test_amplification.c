@@ -84,7 +84,8 @@ static void edges_of_the_triangles_are_marginal(void **state)
   }
 }
 
-/* At (2, 4) explicit Euler has z = -1 twice; torn apart by rounding it would look unstable by 1e-8. */
+/* At (2, 4) explicit Euler has z = -1 twice; torn apart by rounding it would look unstable by
+ * 1e-8. */
 static void double_roots_on_the_circle_survive_the_rounding_of_gains(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly and projection: constraints met, what is held stays, the rest changes least in the metric of M. */
+/* Assembly and projection: constraints met, what is held stays, the rest changes least in the
+ * metric of M. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,8 +11,8 @@
 
 #include "assert_near.h"
 #include "dynamics/dynamics.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 #include "user_models.h"
 
 enum { NV = 9, NC = 8 };
@@ -123,7 +124,8 @@ static void of_all_consistent_poses_assembly_finds_the_nearest_in_the_metric_of_
   void **state)
 {
   (void)state;
-  /* A rod of length 1 between particles of 1 kg and 3 kg, drawn 1.3 m long: each gives way by the other's mass. */
+  /* A rod of length 1 between particles of 1 kg and 3 kg, drawn 1.3 m long: each gives way by the
+   * other's mass. */
   baum_mechanism *m = NULL;
   baum_body_id ids[2];
   baum_workspace *w = NULL;
@@ -161,7 +163,8 @@ static int first_is_three(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-/* The metric says nothing of it: klu cannot tell where it is to go, least squares leave it where it is. */
+/* The metric says nothing of it: klu cannot tell where it is to go, least squares leave it where it
+ * is. */
 static void what_has_neither_mass_nor_joint_stays_or_is_refused(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solver by blocks by itself, against quadruple precision, and in both builds. Its structure is in
- * test_block_structure.c, mechanisms by chance are in tests/physics/test_random_mechanisms.c.
+/* The solver by blocks by itself, against quadruple precision, and in both builds. Its structure is
+ * in test_block_structure.c, mechanisms by chance are in tests/physics/test_random_mechanisms.c.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -158,8 +158,8 @@ static void assert_solution(const equations *x, const double *want, double toler
   }
 }
 
-/* Unrefined, as most evaluations are, and refined. S has the square of the condition that its halves have,
- * up to 1e5 here. */
+/* Unrefined, as most evaluations are, and refined. S has the square of the condition that its
+ * halves have, up to 1e5 here. */
 static void assert_solved(equations *x)
 {
   const tables own = own_tables();
@@ -363,7 +363,8 @@ static void use_plain(baum_workspace *w)
   w->point.kernel = &baum_i_frames_kernel_plain;
 }
 
-/* Relative to the largest of `want`, or to `scale` where they are what is left of larger numbers. */
+/* Relative to the largest of `want`, or to `scale` where they are what is left of larger
+ * numbers. */
 static void assert_near_all(const double *got, const double *want, int count, double tolerance,
                             double scale)
 {
@@ -460,8 +461,8 @@ static void pin(baum_mechanism *m, baum_body_id a, baum_body_id b, double x, dou
   assert_int_equal(baum_mechanism_add_planar_revolute(m, &def, NULL), BAUM_OK);
 }
 
-/* The second one has a row to spare, so that a pin and half a pin couple by both bodies; a third one in
- * the same point has both. */
+/* The second one has a row to spare, so that a pin and half a pin couple by both bodies; a third
+ * one in the same point has both. */
 static void several_pins_between_the_same_bodies(void **state)
 {
   (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body that is drawn at the origin has coordinates that are small beside the arms of its joints: what is
- * rounding goes by the arms.
+/* A body that is drawn at the origin has coordinates that are small beside the arms of its joints:
+ * what is rounding goes by the arms.
  */
 #include <setjmp.h>
 #include <stdarg.h>

@@ -207,19 +207,19 @@ static int right_gamma(double t, const double *q, const double *v, double *out, 
 static void a_forgotten_gamma_is_found_at_another_time(void **state)
 {
   (void)state;
-  char sentence[128];
-  (void)snprintf(sentence, sizeof sentence,
+  char message[128];
+  (void)snprintf(message, sizeof message,
                  "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g", "phi",
                  -18.0 * sin(3.0 * 0.37));
   baum_mechanism *mechanism = user_make_constraint(driven_phi, NULL, NULL, no_gamma, 1.0);
   /* Second differences are good for seven digits here. */
   assert_int_equal(user_check(mechanism), BAUM_ERR_ARGUMENT);
-  assert_memory_equal(baum_message(), sentence, strlen(sentence) - 3);
-  (void)snprintf(sentence, sizeof sentence,
+  assert_memory_equal(baum_message(), message, strlen(message) - 3);
+  (void)snprintf(message, sizeof message,
                  "joint 1 \"circle\": gamma()[0] is 0 but differences of %s give %.9g",
                  "jacobian and nu", -18.0 * sin(3.0 * 0.37));
   user_check_wrong(user_make_constraint(driven_phi, driven_jacobian, right_nu, no_gamma, 1.0),
-                   sentence);
+                   message);
   user_check_right(user_make_constraint(driven_phi, driven_jacobian, right_nu, right_gamma, 1.0));
 }
 
@@ -372,13 +372,13 @@ static void a_law_that_begins_at_zero_raises_no_alarm(void **state)
 {
   (void)state;
   user_check_right(user_make_constraint(late_phi, driven_jacobian, right_nu, right_gamma, 1.0));
-  char sentence[128];
+  char message[128];
   double nu = 6.0 * cos(3.0 * 0.37);
-  (void)snprintf(sentence, sizeof sentence,
+  (void)snprintf(message, sizeof message,
                  "joint 1 \"circle\": nu()[0] is %.9g but differences of phi in t give %.9g", -nu,
                  nu);
   user_check_wrong(user_make_constraint(late_phi, driven_jacobian, turned_nu, right_gamma, 1.0),
-                   sentence);
+                   message);
 }
 
 /* Law 0 is right; 1 has a wrong rate, 2 a wrong acceleration, 3 ends before it has begun. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of whole runs: the pilot run behind the rule `auto`, the cap of the step, what counters tell. */
+/* Gains of whole runs: the pilot run behind the rule `auto`, the cap of the step, what counters
+ * tell. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -76,8 +77,9 @@ static void it_sees_more_than_the_start(void **state)
   (void)state;
   model m;
   assert_int_equal(model_andrews_bodies(&m), BAUM_OK);
-  /* The crank starts at rest under 0.033 N m; max(|v|/L, sqrt(|a|/L)) is 119 1/s at the start and 336 1/s in the
-   * mean over the first 3.75 rad of an exact motion. Five steps tell the latter within a fifth. */
+  /* The crank starts at rest under 0.033 N m; max(|v|/L, sqrt(|a|/L)) is 119 1/s at the start and
+   * 336 1/s in the mean over the first 3.75 rad of an exact motion. Five steps tell the latter
+   * within a fifth. */
   ASSERT_NEAR(auto_alpha(m.mechanism, baum_rk8()), 0.1 * 336.0, 0.2, 0.0);
   model_destroy(&m);
 }
@@ -271,8 +273,8 @@ static void a_factor_multiplies_the_gains_of_its_row(void **state)
     baum_simulation_options o = with_factors(factors, 2, solvers[k]);
     baum_simulation *run = NULL;
     assert_int_equal(baum_simulation_create(m, &o, &run), BAUM_OK);
-    /* a = -(beta f)^2 Phi along the rod, Phi = (1.1^2 - 1)/2 / 1 or 0.1 as rows are scaled: only the ratio
-     * of both is known, and that nothing else moves. */
+    /* a = -(beta f)^2 Phi along the rod, Phi = (1.1^2 - 1)/2 / 1 or 0.1 as rows are scaled: only
+     * the ratio of both is known, and that nothing else moves. */
     assert_true(baum_simulation_step(run, 1) >= BAUM_OK);
     const double *v = baum_simulation_v(run);
     assert_true(v[0] < 0.0);

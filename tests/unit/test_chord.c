@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Changes along the constraint forces of one pose: what they solve, by whichever solver, and what they refuse. */
+/* Changes along the constraint forces of one configuration: what they solve, by whichever solver,
+ * and what they refuse. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -14,7 +15,7 @@
 #include "assert_near.h"
 #include "check.h"
 #include "dynamics/chord.h"
-#include "sentence.h"
+#include "message.h"
 
 static const baum_i_kkt_choice CHOICES[] = {BAUM_I_KKT_AUTO, BAUM_I_KKT_KLU, BAUM_I_KKT_QR};
 
@@ -44,7 +45,7 @@ static baum_workspace *bob_on_rods(int rods, baum_i_kkt_choice choice)
   return w;
 }
 
-/* J = (c, s) of the first pose; Phi = (|q|^2 - 1) / 2 of the second. */
+/* J = (c, s) of the first configuration; Phi = (|q|^2 - 1) / 2 of the second. */
 static void phi_of_one_pose_is_taken_away_by_the_matrix_of_another(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The companion of a run: the error it estimates, when it warns, when it costs nothing, and when it is given up. */
+/* The companion of a run: the error it estimates, when it warns, when it costs nothing, and when it
+ * is given up. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -70,7 +71,8 @@ static void the_advised_step_is_not_too_long(void **state)
 
 /* ---- how far the estimate is right ---- */
 
-/* A run of the pendulum, a particle on a rod, to SPAN; *error: the largest of its positions at 40 times. */
+/* A run of the pendulum, a particle on a rod, to SPAN; *error: the largest of its positions at 40
+ * times. */
 static baum_counters run_pendulum(baum_simulation_options o, double *error)
 {
   enum { TIMES = 40 };

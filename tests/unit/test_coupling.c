@@ -232,7 +232,7 @@ static void the_offset_is_drawn_unless_given(void **state)
 }
 
 /* All functions that need the law fail alike. */
-static void check_fails(test_point *p, baum_status status, bool retry, const char *sentence)
+static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[3 * 6 + 6];
   baum_i_joint_blocks blocks = {.jw_q = rows};
@@ -241,12 +241,12 @@ static void check_fails(test_point *p, baum_status status, bool retry, const cha
   for (int i = 0; i < 3; i++) {
     test_point_update(p);
     assert_int_equal(functions[i](&p->point, rows), status);
-    assert_string_equal(baum_message(), sentence);
+    assert_string_equal(baum_message(), message);
     assert_int_equal(p->point.retry, retry);
   }
   test_point_update(p);
   assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, p->v, p->v, &blocks), status);
-  assert_string_equal(baum_message(), sentence);
+  assert_string_equal(baum_message(), message);
   assert_int_equal(p->point.retry, retry);
 }
 

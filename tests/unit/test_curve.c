@@ -196,7 +196,7 @@ static void a_function_that_sets_nothing_is_zero(void **state)
 }
 
 /* All functions that need the curve fail alike. */
-static void check_fails(test_point *p, baum_status status, bool retry, const char *sentence)
+static void check_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[6];
   double lambda = 1.0;
@@ -206,12 +206,12 @@ static void check_fails(test_point *p, baum_status status, bool retry, const cha
   for (int i = 0; i < 3; i++) {
     test_point_update(p);
     assert_int_equal(functions[i](&p->point, rows), status);
-    assert_string_equal(baum_message(), sentence);
+    assert_string_equal(baum_message(), message);
     assert_int_equal(p->point.retry, retry);
   }
   test_point_update(p);
   assert_int_equal(baum_i_mechanism_linearize_joints(&p->point, p->v, &lambda, &blocks), status);
-  assert_string_equal(baum_message(), sentence);
+  assert_string_equal(baum_message(), message);
   assert_int_equal(p->point.retry, retry);
 }
 

@@ -18,7 +18,8 @@
 
 /* ---- accuracy ---- */
 
-/* Adams' order rises with the tolerance; BDF's ends at 5, with an error like rtol^(5/6): 6.8 for each decade. */
+/* Adams' order rises with the tolerance; BDF's ends at 5, with an error like rtol^(5/6): 6.8 for
+ * each decade. */
 static void error_falls_with_the_tolerance(void **state)
 {
   (void)state;
@@ -112,9 +113,10 @@ static int64_t evaluations_with_gain(const baum_integrator *integrator, baum_mec
   return evaluations;
 }
 
-/* With fixed-point iteration, gains of 2000 times the rate of the pendulum took some 34000 evaluations, for steps were
- * bound to 1 / gain. Newton's iteration on their part of the Jacobian needs some 5000; what is left comes from the
- * error test, which sees the rounding of large gains. */
+/* With fixed-point iteration, gains of 2000 times the rate of the pendulum took some 34000
+ * evaluations, for steps were bound to 1 / gain. Newton's iteration on their part of the Jacobian
+ * needs some 5000; what is left comes from the error test, which sees the rounding of large
+ * gains. */
 static void high_gains_do_not_bind_the_steps(void **state)
 {
   (void)state;
@@ -156,7 +158,8 @@ static projected swing(baum_mechanism *mechanism, baum_formulation formulation, 
   return out;
 }
 
-/* Every step ends on the constraints: Phi to 1e-13 of the length, Phi' to 1e-13 of |J| |v|, which is 4.43 m/s at most. */
+/* Every step ends on the constraints: Phi to 1e-13 of the length, Phi' to 1e-13 of |J| |v|, which
+ * is 4.43 m/s at most. */
 static void projected_steps_end_on_the_constraints(void **state)
 {
   (void)state;
@@ -194,8 +197,8 @@ static double mean_error(baum_mechanism *mechanism, baum_formulation formulation
   return exp(sum / count);
 }
 
-/* Gains of twice the rate are what the rule `auto` is about. A single pendulum may be lucky with other ones, as the table
- * shows; means of 21 runs scatter by a factor of 1.3. */
+/* Gains of twice the rate are what the rule `auto` is about. A single pendulum may be lucky with
+ * other ones, as the table shows; means of 21 runs scatter by a factor of 1.3. */
 static void projection_is_as_good_as_gains(void **state)
 {
   (void)state;
@@ -267,7 +270,8 @@ static void swing_from(baum_mechanism *mechanism, const baum_integrator *integra
   baum_simulation_destroy(run);
 }
 
-/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of these steps; nothing here depends on it. */
+/* At 1e9 s a time has a rounding of 1e-7 s, a thousandth of these steps; nothing here depends on
+ * it. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a): what the sparse matrix gives for random
- * right sides is put back, with the derivative of f along x by central differences.
+/* The linear systems of CVODE BDF, (I - gamma df/dy) x = r with f = (v, a): what the sparse matrix
+ * gives for random right sides is put back, with the derivative of f along x by central
+ * differences.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -65,7 +66,7 @@ static void close_solver(solver *s)
   baum_workspace_destroy(s->workspace);
 }
 
-/* f (nq + nv); false where the pose is singular. */
+/* f (nq + nv); false where the configuration is singular. */
 static bool evaluate(const solver *s, double t, const double *y, double *f)
 {
   int64_t before = s->workspace->near_singular;
@@ -86,8 +87,8 @@ static double size_of(const solver *s, const double *x)
   return largest;
 }
 
-/* (df/dy) x by a central difference of fourth order: its truncation and rounding are about 1e-12 of f. False where a
- * pose is singular. */
+/* (df/dy) x by a central difference of fourth order: its truncation and rounding are about 1e-12 of
+ * f. False where a pose is singular. */
 static bool differentiate(const solver *s, double t, const double *y, const double *x, double *out)
 {
   static const double places[4] = {-2.0, -1.0, 1.0, 2.0};
@@ -128,12 +129,14 @@ static double defect_of(const solver *s, double t, const double *y, double gamma
   return regular ? size_of(s, defect) / size : (double)NAN;
 }
 
-/* A term that is wrong or missing is of size 1e-3; measured are 4e-12 in the middle, at worst 4e-8 where all derivatives are
- * given, and 1e-5 where the matrix has differences of user functions and the pose is not far from a singular one. */
+/* A term that is wrong or missing is of size 1e-3; measured are 4e-12 in the middle, at worst 4e-8
+ * where all derivatives are given, and 1e-5 where the matrix has differences of user functions and
+ * the configuration is not far from a singular one. */
 static const double EXACT = 1e-6;
 static const double BY_DIFFERENCES = 5e-5;
 
-/* At random states near the drawing, which need not be consistent. Returns how many were checked. */
+/* At random states near the drawing, which need not be consistent. Returns how many were
+ * checked. */
 static int check_states(const solver *s, double tolerance, chance *c)
 {
   const double gammas[] = {1e-3, -1e-2, 0.1};
@@ -211,7 +214,8 @@ static void models_by_functions_with_and_without_derivatives(void **state)
   check_model(model_car_axis(false, &m), BY_DIFFERENCES, &m);
 }
 
-/* Springs and dampers by numbers and by functions, drivers, inputs, constraints and forces of the user. */
+/* Springs and dampers by numbers and by functions, drivers, inputs, constraints and forces of the
+ * user. */
 static void one_of_every_element(void **state)
 {
   (void)state;

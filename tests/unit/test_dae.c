@@ -36,8 +36,9 @@ typedef struct point {
   int size;
 } point;
 
-/* Scales of y, so that units make no difference: those of the coordinates, at 1/s, and for multipliers the largest
- * inertia at that rate over the displacement of the row; those of mu are by a second larger. */
+/* Scales of y, so that units make no difference: those of the coordinates, at 1/s, and for
+ * multipliers the largest inertia at that rate over the displacement of the row; those of mu are by
+ * a second larger. */
 static void take_scales(baum_workspace *w, point *p)
 {
   const baum_mechanism *m = w->mechanism;
@@ -55,7 +56,8 @@ static void take_scales(baum_workspace *w, point *p)
   }
 }
 
-/* A state near the drawing with velocities, accelerations and multipliers of the size of their scales. */
+/* A state near the drawing with velocities, accelerations and multipliers of the size of their
+ * scales. */
 static point random_point(baum_workspace *w, baum_residual index, int seed)
 {
   const baum_mechanism *m = w->mechanism;
@@ -122,7 +124,8 @@ static void spread(const baum_i_residual_matrix *matrix, const double *values, i
   }
 }
 
-/* Largest difference of entries, each times the scale of its column, over the largest of its row. */
+/* Largest difference of entries, each times the scale of its column, over the largest of its
+ * row. */
 static double largest_difference(const square *got, const square *want, const point *p)
 {
   double worst = 0.0;
@@ -162,8 +165,8 @@ static double check_jacobian(baum_workspace *w, baum_residual index)
   return worst;
 }
 
-/* The truncation of a central difference with step 1e-5 of the scale, 1e-10, and its rounding; the Jacobian of user
- * functions is itself a difference. A wrong term is a share of 1e-3 or more. */
+/* The truncation of a central difference with step 1e-5 of the scale, 1e-10, and its rounding; the
+ * Jacobian of user functions is itself a difference. A wrong term is a share of 1e-3 or more. */
 static void check_all_forms(const char *name, const baum_mechanism *mechanism)
 {
   for (int f = 0; f < FORM_COUNT; f++) {
@@ -313,8 +316,8 @@ static void the_index_1_residual_vanishes_at_the_solution_of_the_stabilized_equa
   check_index_1_at_the_solution(factors);
 }
 
-/* At the solution of (5) on the constraints, with mu = 0, everything vanishes; mu moves the positions alone, by
- * W^-1 J^T mu. */
+/* At the solution of (5) on the constraints, with mu = 0, everything vanishes; mu moves the
+ * positions alone, by W^-1 J^T mu. */
 static void the_ggl_residual_vanishes_on_the_constraints_with_mu_zero(void **state)
 {
   (void)state;

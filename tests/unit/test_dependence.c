@@ -11,7 +11,7 @@
 
 #include "assert_near.h"
 #include "check.h"
-#include "sentence.h"
+#include "message.h"
 
 /* ---- a bar on a pin, and what acts on it ---- */
 

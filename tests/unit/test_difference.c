@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Differences against derivatives that are known. Errors are relative to the size of the function in one relevant
- * change, which is 1 in most tests.
+/* Differences against derivatives that are known. Errors are relative to the size of the function
+ * in one relevant change, which is 1 in most tests.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -203,7 +203,8 @@ static void a_line_in_an_odd_direction_stays_exact_after_ten_thousand_turns(void
   baum_i_ray ray = {.dq = s.v, .rate = v};
   double out;
   assert_int_equal(baum_i_difference_second(&field, &ray, &s.at, &out), BAUM_OK);
-  /* The direction is rounded to 7e-12 / (v / 64), some 1e-9; steps that were not would leave 1e-7. */
+  /* The direction is rounded to 7e-12 / (v / 64), some 1e-9; steps that were not would leave
+   * 1e-7. */
   ASSERT_NEAR(out, -v * v * sin(x), 0.0, 5e-9 * v * v);
   close_stage(&s);
 }

@@ -180,7 +180,7 @@ static void a_law_that_sets_nothing_is_zero(void **state)
 }
 
 /* All three functions that need the law fail alike. */
-static void check_law_fails(test_point *p, baum_status status, bool retry, const char *sentence)
+static void check_law_fails(test_point *p, baum_status status, bool retry, const char *message)
 {
   double rows[4];
   baum_status (*const functions[])(baum_i_point *, double *) = {
@@ -188,7 +188,7 @@ static void check_law_fails(test_point *p, baum_status status, bool retry, const
   for (int i = 0; i < 3; i++) {
     test_point_update(p);
     assert_int_equal(functions[i](&p->point, rows), status);
-    assert_string_equal(baum_message(), sentence);
+    assert_string_equal(baum_message(), message);
     assert_int_equal(p->point.retry, retry);
   }
 }

@@ -275,7 +275,8 @@ static void nodes_without_couplings_and_no_nodes_at_all_are_fine(void **state)
   assert_int_equal(check(&alone), 0);
 }
 
-/* Rounds may take a few more couplings than one node at a time, but nothing like no order at all. */
+/* Rounds may take a few more couplings than one node at a time, but nothing like no order at
+ * all. */
 static void random_graphs_have_little_more_fill_than_by_greed(void **state)
 {
   (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers that overflow are told of where they arise, with the joint or the body, and never handed out with success. */
+/* Numbers that overflow are told of where they arise, with the joint or the body, and never handed
+ * out with success. */
 #include <float.h>
 #include <math.h>
 #include <setjmp.h>
@@ -11,7 +12,7 @@
 
 #include <baum/baum.h>
 
-#include "sentence.h"
+#include "message.h"
 
 /* A rigid body "big" on a rod "rod" of some length from the origin, and a wheel without a joint. */
 typedef struct scene {
@@ -80,7 +81,8 @@ static void gamma_that_overflows_is_refused(void **state)
   close_scene(&s);
 }
 
-/* An arm of 1e200 m over the root of an inertia of 1e-300 kg m^2: each is a number, the size of the row is none. */
+/* An arm of 1e200 m over the root of an inertia of 1e-300 kg m^2: each is a number, the size of the
+ * row is none. */
 static void rows_whose_size_overflows_are_refused(void **state)
 {
   (void)state;

@@ -246,8 +246,8 @@ static void what_a_driver_holds_is_not_left_out(void **state)
   baum_mechanism_destroy(m);
 }
 
-/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as redundant as one of the cranks'
- * own, but what fixes a body is kept. */
+/* Three parallel cranks, one of them on a frame: a row of its weld, which comes last, is as
+ * redundant as one of the cranks' own, but what fixes a body is kept. */
 static void rows_that_fix_a_body_are_kept(void **state)
 {
   (void)state;

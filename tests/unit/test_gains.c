@@ -63,7 +63,7 @@ static void has(const char *text, const char *part)
   assert_non_null(strstr(text, part));
 }
 
-/* Refused with a sentence that says each of the parts, and nothing written. */
+/* Refused with a message that says each of the parts, and nothing written. */
 static void refused(baum_gains gains, baum_i_gain_context context, baum_status want,
                     const char *part, const char *other_part)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Generalized-alpha: order of all unknowns, damping of what is not resolved, stiff forces, redundant rows, and steps of
- * other lengths. */
+/* Generalized-alpha: order of all unknowns, damping of what is not resolved, stiff forces,
+ * redundant rows, and steps of other lengths. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -14,9 +14,9 @@
 #include "check.h"
 #include "integrate/generalized_alpha.h"
 #include "integrator_run.h"
+#include "message.h"
 #include "models.h"
 #include "one_coordinate.h"
-#include "sentence.h"
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -88,9 +88,10 @@ static void what_is_too_fast_falls_by_rho_in_a_step(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost. The spring's slow motion,
- * x = exp(-w t / (2 d)) for d far above 1, is followed closely. What stays is the error of the first steps, which do not
- * resolve how the damper leads from rest to the slow motion: a part of (w h)^2 = 1e-2, measured 3e-4. */
+/* Damping of 1e4 1/s with steps of 10 ms, where explicit methods are lost. The spring's slow
+ * motion, x = exp(-w t / (2 d)) for d far above 1, is followed closely. What stays is the error of
+ * the first steps, which do not resolve how the damper leads from rest to the slow motion: a part
+ * of (w h)^2 = 1e-2, measured 3e-4. */
 static void a_stiff_damper_needs_no_small_steps(void **state)
 {
   (void)state;
@@ -107,7 +108,8 @@ static void a_stiff_damper_needs_no_small_steps(void **state)
 
 /* ---- order ---- */
 
-/* Multiplier of the pendulum's rod, of length 1 and 1 kg, in its own units: against that of (5) at the exact motion. */
+/* Multiplier of the pendulum's rod, of length 1 and 1 kg, in its own units: against that of (5) at
+ * the exact motion. */
 static double errors_at(double step, double *velocity, double *multiplier)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -145,7 +147,8 @@ static void positions_velocities_and_multipliers_are_of_order_2(void **state)
   }
 }
 
-/* After five steps: where a begins as the acceleration itself, multipliers are of order 1 at first. */
+/* After five steps: where a begins as the acceleration itself, multipliers are of order 1 at
+ * first. */
 static void multipliers_are_of_order_2_from_the_start(void **state)
 {
   (void)state;
@@ -221,8 +224,8 @@ static void redundant_rows_alter_nothing(void **state)
   model_destroy(&doubled);
 }
 
-/* A centimetre off the circle at the start, and with a velocity along the rod: gone after one step, and the
- * motion goes on with what the projection has left. */
+/* A centimetre off the circle at the start, and with a velocity along the rod: gone after one step,
+ * and the motion goes on with what the projection has left. */
 static void a_start_off_the_constraints_is_projected(void **state)
 {
   (void)state;

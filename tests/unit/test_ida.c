@@ -67,9 +67,10 @@ static violation largest_violation(baum_formulation formulation, double t)
   return largest;
 }
 
-/* What is among the equations holds to the accuracy of Newton's iteration, about the tolerance, and does not grow: Phi
- * of index 3, Phi' of index 2, both of GGL. Phi of index 2 drifts, at most as long as it runs, and more slowly than
- * where Phi' drifts too. Index 1 has only the second derivative. */
+/* What is among the equations holds to the accuracy of Newton's iteration, about the tolerance, and
+ * does not grow: Phi of index 3, Phi' of index 2, both of GGL. Phi of index 2 drifts, at most as
+ * long as it runs, and more slowly than where Phi' drifts too. Index 1 has only the second
+ * derivative. */
 static void violation_is_as_the_formulation_says(void **state)
 {
   (void)state;
@@ -123,8 +124,9 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* The exact Jacobian may not need more than the dense one from IDA's own differences, which knows nothing of ours, but
- * for the luck of other digits, 15 % so far. A term left out or with a wrong sign costs 2 to 40 times as much. */
+/* The exact Jacobian may not need more than the dense one from IDA's own differences, which knows
+ * nothing of ours, but for the luck of other digits, 15 % so far. A term left out or with a wrong
+ * sign costs 2 to 40 times as much. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {
@@ -290,7 +292,8 @@ static void multipliers_may_vanish(void **state)
 
 /* ---- units ---- */
 
-/* Free swing of a point of m kg: the multipliers are m times as large, the motion is the same, and so are the steps. */
+/* Free swing of a point of m kg: the multipliers are m times as large, the motion is the same, and
+ * so are the steps. */
 static int64_t steps_with_mass(baum_formulation formulation, double mass)
 {
   baum_mechanism *mechanism = NULL;
@@ -329,7 +332,8 @@ static void the_unit_of_mass_makes_no_difference(void **state)
 
 /* ---- multipliers in the error test ---- */
 
-/* Largest error of IDA's multipliers up to t, over the largest of them, with a factor on their tolerance. */
+/* Largest error of IDA's multipliers up to t, over the largest of them, with a factor on their
+ * tolerance. */
 static double tested_multiplier_error(const model *scene, baum_formulation formulation,
                                       double factor, int64_t *steps)
 {
@@ -360,9 +364,9 @@ static double tested_multiplier_error(const model *scene, baum_formulation formu
   return error / largest;
 }
 
-/* Without a tolerance the multipliers are as wrong as it happens; with one their error is at most 10 times that, as
- * the errors of other unknowns are (measured 3.5), and steps are more, as the order says: at order 2 and more not
- * fivefold for each decade, but for noise. */
+/* Without a tolerance the multipliers are as wrong as it happens; with one their error is at most
+ * 10 times that, as the errors of other unknowns are (measured 3.5), and steps are more, as the
+ * order says: at order 2 and more not fivefold for each decade, but for noise. */
 static void multipliers_are_tested_as_their_factor_says(void **state)
 {
   (void)state;
@@ -393,8 +397,8 @@ static void multipliers_are_tested_as_their_factor_says(void **state)
 
 /* ---- start ---- */
 
-/* Where Phi and Phi' are among the equations, a state that violates them is left in the first step; index 2 has only
- * Phi'. The pendulum is put 1e-2 m and 0.3 m/s off. */
+/* Where Phi and Phi' are among the equations, a state that violates them is left in the first step;
+ * index 2 has only Phi'. The pendulum is put 1e-2 m and 0.3 m/s off. */
 static void a_start_off_the_constraints_jumps_onto_them(void **state)
 {
   (void)state;
@@ -422,8 +426,9 @@ static void a_start_off_the_constraints_jumps_onto_them(void **state)
   }
 }
 
-/* A consistent start and a given first step: no rejected step among the first ten, at any tolerance; at index 2 one, by
- * bad luck, at index 3 two, because a smaller first step would be worse. */
+/* A consistent start and a given first step: no rejected step among the first ten, at any
+ * tolerance; at index 2 one, by bad luck, at index 3 two, because a smaller first step would be
+ * worse. */
 static void the_start_is_smooth(void **state)
 {
   (void)state;
@@ -455,8 +460,8 @@ static void the_start_is_smooth(void **state)
   model_destroy(&scene);
 }
 
-/* A second guide on the same line: two rows are redundant, and read lambda_i = mu_i = 0. The motion is the same to the
- * error of either, about 100 rtol after a turn. */
+/* A second guide on the same line: two rows are redundant, and read lambda_i = mu_i = 0. The motion
+ * is the same to the error of either, about 100 rtol after a turn. */
 static void redundant_rows_make_no_difference(void **state)
 {
   (void)state;
@@ -480,8 +485,9 @@ static void redundant_rows_make_no_difference(void **state)
   }
 }
 
-/* Nothing here depends on time, and IDA is told that since the start: a billion seconds, of which a double holds no more
- * than tenths of microseconds, change no digit. Inside of the step t itself is rounded so. */
+/* Nothing here depends on time, and IDA is told that since the start: a billion seconds, of which a
+ * double holds no more than tenths of microseconds, change no digit. Inside of the step t itself is
+ * rounded so. */
 static void a_late_start_costs_no_digits(void **state)
 {
   (void)state;
@@ -532,7 +538,7 @@ static void a_start_that_cannot_be_evaluated_is_refused(void **state)
   assert_non_null(strstr(baum_message(), "faulty"));
   assert_int_equal(baum_ida()->restart(run.self, &run.problem, &run.state), BAUM_ERR_CALLBACK);
   run.state.t = 0.0;
-  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* begins anew by itself */
+  assert_int_equal(integrator_run_to(&run, 0.5), BAUM_OK); /* restarts by itself */
   integrator_run_close(&run);
   baum_mechanism_destroy(mechanism);
 }

@@ -399,7 +399,7 @@ static void a_state_that_is_set_keeps_the_inputs(void **state)
   baum_mechanism_destroy(s.mechanism);
 }
 
-/* IDA evaluates where it begins anew, so that there a change may fail. */
+/* IDA evaluates where it restarts, so that there a change may fail. */
 static void a_change_that_fails_is_none(void **state)
 {
   (void)state;

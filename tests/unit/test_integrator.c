@@ -171,7 +171,8 @@ static void tolerances_grow_with_scale_and_speed_only(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* On the rod's line, away from the circle: Phi and Phi' are not zero, and lambda tells the gains. */
+/* On the rod's line, away from the circle: Phi and Phi' are not zero, and lambda tells the
+ * gains. */
 static void gains_follow_formulation_and_direction(void **state)
 {
   (void)state;
@@ -246,10 +247,10 @@ static void amplification_is_cut_to_the_callers_size(void **state)
   }
 }
 
-#define ASSERT_REFUSED(call, want, sentence)         \
-  do {                                               \
-    assert_int_equal((call), (want));                \
-    assert_string_equal(baum_message(), (sentence)); \
+#define ASSERT_REFUSED(call, want, message)         \
+  do {                                              \
+    assert_int_equal((call), (want));               \
+    assert_string_equal(baum_message(), (message)); \
   } while (0)
 
 static void wrong_arguments_are_refused_with_the_argument(void **state)

@@ -33,7 +33,8 @@ static integrator_setup setup_of(baum_mechanism *mechanism, const method *m)
   return setup;
 }
 
-/* Every integrator of this build with each of its formulations, with steps of one length and of its own choice. */
+/* Every integrator of this build with each of its formulations, with steps of one length and of its
+ * own choice. */
 static void for_each(battery_fn *test)
 {
   for (int k = 0; baum_integrator_at(k); k++) {
@@ -67,13 +68,15 @@ static double error_at(baum_mechanism *mechanism, const integrator_setup *setup,
   return error;
 }
 
-/* What an integrator may be off after some time with rtol = 1e-6 or h = 1e-3; the motions here have rates of 2 to 6
+/* What an integrator may be off after some time with rtol = 1e-6 or h = 1e-3; the motions here have
+ * rates of 2 to 6
  * 1/s, and index 3 is known to be far off. */
 static double allowed(const integrator_setup *setup)
 {
   /* Of order 5 and more what is left is rounding, of 2000 steps and of the reference. */
   static const double BY_ORDER[] = {2e-4, 5e-2, 3e-5, 3e-7, 3e-9, 1e-11, 1e-11, 1e-11, 1e-11};
-  /* The error constants of Adams' explicit methods are 5/12, 3/8 and 251/720, of Runge-Kutta's about 1/k!. */
+  /* The error constants of Adams' explicit methods are 5/12, 3/8 and 251/720, of Runge-Kutta's
+   * about 1/k!. */
   double wide = setup->integrator->method.kind == BAUM_I_METHOD_ADAMS_BASHFORTH ? 30.0 : 1.0;
   return setup->formulation == BAUM_FORMULATION_INDEX3
            ? 3e-2
@@ -181,7 +184,7 @@ static void a_function_that_stops_is_left_alone(void **state)
   for_each(stop_at_once);
 }
 
-/* Beginning anew after a failure, elsewhere in time, and turning round. */
+/* restarting after a failure, elsewhere in time, and turning round. */
 static void begin_anew(const method *m)
 {
   if (m->fixed || !m->integrator->restart) {
@@ -353,8 +356,8 @@ static double error_with_step(const method *m, double step)
   return error;
 }
 
-/* Halving the step three times; coarse enough that rounding (1e-13) is far, fine enough for the leading term. Orders 5
- * and 8 reach rounding before terms of the next order have gone. */
+/* Halving the step three times; coarse enough that rounding (1e-13) is far, fine enough for the
+ * leading term. Orders 5 and 8 reach rounding before terms of the next order have gone. */
 static void observe_order(const method *m)
 {
   static const double COARSE[] = {0.0, 4e-4, 4e-3, 4e-3, 4e-3, 1.25e-2, 0.0, 0.0, 0.1};

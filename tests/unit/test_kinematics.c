@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics: the motion of mechanisms without freedom, on its branch and to rounding. */
+/* Kinematics: the motion of mechanisms without degrees of freedom, on its branch and to
+ * rounding. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,13 +13,14 @@
 #include "assert_near.h"
 #include "driven.h"
 #include "mechanism/mechanism.h"
+#include "message.h"
 #include "methods.h"
 #include "models.h"
-#include "sentence.h"
 
 static const double PI = 3.14159265358979323846;
 
-/* Poses are solved until Phi is rounding, so what is left is that of a few operations on lengths up to 5 m. */
+/* Configurations are solved until Phi is rounding, so what is left is that of a few operations on
+ * lengths up to 5 m. */
 static const double EXACT = 1e-13;
 
 /* ---- runs ---- */
@@ -58,7 +60,8 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 
 /* ---- branches ---- */
 
-/* Any pose but those within a few hundredths of a lock-up, either branch, rates from 0.01 to 100 rad/s both ways. */
+/* Any pose but those within a few hundredths of a lock-up, either branch, rates from 0.01 to 100
+ * rad/s both ways. */
 static slider_crank draw(double crank, double rod, double offset, uint64_t *seed)
 {
   slider_crank data = {.crank = crank, .rod = rod, .offset = offset};
@@ -114,7 +117,8 @@ static void slider_cranks_stay_on_their_branch_from_any_start(void **state)
     printf("rod %.6f m: error %.1e m, Phi %.1e; per output %.1f steps, %.1f factorizations of J\n",
            rods[i], all.error, all.phi, (double)all.steps / (double)all.outputs,
            (double)all.evaluations / (double)all.outputs);
-    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times the velocity ratio of up to 200. */
+    /* Rounding of the crank's angle of up to 60 rad, 1e-14, times the velocity ratio of up to
+     * 200. */
     assert_true(all.error <= 1e-11);
     assert_true(all.phi <= 1e-13);
   }
@@ -193,7 +197,8 @@ static void positions_velocities_accelerations_are_those_of_the_closed_form(void
   close_run(run, mechanism);
 }
 
-/* Torque of the motor: by virtual power, sum of (m a - f) v over the bodies, divided by its rate. */
+/* Torque of the motor: by virtual power, sum of (m a - f) v over the bodies, divided by its
+ * rate. */
 static void the_multiplier_of_the_driver_is_its_torque(void **state)
 {
   (void)state;
@@ -412,7 +417,7 @@ static void units_do_not_matter(void **state)
   assert_int_equal(steps[1], steps[0]);
 }
 
-/* The other branch is a pose as good as this one: a run that is put there stays there. */
+/* The other branch is a configuration as good as this one: a run that is put there stays there. */
 static void a_state_of_the_other_branch_can_be_set(void **state)
 {
   (void)state;

@@ -12,9 +12,9 @@
 #include "assert_near.h"
 #include "driven.h"
 #include "integrator_run.h"
+#include "message.h"
 #include "methods.h"
 #include "models.h"
-#include "sentence.h"
 
 static const double PI = 3.14159265358979323846;
 
@@ -42,10 +42,10 @@ static void close_run(baum_simulation *run, baum_mechanism *mechanism)
 }
 
 static void check_refused(const baum_mechanism *mechanism, const baum_simulation_options *o,
-                          baum_status want, const char *sentence)
+                          baum_status want, const char *message)
 {
   baum_simulation *run = NULL;
-  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, sentence);
+  ASSERT_SAYS(baum_simulation_create(mechanism, o, &run), want, message);
   assert_null(run);
 }
 
@@ -83,8 +83,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   close_run(run, mechanism);
 }
 
-/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64 and -116 degrees there is
- * no pose. */
+/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64 and
+ * -116 degrees there is no pose. */
 static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
 {
   (void)state;
@@ -101,12 +101,14 @@ static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
   }
   printf("stopped at most %.1e rad from the lock-up, %.1e m off the branch\n", worst.to_lock,
          worst.error);
-  /* Shortest steps are 1e-10 of 1/rate; at 1e-9 rad rounding of the angle is amplified 1e4 times. */
+  /* Shortest steps are 1e-10 of 1/rate; at 1e-9 rad rounding of the angle is amplified 1e4
+   * times. */
   assert_true(worst.to_lock <= 1e-6);
   assert_true(worst.error <= 1e-9);
 }
 
-/* Steps may pass no lock-up however far the output is, and stop before it, from where the run can go on. */
+/* Steps may pass no lock-up however far the output is, and stop before it, from where the run can
+ * go on. */
 static void outputs_up_to_the_lock_up_are_given(void **state)
 {
   (void)state;
@@ -129,7 +131,8 @@ static void outputs_up_to_the_lock_up_are_given(void **state)
   close_run(run, mechanism);
 }
 
-/* A parallelogram that flattens may become an antiparallelogram: J says so, the driver does not choose. */
+/* A parallelogram that flattens may become an antiparallelogram: J says so, the driver does not
+ * choose. */
 static void where_branches_cross_a_run_stops(void **state)
 {
   (void)state;
@@ -139,7 +142,7 @@ static void where_branches_cross_a_run_stops(void **state)
     baum_simulation *run = open_run(mechanism);
     double flat = (sign > 0 ? PI - 1.0 : 1.0) / 2.0;
     ASSERT_SAYS(baum_simulation_advance_to(run, 10.0), BAUM_ERR_SINGULAR,
-                "kinematics: the pose is singular here|in more than one way");
+                "kinematics: the configuration is singular here|in more than one way");
     assert_true(baum_simulation_time(run) < flat);
     ASSERT_NEAR(baum_simulation_time(run), flat, 0.0, 1e-6);
     ASSERT_NEAR(baum_simulation_q(run)[2], 0.0, 0.0, 1e-6);
@@ -201,7 +204,7 @@ static int faulty(double t, double s[3], void *user)
   return fails && f->answer != 9 ? f->answer : 0;
 }
 
-static void meet(int answer, baum_status want, const char *sentence)
+static void meet(int answer, baum_status want, const char *message)
 {
   fault f = {.after = (double)INFINITY, .answer = answer};
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .law = faulty, .user = &f}};
@@ -209,13 +212,13 @@ static void meet(int answer, baum_status want, const char *sentence)
   baum_simulation *run = open_run(mechanism);
   double x[3];
   f.after = 0.7;
-  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, sentence);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, message);
   assert_non_null(strstr(baum_simulation_message(run), "t = 0."));
   double t = baum_simulation_time(run);
   assert_true(t > (answer < 0 ? 0.2 : 0.699) && t <= 0.7);
   slider_crank_motion(&data, 0.3 + t, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, 1e-13);
-  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, sentence);
+  ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), want, message);
   f.after = (double)INFINITY;
   assert_int_equal(baum_simulation_advance_to(run, 2.0), BAUM_OK);
   slider_crank_motion(&data, 2.3, x);
@@ -304,7 +307,7 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A start as it is drawn is solved like any other pose; one that is far off is refused. */
+/* A start as it is drawn is solved like any other configuration; one that is far off is refused. */
 static void a_start_off_the_constraints_is_solved_or_refused(void **state)
 {
   (void)state;
@@ -381,7 +384,7 @@ static void a_singular_state_cannot_be_set(void **state)
   o.start = BAUM_START_AS_GIVEN;
   assert_int_equal(baum_simulation_create(mechanism, &o, &run), BAUM_OK);
   ASSERT_SAYS(baum_simulation_set_state(run, 0.8, q, v), BAUM_ERR_SINGULAR,
-              "t = 0.8 s: kinematics: the start pose is singular");
+              "t = 0.8 s: kinematics: the start configuration is singular");
   assert_true(baum_simulation_advance_to(run, 0.5) >= BAUM_OK);
   ASSERT_NEAR(baum_simulation_q(run)[5], PI - 0.3, 0.0, 1e-12);
   close_run(run, mechanism);

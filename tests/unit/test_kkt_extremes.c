@@ -18,7 +18,8 @@
 
 /* ---- size and units ---- */
 
-/* Lengths in units of 1 / per_metre: rotations j % 3 == 2 keep their unit, all else is a length; so are all rows. */
+/* Lengths in units of 1 / per_metre: rotations j % 3 == 2 keep their unit, all else is a length; so
+ * are all rows. */
 static void change_unit(saddle *system, double per_metre)
 {
   for (int b = 0; b < system->structure.mass_block_count; b++) {
@@ -52,7 +53,8 @@ static saddle make_pose(int loops, double angle)
   return system;
 }
 
-/* Solve at one pose in two units; compare in metres. Returns the worse of the two qualities. */
+/* Solve at one configuration in two units; compare in metres. Returns the worse of the two
+ * qualities. */
 static baum_i_kkt_quality compare_units(double angle, double per_metre, double tolerance)
 {
   baum_i_kkt_quality worst = BAUM_I_KKT_GOOD;
@@ -404,7 +406,8 @@ static void rows_that_repeat_each_other_share_their_multiplier(void **state)
   }
 }
 
-/* By either sign and up to sizes that hide all else; and what does not contradict is solved again. */
+/* By either sign and up to sizes that hide all else; and what does not contradict is solved
+ * again. */
 static void rows_that_contradict_each_other_are_singular(void **state)
 {
   (void)state;

@@ -106,7 +106,8 @@ static void a_zero_pivot_is_singular_whether_kept_or_chosen(void **state)
 static void careful_pivots_are_accurate_where_usual_ones_are_not(void **state)
 {
   (void)state;
-  /* Two parallel rods of a flat four-bar: usual pivots lose the square of the distance, careful ones the distance. */
+  /* Two parallel rods of a flat four-bar: usual pivots lose the square of the distance, careful
+   * ones the distance. */
   saddle system = saddle_make_four_bar(1);
   saddle_pose_four_bar(&system, 1e-9);
   saddle_make_consistent(&system, 1);

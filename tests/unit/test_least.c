@@ -113,7 +113,8 @@ static void assert_power(int count, int power, double from, double t)
   double want_rate;
   double want = from + power_at(t, power, &want_rate);
   baum_i_hermite(&line, knots, count, t, got, rate, work);
-  /* Rounding of q by 1e-16 `from` times the factors, whose sizes at 10.4 s have the sums 340 and 12500. */
+  /* Rounding of q by 1e-16 `from` times the factors, whose sizes at 10.4 s have the sums 340 and
+   * 12500. */
   ASSERT_NEAR(got[0], want, 0.0, 1e-13 + 3.4e-14 * from);
   ASSERT_NEAR(rate[0], want_rate, 0.0, 1e-12 + 1.25e-12 * from);
   assert_true(got[1] == -1.0 && rate[1] == -1.0);

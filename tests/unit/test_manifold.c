@@ -343,12 +343,12 @@ static void with_angle(baum_coordinates_def *def)
   baum_mechanism_destroy(m);
 }
 
-static void expect_refused(const baum_coordinates_def *def, const char *sentence)
+static void expect_refused(const baum_coordinates_def *def, const char *message)
 {
   baum_mechanism *m = NULL;
   check(baum_mechanism_create(&m));
   assert_int_equal(baum_mechanism_add_coordinates(m, def, NULL), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), sentence));
+  assert_non_null(strstr(baum_message(), message));
   baum_mechanism_destroy(m);
 }
 
@@ -433,14 +433,14 @@ static void wrong_difference(const double *from, const double *to, double *dx, v
   dx[0] = hypot(to[0] - from[0], to[1] - from[1]); /* without a sign, and a chord */
 }
 
-static void expect_found(const baum_coordinates_def *def, const char *sentence)
+static void expect_found(const baum_coordinates_def *def, const char *message)
 {
   baum_mechanism *m = NULL;
   check(baum_mechanism_create(&m));
   check(baum_mechanism_add_coordinates(m, def, NULL));
   check(baum_mechanism_freeze(m));
   assert_int_equal(baum_mechanism_check_derivatives(m), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), sentence));
+  assert_non_null(strstr(baum_message(), message));
   baum_mechanism_destroy(m);
 }
 

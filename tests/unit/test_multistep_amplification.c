@@ -19,8 +19,8 @@ typedef struct matrix {
   double a[MOST][MOST];
 } matrix;
 
-/* One step of the method on x'' = -2 A x' - B x with h = 1, written out for both coordinates; the past
- * holds rates: y = (x, v, f(n-1), f(n-2), ...). */
+/* One step of the method on x'' = -2 A x' - B x with h = 1, written out for both coordinates; the
+ * past holds rates: y = (x, v, f(n-1), f(n-2), ...). */
 static matrix step_matrix(const baum_i_method *method, double A, double B)
 {
   const double rate[2][2] = {{0.0, 1.0}, {-B, -2.0 * A}};
@@ -95,7 +95,8 @@ static void radius_is_that_of_the_matrix_of_a_step(void **state)
       double p[2];
       random_point(&seed, m, p);
       double want = matrix_radius(step_matrix(&methods[m], p[0], p[1]));
-      /* Rounding of 40 squarings, each halved once more than the one before; sharp for simple roots. */
+      /* Rounding of 40 squarings, each halved once more than the one before; sharp for simple
+       * roots. */
       ASSERT_NEAR(amplification_at(m, p[0], p[1]).spectral_radius, want, 1e-9, 0.0);
     }
   }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* P x = M^-1 J^T (J M^-1 J^T)^-1 J x by the factors of the last solution: J P x = J x, and P x stands upright, in the
- * metric of M, on every y with J y = 0. These two say all of P. With J x given in the place of x it is the same vector.
+/* P x = M^-1 J^T (J M^-1 J^T)^-1 J x by the factors of the last solution: J P x = J x, and P x
+ * stands upright, in the metric of M, on every y with J y = 0. These two say all of P. With J x
+ * given in the place of x it is the same vector.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -93,7 +94,7 @@ static void check_by_rows(baum_workspace *w, vectors *d)
   }
 }
 
-/* False where the pose is singular. */
+/* False where the configuration is singular. */
 static bool check_mechanism(baum_workspace *w, chance *c)
 {
   const baum_mechanism *m = w->mechanism;

@@ -16,7 +16,8 @@ enum { POINTS = 4000, COLUMNS = 120, ROWS = 160 };
 static double alpha_h[POINTS];
 static double beta2_h2[POINTS];
 
-/* R - 1 = x (x + 2) (x + 3) / 6: critical damping is stable to 2 and again from 3 to where R = -1. */
+/* R - 1 = x (x + 2) (x + 3) / 6: critical damping is stable to 2 and again from 3 to where R =
+ * -1. */
 static const baum_i_method island = {
   .kind = BAUM_I_METHOD_ONE_STEP, .degree = 3, .coefficients = {1.0, 1.0, 5.0 / 6.0, 1.0 / 6.0}};
 
@@ -238,8 +239,9 @@ static void no_grid_point_is_better_than_the_best(void **state)
   }
 }
 
-/* mu real, where the largest two z are equal in size. AB2: z = +-1 / sqrt(3), their sum 1 - 3 A / 2 = 0;
- * AB3 and AB4 by Durand and Kerner's iteration for the roots and nested intervals for mu, in Python. */
+/* mu real, where the largest two z are equal in size. AB2: z = +-1 / sqrt(3), their sum 1 - 3 A / 2
+ * = 0; AB3 and AB4 by Durand and Kerner's iteration for the roots and nested intervals for mu, in
+ * Python. */
 static void best_points_of_adams_bashforth_are_the_known_ones(void **state)
 {
   (void)state;

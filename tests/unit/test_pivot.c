@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Smallest pivots tell singular poses, not uneven masses. */
+/* Smallest pivots tell singular configurations, not uneven masses. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -107,7 +107,8 @@ static void a_light_slider_makes_hardly_any_pose_singular(void **state)
   check(baum_simulation_create(m, &options, &run));
   check(baum_simulation_step(run, 600));
   check(baum_simulation_counters(run, &counters, sizeof counters));
-  /* what KLU makes of its pivots scatters by 25 from pose to pose; kept for ever they were in doubt 12 times */
+  /* what KLU makes of its pivots scatters by 25 from configuration to configuration; kept for ever
+   * they were in doubt 12 times */
   assert_true(counters.near_singular_intervals <= 2);
   baum_simulation_destroy(run);
   baum_mechanism_destroy(m);

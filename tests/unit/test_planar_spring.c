@@ -46,8 +46,8 @@ static baum_planar_spring_def good(const planar_scene *scene)
   return def;
 }
 
-/* A spring is all but straight only away from zero length: for the differences, states with points closer than this are
- * left out, where fifth derivatives go like its fourth power. */
+/* A spring is all but straight only away from zero length: for the differences, states with points
+ * closer than this are left out, where fifth derivatives go like its fourth power. */
 static double length_of(const test_point *p, const baum_i_force *spring)
 {
   double at[2][2];

@@ -16,8 +16,8 @@
 
 enum { NV = 7, NC = 5, N = NV + NC };
 
-/* Five rows of which the last two are sums of others. Masses 1, and 1 the largest number in each row, so that the
- * scaled system is the system itself. */
+/* Five rows of which the last two are sums of others. Masses 1, and 1 the largest number in each
+ * row, so that the scaled system is the system itself. */
 static saddle make_dependent(void)
 {
   saddle system = saddle_make_dense(NV, NC);
@@ -99,7 +99,8 @@ static void multipliers_that_are_not_unique_are_of_least_norm(void **state)
   saddle system = make_dependent();
   baum_i_kkt *kkt = make_solver(&system, BAUM_I_KKT_AUTO);
   assert_int_equal(factor_and_solve(kkt, &system), BAUM_OK);
-  /* Least norm: nothing of w where J^T w = 0, that is of (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1). Rows have the scale
+  /* Least norm: nothing of w where J^T w = 0, that is of (1, 0, 0, -1, 0) and (0, 1, -1, 0, -1).
+   * Rows have the scale
    * 1 but for the last, a difference, whose largest number may be up to 2 and so its scale 1/2. */
   const double *lambda = system.lambda;
   double largest = 0.0;

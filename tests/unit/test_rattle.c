@@ -11,8 +11,8 @@
 
 #include "assert_near.h"
 #include "check.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 
 static baum_simulation_options options_with(const baum_integrator *integrator, double step)
 {
@@ -100,8 +100,8 @@ static band energy_band(baum_simulation *run, int steps, double unit)
   return b;
 }
 
-/* Over 1e5 steps the band is that of the first 5000 within 1 % of its width, where semi-implicit Euler
- * has left it by far. */
+/* Over 1e5 steps the band is that of the first 5000 within 1 % of its width, where semi-implicit
+ * Euler has left it by far. */
 static void check_band(const model *m, double step, double unit)
 {
   baum_simulation_options options = options_with(baum_rattle(), step);
@@ -136,8 +136,8 @@ static void the_energy_of_long_runs_stays_in_its_band(void **state)
   model_destroy(&crank);
 }
 
-/* Symmetric: as many steps back, and the start is there again but for rounding, of 500 steps and grown by the way
- * nearby motions part. */
+/* Symmetric: as many steps back, and the start is there again but for rounding, of 500 steps and
+ * grown by the way nearby motions part. */
 static void the_way_back_leads_to_the_start(void **state)
 {
   (void)state;

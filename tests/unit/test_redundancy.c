@@ -10,8 +10,8 @@
 
 #include "assert_near.h"
 #include "dynamics/dynamics.h"
+#include "message.h"
 #include "models.h"
-#include "sentence.h"
 
 /* ---- mechanisms ---- */
 
@@ -134,7 +134,8 @@ static void a_third_crank_of_a_parallelogram_changes_no_acceleration_and_is_name
   double a[12];
   double lambda[12];
   solve(three, v, a, lambda);
-  /* One freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J = 0.3, length 1. */
+  /* One freedom: (3 (J + m/4) + m) angle'' = -(3 m/2 + m) g cos(angle), m = 2, J = 0.3, length
+   * 1. */
   double want = -(3.0 + 2.0) * 9.81 * cos(angle) / (3.0 * (0.3 + 0.5) + 2.0);
   for (int k = 0; k < 3; k++) {
     ASSERT_NEAR(a[5 + 3 * k], want, 1e-12, 0.0);
@@ -252,7 +253,7 @@ static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
   assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 0);
   assert_true(mobility.near_singular);
-  assert_non_null(strstr(mobility.text, "start pose is singular"));
+  assert_non_null(strstr(mobility.text, "start configuration is singular"));
   baum_mechanism_destroy(m);
 }
 
@@ -452,7 +453,7 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
   static const struct {
     double acceleration;
     double t;
-    const char *sentence; /* NULL: it is projected */
+    const char *message; /* NULL: it is projected */
   } cases[] = {
     {0.0, 0.3, NULL},
     {1.0, 0.0, NULL},
@@ -469,10 +470,10 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
     double v[3] = {0.0, 2.0, 2.0};
     assert_int_equal(baum_workspace_create(m, &w), BAUM_OK);
     assert_int_equal(w->rows.count, 1);
-    if (cases[k].sentence) {
+    if (cases[k].message) {
       const double before[6] = {q[0], q[1], q[2], v[0], v[1], v[2]};
       ASSERT_SAYS(baum_workspace_project(w, cases[k].t, q, v), BAUM_ERR_INCONSISTENT,
-                  cases[k].sentence);
+                  cases[k].message);
       assert_memory_equal(q, before, sizeof q);
       assert_memory_equal(v, before + 3, sizeof v);
     } else {

@@ -119,8 +119,8 @@ static void a_slider_crank_is_counted(void **state)
   assert_int_equal(r.islands, 1);
   assert_int_equal(r.fixed_bodies, 0);
   assert_true(r.constant_mass && r.constant_force && r.blocks);
-  /* Three pins, one guide, the motor. The crank couples two pins and the motor, the rod two pins, the
-   * slider a pin and the guide. */
+  /* Three pins, one guide, the motor. The crank couples two pins and the motor, the rod two pins,
+   * the slider a pin and the guide. */
   assert_int_equal(r.nodes, 5);
   assert_int_equal(r.couplings, 5);
   assert_int_equal(r.fill, 0);

@@ -52,7 +52,8 @@ static void rows_are_the_points_of_body_a_minus_body_b(void **state)
   test_point_open(&p, scene.mechanism);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* Crank drawn at (-0.3, 1.2), -1.1 rad, its point (-0.45, 0.15); the ground's (0.5, 0.7). A few roundings. */
+  /* Crank drawn at (-0.3, 1.2), -1.1 rad, its point (-0.45, 0.15); the ground's (0.5, 0.7). A few
+   * roundings. */
   double c = cos(-1.1);
   double s = sin(-1.1);
   ASSERT_NEAR(phi[0], 0.5 - (-0.3 - 0.45 * c - 0.15 * s), 0.0, 1e-15);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runge-Kutta pairs with steps of their own choice: the interpolant, what it leaves alone, what a step costs, and what
- * makes a step shorter. Their tables: test_rk_tables.c. What they share with all integrators: test_integrators.c. */
+/* Runge-Kutta pairs with steps of their own choice: the interpolant, what it leaves alone, what a
+ * step costs, and what makes a step shorter. Their tables: test_rk_tables.c. What they share with
+ * all integrators: test_integrators.c. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -61,7 +62,8 @@ static int64_t rejected(const integrator_run *run)
 
 /* ---- the interpolant ---- */
 
-/* Largest error inside a first step of length h, which is 10 % of what the tolerance would allow. */
+/* Largest error inside a first step of length h, which is 10 % of what the tolerance would
+ * allow. */
 static double error_inside(const method *m, double h)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -83,8 +85,8 @@ static double error_inside(const method *m, double h)
   return largest;
 }
 
-/* The error of one step falls with h^(order + 1), a little faster where terms beyond that still show: steps for which
- * they do not would end in rounding. */
+/* The error of one step falls with h^(order + 1), a little faster where terms beyond that still
+ * show: steps for which they do not would end in rounding. */
 static void fall_inside(const method *m)
 {
   double longest = m->dense_order == 4 ? 0.1 : 0.2;
@@ -112,7 +114,8 @@ static double rate_at_end(integrator_run *run, double t, double inwards, double 
   return (4.0 * near - 3.0 * at_end - run->q[0]) / (2.0 * inwards);
 }
 
-/* Values and rates at both ends of every step are those of the states there, so that they go on from step to step. */
+/* Values and rates at both ends of every step are those of the states there, so that they go on
+ * from step to step. */
 static void join(const method *m)
 {
   baum_mechanism *mechanism = make_pendulum();
@@ -301,7 +304,8 @@ static baum_mechanism *make_hiccup(hiccup *h)
   return mechanism;
 }
 
-/* Wherever in a step it fails, the step is taken again at half its length, and the motion is right. */
+/* Wherever in a step it fails, the step is taken again at half its length, and the motion is
+ * right. */
 static void get_over(const method *m)
 {
   for (int answer = 0; answer <= 1; answer++) {
@@ -355,7 +359,8 @@ static void a_motion_without_bound_ends_in_steps_too_short(void **state)
     assert_int_equal(integrator_run_to(&run, 2.0), BAUM_ERR_STEP);
     assert_non_null(strstr(baum_message(), "grow without bound"));
     assert_non_null(strstr(baum_message(), pairs[k]->name));
-    /* The last good state: x' still follows, to the errors of the time of the end that it gathers. */
+    /* The last good state: x' still follows, to the errors of the time of the end that it
+     * gathers. */
     assert_true(isfinite(run.state_q[0]) && isfinite(run.state_v[0]));
     ASSERT_NEAR(run.state.t, 1.0, 0.0, 1e-4);
     integrator_run_close(&run);

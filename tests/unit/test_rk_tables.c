@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables of Runge-Kutta pairs against the conditions of order (J. Butcher; Hairer, Norsett, Wanner 1993, section II.2):
- * a method with weights b and stages A has order p if, for every rooted tree t of up to p nodes,
+/* Tables of Runge-Kutta pairs against the conditions of order (J. Butcher; Hairer, Norsett, Wanner
+ * 1993, section II.2): a method with weights b and stages A has order p if, for every rooted tree t
+ * of up to p nodes,
  *
- *   sum_i b_i phi_i(t) = 1 / gamma(t),   phi_i(t) = product over the root's branches t' of sum_j a_ij phi_j(t'),
+ *   sum_i b_i phi_i(t) = 1 / gamma(t),   phi_i(t) = product over the root's branches t' of sum_j
+ *   a_ij phi_j(t'),
  *                                        gamma(t) = |t| product of gamma(t')
  *
- * and an interpolant b(x) has it if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). Estimates are differences of methods: their
- * sums vanish. There are 200 trees of up to 8 nodes.
+ * and an interpolant b(x) has it if sum_i b_i(x) phi_i(t) = x^|t| / gamma(t). Estimates are
+ * differences of methods: their sums vanish. There are 200 trees of up to 8 nodes.
  */
 #include <math.h>
 #include <setjmp.h>

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gains of rows with integrators that choose their step: with alpha = beta = b f_i a row that is let go at Phi_0 obeys
+/* Gains of rows with integrators that choose their step: with alpha = beta = b f_i a row that is
+ * let go at Phi_0 obeys
  *
  *   Phi'' + 2 b f Phi' + (b f)^2 Phi = 0,   Phi = Phi_0 (1 + b f t) exp(-b f t)
  *
- * whatever the mechanism is. Adams has the stiffness of every row in its iteration, as BDF and IDA have it in their matrices.
+ * whatever the mechanism is. Adams has the stiffness of every row in its iteration, as BDF and IDA
+ * have it in their matrices.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -84,7 +86,8 @@ static void check_decay(const baum_mechanism *m, const char *name, double gain)
     double turned = gain * FACTORS[k % ROWS] * times[k / ROWS];
     double want = start[k % ROWS] * (1.0 + turned) * exp(-turned);
     assert_true(fabs(start[k % ROWS]) > 1e-5);
-    /* Errors of some hundred steps at rtol 1e-8 of lengths below 1 m; a factor that is left out of a term makes
+    /* Errors of some hundred steps at rtol 1e-8 of lengths below 1 m; a factor that is left out of
+     * a term makes
      * 1e-6 or more. */
     ASSERT_NEAR(rows[k], want, 0.0, 1e-7);
   }
@@ -142,8 +145,8 @@ static baum_counters count_steps(const baum_mechanism *m, const char *name, doub
   return counters;
 }
 
-/* Gains up to 4e4 1/s: a fixed-point iteration converges where 2 alpha h is below 2 at most, which takes 2000 steps.
- * Measured are 620, 440, 580, and with gains alike, of 1e4 1/s, 340, 370, 390. */
+/* Gains up to 4e4 1/s: a fixed-point iteration converges where 2 alpha h is below 2 at most, which
+ * takes 2000 steps. Measured are 620, 440, 580, and with gains alike, of 1e4 1/s, 340, 370, 390. */
 static void steps_do_not_become_short(void **state)
 {
   (void)state;

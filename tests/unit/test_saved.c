@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of what is saved belongs to a version of the format: whoever changes it raises the version. */
+/* The list of what is saved belongs to a version of the format: whoever changes it raises the
+ * version. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -12,8 +13,8 @@
 #include "pendulum_events.h"
 #include "simulate/saved.h"
 
-/* Sizes of the parts of a run with all that may be there. A row is never changed: other sizes get another version and a
- * row of their own. Those up to version 8 had lists of another kind. */
+/* Sizes of the parts of a run with all that may be there. A row is never changed: other sizes get
+ * another version and a row of their own. Those up to version 8 had lists of another kind. */
 static const struct {
   int version;
   uint64_t list;

@@ -216,7 +216,8 @@ static motion allowed(step_mode mode)
   if (step_mode_is_adams(mode)) {
     return (motion){1e-6, 1e-5};
   }
-  /* Positions alone are kept; h^2 times the third derivative, 2.7, is about ten times what rates are off. */
+  /* Positions alone are kept; h^2 times the third derivative, 2.7, is about ten times what rates
+   * are off. */
   if (mode.integrator == baum_generalized_alpha()) {
     return (motion){1e-12, 2.7e-6};
   }
@@ -405,7 +406,7 @@ static void without_stabilization_the_difference_stays(void **state)
 
 /* ---- failure ---- */
 
-/* IDA evaluates where it begins anew, so that there a change may fail. */
+/* IDA evaluates where it restarts, so that there a change may fail. */
 static void a_law_that_cannot_be_begun_is_not_set(void **state)
 {
   (void)state;

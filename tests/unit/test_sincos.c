@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sines and cosines of src/base/sincos.h and of the frames that are made with them, against those of
- * long double, which the C library reduces exactly and rounds with eleven bits to spare.
+/* Sines and cosines of src/base/sincos.h and of the frames that are made with them, against those
+ * of long double, which the C library reduces exactly and rounds with eleven bits to spare.
  */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -87,8 +87,8 @@ static void random_angles_are_right_to_one_ulp(void **state)
   }
 }
 
-/* All multiples of pi/2 up to the limit and the numbers beside them: there, sine or cosine is as small
- * as it can get, and the reduction loses as much as it can. */
+/* All multiples of pi/2 up to the limit and the numbers beside them: there, sine or cosine is as
+ * small as it can get, and the reduction loses as much as it can. */
 static void neighbours_of_all_multiples_of_a_right_angle_are_right(void **state)
 {
   (void)state;

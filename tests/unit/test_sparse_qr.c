@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sparse QR of random matrices against what defines its results: residuals are orthogonal to the columns, and columns
- * are dependent where they were made so. */
+/* Sparse QR of random matrices against what defines its results: residuals are orthogonal to the
+ * columns, and columns are dependent where they were made so. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -42,8 +42,8 @@ static int32_t draw_below(uint64_t *seed, int32_t bound)
   return (int32_t)floor(0.5 * (1.0 + draw(seed)) * bound);
 }
 
-/* About three entries in a column, in rows that differ little from column to column, and one anywhere: with `hub` in row
- * 0, which so couples all columns. */
+/* About three entries in a column, in rows that differ little from column to column, and one
+ * anywhere: with `hub` in row 0, which so couples all columns. */
 static void fill_column(sample *s, int32_t j, bool hub, uint64_t *seed)
 {
   for (int k = 0; k < 3; k++) {
@@ -269,8 +269,8 @@ static void nothing_is_left_of_the_values_before(void **state)
   baum_i_sparse_qr_destroy(kept);
 }
 
-/* 20000 columns of a chain whose two ends are held, and half of which are there twice: time and memory that grew
- * with the square of it would not do. */
+/* 20000 columns of a chain whose two ends are held, and half of which are there twice: time and
+ * memory that grew with the square of it would not do. */
 static void a_long_chain_is_linear(void **state)
 {
   (void)state;

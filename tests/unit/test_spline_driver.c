@@ -50,8 +50,8 @@ static void open_cam(test_point *p, baum_spline_driver_def def)
   test_point_open(p, scene.mechanism);
 }
 
-/* s, s', s'' as the third row shows them at the design configuration at rest, where the coordinate is -1.5
- * and its gamma 0. */
+/* s, s', s'' as the third row shows them at the design configuration at rest, where the coordinate
+ * is -1.5 and its gamma 0. */
 static void motion_at(test_point *p, double t, double s[3])
 {
   double rows[3];
@@ -186,7 +186,7 @@ static void a_periodic_one_repeats_and_follows_sine(void **state)
   test_point_close(&p);
 }
 
-/* From both sides, a rounding of the time away, also where a periodic one begins anew. */
+/* From both sides, a rounding of the time away, also where a periodic one restarts. */
 static void it_is_continuous_with_its_second_derivative(void **state)
 {
   (void)state;
@@ -316,7 +316,7 @@ static void wrong_curves_are_refused(void **state)
   baum_joint_id pin = pin_between(&scene, scene.link, scene.crank);
   const struct {
     baum_spline_driver_def def;
-    const char *sentence;
+    const char *message;
   } wrong[] = {
     {along(times, values, 2, false), "joint 2 \"cam\": count is 2, must be at least 3"},
     {along(times, values, -4, false), "joint 2 \"cam\": count is -4, must be at least 3"},
@@ -335,7 +335,7 @@ static void wrong_curves_are_refused(void **state)
   for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
     baum_spline_driver_def def = wrong[k].def;
     def.joint = pin;
-    check_refused(scene.mechanism, add, &def, wrong[k].sentence);
+    check_refused(scene.mechanism, add, &def, wrong[k].message);
   }
   baum_spline_driver_def def = along(times, values, 4, true); /* closed but for 1e-13 of 1 */
   check_refused(scene.mechanism, add, &def, "joint 2 \"cam\": joint is none, must be given");

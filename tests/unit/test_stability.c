@@ -34,7 +34,8 @@ static void limits_are_the_known_ones(void **state)
   }
 }
 
-/* B = 2 A for explicit Euler below zeta = 1, B = 4 A - 4 above; B = 4 - 4 A for semi-implicit Euler. */
+/* B = 2 A for explicit Euler below zeta = 1, B = 4 A - 4 above; B = 4 - 4 A for semi-implicit
+ * Euler. */
 static void limits_of_both_eulers_are_exact_for_any_damping_ratio(void **state)
 {
   (void)state;

@@ -14,10 +14,10 @@
 #include "assert_near.h"
 #include "integrate/integrator.h"
 
-#define ASSERT_REFUSED(call, want, sentence)         \
-  do {                                               \
-    assert_int_equal((call), (want));                \
-    assert_string_equal(baum_message(), (sentence)); \
+#define ASSERT_REFUSED(call, want, message)         \
+  do {                                              \
+    assert_int_equal((call), (want));               \
+    assert_string_equal(baum_message(), (message)); \
   } while (0)
 
 typedef struct fact {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Length of the next step: the formulas by hand, their bounds, and what control does with a known error. */
+/* Length of the next step: the formulas by hand, their bounds, and what control does with a known
+ * error. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -27,7 +28,8 @@ static void the_first_step_goes_by_its_error_alone(void **state)
   ASSERT_NEAR(control.step, 0.1 * 0.85 * 2.0, 1e-15, 0.0);
 }
 
-/* Errors 1/32 and 1/32 with the same step: no trend, and the memory of the error before takes a little off. */
+/* Errors 1/32 and 1/32 with the same step: no trend, and the memory of the error before takes a
+ * little off. */
 static void a_steady_error_is_kept(void **state)
 {
   (void)state;
@@ -73,8 +75,8 @@ static void after_a_refusal_steps_do_not_grow_at_once(void **state)
   assert_true(control.step > 0.1);
 }
 
-/* Of an error c(t) h^5 whose c grows and falls by a hundred, one step in twenty is refused at most, and most of the
- * tolerance is used: half of the steps have an error above a tenth of it. */
+/* Of an error c(t) h^5 whose c grows and falls by a hundred, one step in twenty is refused at most,
+ * and most of the tolerance is used: half of the steps have an error above a tenth of it. */
 static void a_varying_error_is_followed(void **state)
 {
   (void)state;

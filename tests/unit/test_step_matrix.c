@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The matrix of a step: its solution is Newton's change of the residual, by differences, at every element there is. */
+/* The matrix of a step: its solution is Newton's change of the residual, by differences, at every
+ * element there is. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -18,7 +19,7 @@ typedef struct point {
   double dy[SIZE];
 } point;
 
-/* Irregular numbers about 0, the positions about the drawn ones. */
+/* Irregular numbers about 0, the positions about the design ones. */
 static void choose(baum_workspace *w, point *p)
 {
   memset(p, 0, sizeof *p);

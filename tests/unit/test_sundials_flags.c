@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What CVODE and IDA answer when they give up, as sentences: flag by flag, and as far as runs can be brought to it. */
+/* What CVODE and IDA answer when they give up, as messages: flag by flag, and as far as runs can be
+ * brought to it. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -18,7 +19,7 @@
 #include <ida/ida.h>
 
 #include "integrate/sundials_driver.h"
-#include "sentence.h"
+#include "message.h"
 
 /* ---- flag by flag ---- */
 
@@ -130,7 +131,7 @@ static baum_mechanism *make_thrown(fault *now)
 static const struct {
   fault fault;
   baum_status status;
-  const char *words; /* all of them in the sentence */
+  const char *words; /* all of them in the message */
 } BROUGHT[] = {
   {FAULT_JUMPS, BAUM_ERR_STEP, "error stays above the tolerance|(step |last good step, t = |take "},
   {FAULT_NOISE, BAUM_ERR_CONVERGENCE, "does not converge|(step |last good step, t = |take "},
@@ -139,7 +140,8 @@ static const struct {
   {FAULT_STOPS, BAUM_ERR_CALLBACK, "\"gust\"|returned -1 (stop)|in a step of |from t = | long)"},
 };
 
-/* From one call to the next everything goes wrong at once, so that steps cannot end before it; then it is well again. */
+/* From one call to the next everything goes wrong at once, so that steps cannot end before it; then
+ * it is well again. */
 static void bring_about(const baum_integrator *integrator, int k)
 {
   fault now = FAULT_NONE;

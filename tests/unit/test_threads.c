@@ -233,7 +233,7 @@ static void variants_of_one_mechanism_are_made_in_threads(void **state)
   baum_mechanism_destroy(parts.mechanism);
 }
 
-/* ---- sentences ---- */
+/* ---- messages ---- */
 
 static void *fail_by_number(void *argument)
 {

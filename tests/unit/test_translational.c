@@ -112,7 +112,8 @@ static void an_axis_beside_points_is_of_body_a(void **state)
   test_point_update(&p);
   double phi[2];
   assert_int_equal(baum_i_mechanism_phi(&p.point, phi), BAUM_OK);
-  /* Points (0.3, -0.2) and (-0.45, 0.15) in the axes of both; crank's origin is (5, 7) in link's. */
+  /* Points (0.3, -0.2) and (-0.45, 0.15) in the axes of both; crank's origin is (5, 7) in
+   * link's. */
   ASSERT_NEAR(coordinate_of(&p).value, 7.0 + 0.15 + 0.2, 1e-15, 0.0);
   ASSERT_NEAR(phi[0], -(5.0 - 0.45 - 0.3), 1e-14, 0.0); /* along k x axis = (-1, 0) */
   ASSERT_NEAR(phi[1], 0.0, 0.0, 1e-15);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User constraints: bodies, functions that fail, definitions. Derivatives have a file of their own. */
+/* User constraints: bodies, functions that fail, definitions. Derivatives have a file of their
+ * own. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

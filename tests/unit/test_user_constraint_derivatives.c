@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Derivatives of user constraints: what is given is used, what is missing is differenced.
  *
- * Tolerances are scaled: in units of what a change of one scale, at the rate of the state, does to the quantity.
+ * Tolerances are scaled: in units of what a change of one scale, at the rate of the state, does to
+ * the quantity.
  */
 #include <math.h>
 #include <setjmp.h>
@@ -181,8 +182,8 @@ static void at_rest_gamma_of_what_time_does_not_move_is_exactly_zero(void **stat
   }
 }
 
-/* Nothing moves, so that nothing tells how fast time works: 300 1/s has to be found by the search for a step.
- * Where the two orders happen to agree it ends one step early: 1e-8. */
+/* Nothing moves, so that nothing tells how fast time works: 300 1/s has to be found by the search
+ * for a step. Where the two orders happen to agree it ends one step early: 1e-8. */
 static void at_rest_a_fast_drive_is_differenced_as_well(void **state)
 {
   (void)state;

@@ -65,7 +65,7 @@ class Adding:
     ):
         """Add `size` generalized coordinates: mass(t, q) gives M (size x size), force(t, q, v) the
         force vector g (size), force_q and force_v its derivatives (size x size), potential(t, q) an
-        energy [J]. q, v, scale: (size) drawn positions, velocities at start, a relevant change of
+        energy [J]. q, v, scale: (size) design positions, velocities at start, a relevant change of
         each. inputs: those that force, force_q and force_v are given after v.
         depends_on_velocity: False where force() does not read v (rattle needs that).
 

@@ -33,11 +33,11 @@ def as_status(value):
 
 
 class Error(Exception):
-    """A call failed. `status` says how, str() is the library's sentence; `run` holds what a failed
+    """A call failed. `status` says how, str() is the library's message; `run` holds what a failed
     simulate() or sample() had recorded, else None."""
 
-    def __init__(self, status, sentence):
-        super().__init__(sentence)
+    def __init__(self, status, message):
+        super().__init__(message)
         self.status = as_status(status)
         self.run = None
 

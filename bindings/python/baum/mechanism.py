@@ -15,14 +15,14 @@ from .elements import CLASSES, GROUND, Element, Entry, one
 from ._lib import lib
 from ._values import number, numbers, vector
 
-LISTED = 30  # names in a sentence
+LISTED = 30  # names in a message
 
 Sizes = namedtuple("Sizes", "nq nv nc")
 Sizes.__doc__ = "Numbers of positions, velocities and constraint rows."
 
 
 class Mobility(namedtuple("Mobility", [name for name, _ in _abi.baum_mobility._fields_[1:]])):
-    """What a mechanism can do at its assembled start pose. str() says it in sentences, by name."""
+    """What a mechanism can do at its assembled start pose. str() says it in messages, by name."""
 
     __slots__ = ()
 

@@ -81,8 +81,8 @@ def make_options(method, values):
     if isinstance(method, (str, Integrator)):
         options.integrator = lookup(method).address
     elif method is None:
-        sentence = f"no integrator is given; choose one of {', '.join(integrators())}"
-        raise Error(Status.ERR_ARGUMENT, sentence)
+        message = f"no integrator is given; choose one of {', '.join(integrators())}"
+        raise Error(Status.ERR_ARGUMENT, message)
     else:
         raise TypeError(f"integrator: a name is wanted, not {method!r}")
     for name, value in values.items():
@@ -265,14 +265,14 @@ class Simulation:
 
     def set_input(self, input, value):
         """Set an input from now on, given as a handle or by name; it is held until it is set again.
-        Variable-step methods begin anew, which costs multistep ones small steps: a loop that sets
+        Variable-step methods restart, which costs multistep ones small steps: a loop that sets
         inputs often goes best with a fixed step, or with "rk8"."""
         input = self.mechanism.find("input", input)
         self._call(lib.baum_simulation_set_input, input.id, number(value, input.name))
 
     def schedule_input(self, input, times, values):
         """Give an input values[k] from times[k] [s] on, rising; before the first it has its present
-        one. No step passes a time, and methods with a past begin anew there. set_input() ends it."""
+        one. No step passes a time, and methods with a past restart there. set_input() ends it."""
         input = self.mechanism.find("input", input)
         times = vector(np.atleast_1d(times), None, f"{input.name}: times")
         values = vector(np.atleast_1d(values), len(times), f"{input.name}: values")
@@ -334,7 +334,7 @@ class Simulation:
 
     def save(self):
         """The run as bytes, to be restored in this or another process. Methods of several steps and
-        those that choose their step begin anew from here, so that this run and a restored one go on
+        those that choose their step restart from here, so that this run and a restored one go on
         alike, bit for bit."""
         size = ctypes.c_size_t()
         self._call(lib.baum_simulation_save, None, 0, ctypes.byref(size))
@@ -441,7 +441,7 @@ class Simulation:
 
     @property
     def near_singular(self):
-        """Intervals in which the run was near a singular pose, the first 64."""
+        """Intervals in which the run was near a singular configuration, the first 64."""
         found = []
         for k in range(min(self.counters.near_singular_intervals, 64)):
             out = _abi.baum_near_singular()
@@ -499,5 +499,5 @@ class Simulation:
 
     @property
     def message(self):
-        """The sentence of the last failure or stop, "" at first."""
+        """The message of the last failure or stop, "" at first."""
         return lib.baum_simulation_message(self._owner._address).decode(errors="replace")

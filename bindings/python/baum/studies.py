@@ -53,7 +53,7 @@ StudyReference = _record(
 
 class Recommendation(dict):
     """Keyword options for Mechanism.simulate() and simulation(): m.simulate(t, **best). `why` is a
-    sentence with what was measured."""
+    message with what was measured."""
 
     def __init__(self, options, why):
         super().__init__(options)
@@ -276,16 +276,16 @@ class Study:
             self.add_standard(quick=self._quick)
         out = stream() if self._progress is None else None
         if out is None:
-            status, sentence = self._long(lib.baum_study_run)
+            status, message = self._long(lib.baum_study_run)
         else:
             self._progress = Line(out, [entry.method for entry in self.entries])
             try:
-                status, sentence = self._long(lib.baum_study_run)
+                status, message = self._long(lib.baum_study_run)
             finally:
                 self._progress.close()
                 self._progress = None
         if status != Status.OK:
-            warn(Warning(sentence))
+            warn(Warning(message))
         return self
 
     def cancel(self):
@@ -293,7 +293,7 @@ class Study:
         lib.baum_study_cancel(self._owner._address)
 
     def _long(self, function, *arguments):
-        """A call that may take long, and its sentence. What a function of the user raised is raised
+        """A call that may take long, and its message. What a function of the user raised is raised
         here, whichever thread it was called from."""
 
         def call():

@@ -12,11 +12,11 @@
  * that of neighbouring steps, plus rounding. And only where the function has a derivative at all:
  * at a kink, such as dry friction at rest, the two sides differ by as much at any step.
  *
- * Poses are the drawn one and three beside it, where nothing is zero or symmetric by chance. Phi is
- * not zero there: derivatives must be those of the function, not only where the constraint is met.
- * A pose that a function of an element refuses says nothing; only when it refuses them all is that
- * the result. (The drawn one alone may be refused without fault: velocities that will follow from
- * the constraints are taken as zero there.)
+ * Configurations are the drawn one and three beside it, where nothing is zero or symmetric by
+ * chance. Phi is not zero there: derivatives must be those of the function, not only where the
+ * constraint is met. A configuration that a function of an element refuses says nothing; only when
+ * it refuses them all is that the result. (The drawn one alone may be refused without fault:
+ * velocities that will follow from the constraints are taken as zero there.)
  */
 #include "mechanism/general/check.h"
 
@@ -341,7 +341,7 @@ static baum_status check_poses(check_fn *check, const void *element, place *p)
   if (any) {
     return BAUM_OK;
   }
-  set_pose(p, 0); /* for the sentence of the design configuration */
+  set_pose(p, 0); /* for the message of the design configuration */
   return check(element, &p->point);
 }
 
@@ -372,7 +372,7 @@ baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
     return status;
   }
   place p;
-  baum_i_sentence kept;
+  baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   status = make_place(mechanism, &p);
   if (status == BAUM_OK) {

@@ -9,7 +9,7 @@
 /* A derivative to be doubted. */
 typedef struct baum_i_claim {
   const baum_i_user_function *function; /* "jacobian", with its shape */
-  const char *source;                   /* what was differenced, for the sentence: "phi" */
+  const char *source;                   /* what was differenced, for the message: "phi" */
   const double *given;                  /* its values at the place */
 } baum_i_claim;
 

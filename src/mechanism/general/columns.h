@@ -58,7 +58,8 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
                              const double *six, double *packed);
 
-/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the ground. */
+/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the
+ * ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
 {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The chain rule for a row Phi = G(c_0, c_1). With g_i = (c_i)_q, H_i = (c_i)_qq, r_i = c_i' = g_i v,
- * gamma_i such that g_i a = c_i'' + gamma_i, that is gamma_i = -v^T H_i v, and sums over i, j, k:
+/* The chain rule for a row Phi = G(c_0, c_1). With g_i = (c_i)_q, H_i = (c_i)_qq, r_i = c_i' = g_i
+ * v, gamma_i such that g_i a = c_i'' + gamma_i, that is gamma_i = -v^T H_i v, and sums over i, j,
+ * k:
  *
  *   J       = G_i g_i
  *   gamma   = G_i gamma_i - G_ij r_i r_j

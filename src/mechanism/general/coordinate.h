@@ -6,11 +6,12 @@
 #include "mechanism/identify.h"
 
 /* Check that a joint named in a definition exists and has a coordinate: BAUM_OK, or
- * BAUM_ERR_ARGUMENT with the sentence; purpose ends it: "to drive". */
+ * BAUM_ERR_ARGUMENT with the message; purpose ends it: "to drive". */
 baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_id id,
                                     const char *label, const char *field, const char *purpose);
 
-/* Its value in the design configuration; for `lower` functions of joints that were added after it. */
+/* Its value in the design configuration; for `lower` functions of joints that were added after
+ * it. */
 double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_joint *joint);
 
 #endif

@@ -315,7 +315,8 @@ static baum_status check_sign(const baum_i_body *body, const baum_i_local *at, c
   return BAUM_OK;
 }
 
-/* constant_mass is the claim that a derivative is zero: compare with the design configuration at t = 0. */
+/* constant_mass is the claim that a derivative is zero: compare with the design configuration at t
+ * = 0. */
 static baum_status check_constant(const baum_i_body *body, const baum_i_local *at,
                                   const double *block)
 {

@@ -223,7 +223,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
 
 /* ---- checking what is given ---- */
 
-/* Value and slope in the places of their derivatives, so that the sentence names their entry. */
+/* Value and slope in the places of their derivatives, so that the message names their entry. */
 static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
 {
   double f[LAW_SIZE];

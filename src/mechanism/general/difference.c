@@ -219,8 +219,8 @@ baum_i_estimate baum_i_estimate_take(baum_i_local *here, int size)
   return estimate;
 }
 
-/* F where q alone is moved by half a relevant change, whose size tells what the rounding of a moved q does to it: along a
- * motion F may be zero all the way. What fails there tells nothing. */
+/* F where q alone is moved by half a relevant change, whose size tells what the rounding of a moved
+ * q does to it: along a motion F may be zero all the way. What fails there tells nothing. */
 static void see_size(const probe *p, const baum_i_estimate *out, double *beside)
 {
   baum_i_local there = *p->at;

@@ -38,7 +38,7 @@ void baum_i_driver_replace_law(double *parameters, double t0, const double s[3])
 /* Value, rate and acceleration of s at the point's time; failures as in phi. */
 typedef baum_status baum_i_motion_fn(const baum_i_joint *driver, baum_i_point *point, double s[3]);
 
-/* Check that s is finite; source says in the sentence where it comes from: "law()". */
+/* Check that s is finite; source says in the message where it comes from: "law()". */
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3]);
 

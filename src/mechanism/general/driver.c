@@ -59,7 +59,7 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
 
 /* ---- checking what is given ---- */
 
-/* Value and rate in the places of their derivatives, so that the sentence names their entry. */
+/* Value and rate in the places of their derivatives, so that the message names their entry. */
 static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
 {
   double s[LAW_SIZE];

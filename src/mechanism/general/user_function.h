@@ -64,12 +64,14 @@ baum_status baum_i_call_qv(const baum_i_user_function *function, baum_qv_fn *cal
 baum_status baum_i_call_force(const baum_i_user_function *function, baum_force_fn *call,
                               const baum_i_local *at, double *out);
 
-/* The first and the last part of a call, for functions of another shape: of `at` point and t are used. */
+/* The first and the last part of a call, for functions of another shape: of `at` point and t are
+ * used. */
 void baum_i_begin_call(const baum_i_user_function *function, const baum_i_local *at, double *out);
 baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_local *at, int answer,
                          const double *out);
 
-/* After baum_i_listen(): the sentence for a function that has answered so, with what it says itself. */
+/* After baum_i_listen(): the message for a function that has answered so, with what it says
+ * itself. */
 baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
                                  const char *name, int answer, baum_i_point *point);
 

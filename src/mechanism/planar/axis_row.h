@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of body_b's marker from body_a's along a direction fixed in body_a: with the normal of an
- * axis the first row of the translational joint and the row of the pin in a slot, with the axis
+/* Distance of body_b's marker from body_a's along a direction fixed in body_a: with the normal of
+ * an axis the first row of the translational joint and the row of the pin in a slot, with the axis
  * itself their coordinate; also part of the rack and pinion and of the point on a curve.
  *
  * Projection of the line between two markers on a direction e of body_a. With u = A_a e, n = k x u,
@@ -26,8 +26,9 @@
 
 /* ---- an axis in definitions ---- */
 
-/* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`. The axis has those
- * axes that the points have: with `point` (given or NaN) it is drawn on the ground. */
+/* The unit axis and its normal k x axis (NULL: not wanted), in the axes of body_a, drawn at `a`.
+ * The axis has those axes that the points have: with `point` (given or NaN) it is drawn on the
+ * ground. */
 void baum_i_axis_lower(const double axis[2], const double point[2], const baum_i_frame *a,
                        double along[2], double normal[2]);
 
@@ -108,8 +109,8 @@ void baum_i_axis_linearize(const baum_i_planar_pair *pair, const double directio
 void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double direction[2],
                                const double w[6], double lambda, baum_i_planar_blocks *out);
 
-/* ---- members of types whose numbers, after both points, begin with an axis and its normal, and whose one
- * row that is not linear is the projection on the normal ---- */
+/* ---- members of types whose numbers, after both points, begin with an axis and its normal, and
+ * whose one row that is not linear is the projection on the normal ---- */
 
 enum { BAUM_I_AXIS = 0, BAUM_I_AXIS_NORMAL = 2, BAUM_I_AXIS_NUMBERS = 4 };
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Point on a curve, planar: body_b's point is where a function of the user vanishes that is fixed in
- * body_a (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an
+/* Point on a curve, planar: body_b's point is where a function of the user vanishes that is fixed
+ * in body_a (point-follower and cam of Nikravesh 1988, chapter 4, and Haug 1989, chapter 3, with an
  * implicit curve instead of a parameter and its equation). With d from body_a's marker to body_b's:
  *
  *   (x, y) = A_a^T d, both projections of axis_row.c, on (1, 0) and (0, 1)
@@ -161,7 +161,7 @@ typedef struct column_of {
   int by; /* 0: x, 1: y */
 } column_of;
 
-/* What is differenced, in the places of its derivatives, so that the sentence names their entry. */
+/* What is differenced, in the places of its derivatives, so that the message names their entry. */
 static baum_status derived_field(const void *context, const baum_i_local *at, double *out)
 {
   const column_of *column = context;

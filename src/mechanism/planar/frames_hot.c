@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The frames of all bodies, some at a time: angles side by side, their sines and cosines as vectors, then
- * the frames. Where all bodies are planar bodies their coordinates need no looking up.
+/* The frames of all bodies, some at a time: angles side by side, their sines and cosines as
+ * vectors, then the frames. Where all bodies are planar bodies their coordinates need no looking
+ * up.
  */
 #include <math.h>
 
@@ -36,8 +37,8 @@ BAUM_I_INLINE double angle_of(const bodies *some, const double *q, int k)
   return place.kind == BAUM_I_FRAME_BODY ? q[place.q + 2] : 0.0;
 }
 
-/* Zero where a body has no angle. Stored a vector at a time, as they are read again at once: of single numbers
- * the reader would have to wait until they are in memory. */
+/* Zero where a body has no angle. Stored a vector at a time, as they are read again at once: of
+ * single numbers the reader would have to wait until they are in memory. */
 BAUM_I_INLINE void gather_angles(const bodies *some, const double *q, double *angle)
 {
   int i = 0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What planar joints and forces share: checks of their common fields, points in body axes.
  *
- * A point given in ground axes of the design configuration becomes s = A^T (point - r) on a body drawn at r.
+ * A point given in ground axes of the design configuration becomes s = A^T (point - r) on a body
+ * drawn at r.
  */
 #include "mechanism/planar/planar.h"
 

@@ -136,8 +136,8 @@ static void set_force_v(const spring *s, const baum_i_tension *t, double out[36]
 
 /* ---- type ---- */
 
-/* -T h, as pairs: T e and its moment on body a, the opposite on b. Of all that springs do this alone
- * is done in every evaluation. */
+/* -T h, as pairs: T e and its moment on body a, the opposite on b. Of all that springs do this
+ * alone is done in every evaluation. */
 static baum_status add_one(const baum_i_force *element, baum_i_point *point, double *out)
 {
   const double *numbers = point->parameters + element->element.parameter;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The library's own evaluation, which goes by blocks. The whole is baum_i_acceleration() itself; the
- * phases are the calls it makes, in their order.
+/* The library's own evaluation, which goes by blocks. The whole is baum_i_acceleration() itself;
+ * the phases are the calls it makes, in their order.
  */
 #include <stdlib.h>
 #include <string.h>

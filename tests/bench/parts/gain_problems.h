@@ -29,8 +29,9 @@ typedef struct gain_problem {
 
 int gain_problem_count(void);
 
-/* Build problem k, perturb its start by a lot of random numbers, and integrate the references: RK4 with projection, at steps so
- * small that halving them changes nothing that matters. False, with the reason in baum_message(). */
+/* Build problem k, perturb its start by a lot of random numbers, and integrate the references: RK4
+ * with projection, at steps so small that halving them changes nothing that matters. False, with
+ * the reason in baum_message(). */
 bool gain_problem_make(int k, int lot, gain_problem *out);
 void gain_problem_clear(gain_problem *problem);
 

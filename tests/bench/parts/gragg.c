@@ -29,7 +29,8 @@ static void midpoint(const gragg *g, const long double *y, long double h, int n,
   }
 }
 
-/* Extrapolates to part lengths of zero; returns the difference of the last two values, over the tolerance. */
+/* Extrapolates to part lengths of zero; returns the difference of the last two values, over the
+ * tolerance. */
 static long double extrapolate(const gragg *g, const long double *y, long double h,
                                long double *out)
 {

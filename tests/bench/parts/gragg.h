@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motions y' = f(y) far more accurately than any run: Gragg's extrapolated midpoint rule (Gragg 1965, Bulirsch and
- * Stoer 1966) of order 16 with error control, in long double. */
+/* Motions y' = f(y) far more accurately than any run: Gragg's extrapolated midpoint rule (Gragg
+ * 1965, Bulirsch and Stoer 1966) of order 16 with error control, in long double. */
 #ifndef BAUM_BENCH_GRAGG_H
 #define BAUM_BENCH_GRAGG_H
 

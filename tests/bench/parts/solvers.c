@@ -144,8 +144,8 @@ static void *klu_create(scene *at)
   return s;
 }
 
-/* Factoring fills the matrix by itself: the phase of assembly is the same filling, done once more when
- * it is the last phase. */
+/* Factoring fills the matrix by itself: the phase of assembly is the same filling, done once more
+ * when it is the last phase. */
 static bool klu_run(void *self, int last_phase)
 {
   klu_solver *s = self;

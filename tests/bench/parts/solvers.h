@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ways to an acceleration of the same scene by the same geometry. To add one: its struct in solvers.c,
- * or a file of its own, and a line in solver_at().
+/* Ways to an acceleration of the same scene by the same geometry. To add one: its struct in
+ * solvers.c, or a file of its own, and a line in solver_at().
  */
 #ifndef BAUM_BENCH_SOLVERS_H
 #define BAUM_BENCH_SOLVERS_H

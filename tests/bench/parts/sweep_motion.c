@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A perturbation is a combination of the directions. From differences of neighbours A_k holds, for each direction, the
- * changes of q and, over the rate, of v at the time k. From j to k perturbations grow by at most the Frobenius norm of the
- * matrix that takes A_j to the positions in A_k, the root of the trace of G_j^-1 G_k, where G are Gram matrices.
+/* A perturbation is a combination of the directions. From differences of neighbours A_k holds, for
+ * each direction, the changes of q and, over the rate, of v at the time k. From j to k
+ * perturbations grow by at most the Frobenius norm of the matrix that takes A_j to the positions in
+ * A_k, the root of the trace of G_j^-1 G_k, where G are Gram matrices.
  */
 #include "sweep_motion.h"
 

@@ -56,8 +56,9 @@ static void set_turning(baum_planar_body_def *def, double rate)
  *   a e(th1) + b e(th2) - c e(th3) - d e(0) = 0
  *   th' = u n(th),  n = (sin(th2 - th3) / a, sin(th3 - th1) / b, sin(th2 - th1) / c)
  *
- * n spans the null space of the Jacobian of both rows, also where the crank is in a dead centre, and is zero in singular
- * configurations only. Along the curve th(s) with dth/ds = n, Lagrange's equation for T = I(s) s'^2 / 2 and V(s) is
+ * n spans the null space of the Jacobian of both rows, also where the crank is in a dead centre,
+ * and is zero in singular configurations only. Along the curve th(s) with dth/ds = n, Lagrange's
+ * equation for T = I(s) s'^2 / 2 and V(s) is
  *
  *   I u' + I_s u^2 / 2 + V_s = 0
  */
@@ -254,7 +255,8 @@ sweep_scene sweep_four_bar(int k, bool gravity, double turns)
 
 /* ---- taut rod ----
  *
- * The uniform rod of mass mu and length 1 m at the angle phi has one end at (x, 0) and at the other a particle of 1 kg:
+ * The uniform rod of mass mu and length 1 m at the angle phi has one end at (x, 0) and at the other
+ * a particle of 1 kg:
  *
  *   (mu + 1) x'' - (mu / 2 + 1) (sin phi phi'' + cos phi phi'^2) = 0
  *   -(mu / 2 + 1) sin phi x'' + (mu / 3 + 1) phi'' = 0
@@ -330,7 +332,8 @@ sweep_scene sweep_taut(double mass_ratio, bool growth)
 
 /* ---- singular configurations ----
  *
- * On their smooth branch all of them are one angle with (i0 + i1 sin^2 th) th'' + i1 sin th cos th th'^2 + k cos th = 0.
+ * On their smooth branch all of them are one angle with (i0 + i1 sin^2 th) th'' + i1 sin th cos th
+ * th'^2 + k cos th = 0.
  */
 
 typedef struct swing {
@@ -348,8 +351,8 @@ static void swing_rate(const void *data, const long double *y, long double *dy)
   dy[1] = -(s->i1 * sine * cosine * y[1] * y[1] + s->k * cosine) / (s->i0 + s->i1 * sine * sine);
 }
 
-/* IFToMM benchmark A02 with N = 1 (A Coruna's library of problems): rods of 1 m and 1 kg, cranks upright at the start, which
- * move to the right at 1 m/s. */
+/* IFToMM benchmark A02 with N = 1 (A Coruna's library of problems): rods of 1 m and 1 kg, cranks
+ * upright at the start, which move to the right at 1 m/s. */
 static void window_q(const void *data, const long double *y, long double *q)
 {
   long double th = y[0];

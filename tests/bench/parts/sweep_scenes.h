@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes of bench_sweeps, each with its motion in reduced coordinates, which owes nothing to the library.
+/* Scenes of bench_sweeps, each with its motion in reduced coordinates, which owes nothing to the
+ * library.
  *
  * Errors are of positions: lengths by the characteristic length of the scene, angles in radians.
  */

@@ -56,7 +56,7 @@ double fuzz_small(fuzz_bytes *b)
 
 _Noreturn void fuzz_report(const char *condition, const char *file, int line)
 {
-  (void)fprintf(stderr, "%s:%d: not true: %s\nthe last sentence: %s\n", file, line, condition,
+  (void)fprintf(stderr, "%s:%d: not true: %s\nthe last message: %s\n", file, line, condition,
                 baum_message());
   abort();
 }

@@ -27,11 +27,11 @@ double fuzz_number(fuzz_bytes *b);
 /* Between 1e-6 and 1, and now and then any number. */
 double fuzz_small(fuzz_bytes *b);
 
-/* A finding: says what is wrong, with the last sentence of the library, and aborts. */
+/* A finding: says what is wrong, with the last message of the library, and aborts. */
 #define FUZZ_CHECK(condition) ((condition) ? (void)0 : fuzz_report(#condition, __FILE__, __LINE__))
 _Noreturn void fuzz_report(const char *condition, const char *file, int line);
 
-/* A failure has a sentence. */
+/* A failure has a message. */
 baum_status fuzz_status(baum_status status);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Definitions, options and mechanisms drawn from the bytes of a fuzzer: whatever a caller may hand in,
- * sensible or not. Pointers are good or NULL, and arrays as long as they are said to be: nobody can
- * check these.
+/* Definitions, options and mechanisms drawn from the bytes of a fuzzer: whatever a caller may hand
+ * in, sensible or not. Pointers are good or NULL, and arrays as long as they are said to be: nobody
+ * can check these.
  */
 #ifndef BAUM_FUZZ_DRAWN_H
 #define BAUM_FUZZ_DRAWN_H

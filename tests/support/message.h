@@ -7,26 +7,26 @@
 
 #include <baum/status.h>
 
-/* The status, and a sentence of this thread that has all the parts, which are separated by '|'. */
+/* The status, and a message of this thread that has all the parts, which are separated by '|'. */
 #define ASSERT_SAYS(status, want, parts) \
   assert_says_((status), (want), (parts), baum_message(), #status, __FILE__, __LINE__)
 
 static inline void assert_says_(baum_status status, baum_status want, const char *parts,
-                                const char *sentence, const char *text, const char *file, int line)
+                                const char *message, const char *text, const char *file, int line)
 {
   if (status != want) {
-    print_error("%s is %s, want %s; the last sentence is: %s\n", text, baum_status_name(status),
-                baum_status_name(want), sentence);
+    print_error("%s is %s, want %s; the last message is: %s\n", text, baum_status_name(status),
+                baum_status_name(want), message);
     _fail(file, line);
   }
   while (*parts) {
     size_t length = strcspn(parts, "|");
-    const char *found = sentence;
+    const char *found = message;
     while (*found && strncmp(found, parts, length) != 0) {
       found++;
     }
     if (!*found) {
-      print_error("\"%.*s\" is not in: %s\n", (int)length, parts, sentence);
+      print_error("\"%.*s\" is not in: %s\n", (int)length, parts, message);
       _fail(file, line);
     }
     parts += length + (parts[length] == '|' ? 1 : 0);
