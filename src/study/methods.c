@@ -139,10 +139,7 @@ baum_status baum_study_method_at(const baum_study *study, int32_t k, baum_study_
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the study is NULL or has no method %d", call,
                        (int)k);
   }
-  baum_status status = baum_i_check_sized(out, caller_size, call);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_sized(out, caller_size, call));
   const baum_i_study_method *method = &study->methods[k];
   const baum_simulation_options *o = &study->entries[method->first]->options;
   const double none = (double)NAN;

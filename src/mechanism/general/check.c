@@ -367,14 +367,11 @@ static baum_status check_elements(const baum_mechanism *mechanism, place *p)
 
 baum_status baum_mechanism_check_derivatives(const baum_mechanism *mechanism)
 {
-  baum_status status = baum_i_check_frozen(mechanism, "baum_mechanism_check_derivatives");
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_mechanism_check_derivatives"));
   place p;
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
-  status = make_place(mechanism, &p);
+  baum_status status = make_place(mechanism, &p);
   if (status == BAUM_OK) {
     status = check_elements(mechanism, &p);
   }

@@ -37,8 +37,8 @@ static baum_status check_given(const baum_spline_driver_def *def, const char *la
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: count is %d, must be at least %d", label,
                        (int)def->count, (int)COUNT_MIN);
   }
-  baum_status status = baum_i_check_given(label, "times", def->times != NULL);
-  return status == BAUM_OK ? baum_i_check_given(label, "values", def->values != NULL) : status;
+  BAUM_I_TRY(baum_i_check_given(label, "times", def->times != NULL));
+  return baum_i_check_given(label, "values", def->values != NULL);
 }
 
 /* Both numbers, and the slope from the place before. */
