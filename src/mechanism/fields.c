@@ -50,12 +50,17 @@ static const struct {
   [BAUM_I_RULE_DIRECTION] = {false, true, true, ""},
 };
 
+static bool is_fine(baum_i_rule rule, double value)
+{
+  bool fine =
+    isfinite(value) && (value >= 0.0 || rules[rule].negative) && (value != 0.0 || rules[rule].zero);
+  return fine || (isnan(value) && rules[rule].nan);
+}
+
 baum_status baum_i_check_number(const char *label, const char *field, const char *unit,
                                 baum_i_rule rule, double value)
 {
-  bool holds =
-    isfinite(value) && (value >= 0.0 || rules[rule].negative) && (value != 0.0 || rules[rule].zero);
-  if (holds || (isnan(value) && rules[rule].nan)) {
+  if (is_fine(rule, value)) {
     return BAUM_OK;
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %g%s%s, must be finite%s", label, field, value,
@@ -66,6 +71,9 @@ baum_status baum_i_check_number(const char *label, const char *field, const char
 static baum_status check_entry(const baum_i_def_field *f, const double *values, int k,
                                const char *label)
 {
+  if (is_fine(f->rule, values[k])) {
+    return BAUM_OK;
+  }
   char name[64];
   (void)snprintf(name, sizeof name, "%s[%d]", f->name, k);
   return baum_i_check_number(label, name, f->unit, f->rule, values[k]);
