@@ -185,8 +185,7 @@ static baum_status search(assembly *s, double before, bool *fell)
   double fraction = 1.0;
   *fell = false;
   for (int k = 0; k < HALVINGS && !*fell; k++) {
-    memcpy(s->trial, s->q, (size_t)w->mechanism->nq * sizeof *s->q);
-    baum_i_move(w->mechanism, fraction, w->a, s->trial);
+    baum_i_move_from(w->mechanism, s->q, fraction, w->a, s->trial);
     baum_i_point_set(&w->point, s->t, s->trial, NULL);
     baum_status status = baum_i_mechanism_phi(&w->point, w->phi);
     if (status != BAUM_OK && !w->point.retry) {

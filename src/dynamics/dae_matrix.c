@@ -368,7 +368,9 @@ static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, c
   const baum_i_body_blocks bodies = {w->mass_q, w->body_force_q, w->body_force_v};
   const baum_i_force_blocks forces = {w->force_q, w->force_v};
   BAUM_I_TRY(baum_i_velocity_stage(w, t, y, v));
-  baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
+  if (!w->mechanism->flat) {
+    baum_i_linearize_rate(w->mechanism, w->point.q, v, w->rate_q, w->work_q);
+  }
   BAUM_I_TRY(baum_i_mechanism_linearize_bodies(&w->point, dv, &bodies));
   BAUM_I_TRY(linearize_joints(w, dae, v, dv));
   return baum_i_mechanism_linearize_forces(&w->point, &forces);

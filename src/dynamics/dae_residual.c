@@ -63,9 +63,9 @@ const double *baum_i_corrected_velocities(baum_workspace *w, const double *v, co
 static void position_rows(const baum_mechanism *m, const double *q, const double *v,
                           const double *dq, double *out)
 {
-  baum_i_rate(m, q, v, out);
+  const double *rates = baum_i_rates(m, q, v, out);
   for (int i = 0; i < m->nq; i++) {
-    out[i] = dq[i] - out[i];
+    out[i] = dq[i] - rates[i];
   }
 }
 

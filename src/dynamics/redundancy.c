@@ -141,8 +141,7 @@ static baum_status find_direction(const search *s, double *size)
 static baum_status look_at_neighbour(search *s, double t, const double *q, double step)
 {
   baum_workspace *w = s->w;
-  memcpy(s->q, q, (size_t)w->mechanism->nq * sizeof *q);
-  baum_i_move(w->mechanism, step, s->x, s->q);
+  baum_i_move_from(w->mechanism, q, step, s->x, s->q);
   baum_status status = baum_i_assemble(w, t + step, s->q, NULL, NULL);
   pose_rank rank = {0, 0};
   if (status == BAUM_OK) {

@@ -113,8 +113,7 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
     run->moved[i] = state->v[i] + 0.5 * shift * run->now.rate[i];
     v[i] = state->v[i] + shift * run->now.rate[i];
   }
-  memcpy(q, state->q, (size_t)run->nq * sizeof *q);
-  baum_i_move(w->mechanism, shift, run->moved, q);
+  baum_i_move_from(w->mechanism, state->q, shift, run->moved, q);
   BAUM_I_TRY(baum_i_problem_acceleration(problem, state->t + shift, q, v));
   for (size_t i = 0; i < nv; i++) {
     run->now.a[i] = run->now.rate[i] + (ALPHA_M - ALPHA_F) * (w->a[i] - run->now.rate[i]) / SHIFT;
@@ -153,8 +152,7 @@ static double present_a(const alpha_run *run, int i, double h)
 
 static void move_end(alpha_run *run, const baum_mechanism *m, const baum_i_state *state)
 {
-  memcpy(run->y, state->q, (size_t)run->nq * sizeof *run->y);
-  baum_i_move(m, 1.0, run->moved, run->y);
+  baum_i_move_from(m, state->q, 1.0, run->moved, run->y);
 }
 
 /* With v' and lambda as they are. */

@@ -87,8 +87,7 @@ static void extrapolate(const baum_mechanism *m, const baum_i_pose *from, double
   for (int i = 0; i < m->nv; i++) {
     work[i] = from->v[i] + 0.5 * h * from->a[i];
   }
-  memcpy(q, from->q, (size_t)m->nq * sizeof *q);
-  baum_i_move(m, h, work, q);
+  baum_i_move_from(m, from->q, h, work, q);
 }
 
 /* Hermite's polynomial through both ends. */
@@ -110,8 +109,7 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
   for (int i = 0; i < m->nv; i++) {
     dx[i] = l0 * dx[i] + l1 * l->v[i] + l2 * l->a[i] + r1 * r->v[i] + r2 * r->a[i];
   }
-  memcpy(q, r->q, (size_t)m->nq * sizeof *q);
-  baum_i_move(m, 1.0, dx, q);
+  baum_i_move_from(m, r->q, 1.0, dx, q);
 }
 
 /* ---- steps ---- */

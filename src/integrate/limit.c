@@ -14,9 +14,8 @@ static baum_status look_behind(const baum_i_problem *problem, const baum_i_state
 {
   const baum_mechanism *m = problem->workspace->mechanism;
   double *v = room + m->nq;
-  memcpy(room, state->q, (size_t)m->nq * sizeof *room);
   memcpy(v, state->v, (size_t)m->nv * sizeof *v);
-  baum_i_move(m, dt, v, room);
+  baum_i_move_from(m, state->q, dt, v, room);
   BAUM_I_TRY(baum_i_project(problem->workspace, state->t + dt, room, v));
   return baum_i_problem_motion(problem, state->t + dt, room, v);
 }

@@ -68,8 +68,7 @@ static baum_status fail(double t, double size)
 static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,
                      double h)
 {
-  memcpy(run->q, state->q, (size_t)m->nq * sizeof *run->q);
-  baum_i_move(m, h, run->v, run->q);
+  baum_i_move_from(m, state->q, h, run->v, run->q);
 }
 
 static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum_i_state *state,

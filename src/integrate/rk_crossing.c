@@ -78,8 +78,7 @@ static void look_further(baum_i_rk_crossing *crossing, const baum_i_rk *rk,
   for (int i = 0; i < rk->nv; i++) {
     mean[i] = v[i] + 0.5 * dt * a[i];
   }
-  memcpy(rk->point, rk->start, (size_t)rk->nq * sizeof *v);
-  baum_i_move(problem->workspace->mechanism, dt, mean, rk->point);
+  baum_i_move_from(problem->workspace->mechanism, rk->start, dt, mean, rk->point);
   if (baum_i_problem_motion(problem, t, rk->point, v) == BAUM_OK) {
     (void)see_pivot(crossing, problem);
   }

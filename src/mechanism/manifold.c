@@ -213,7 +213,7 @@ const double *baum_i_tangent_of_bodies(const baum_mechanism *m, const double *q,
 void baum_i_linearize_rate(const baum_mechanism *m, const double *q, const double *v,
                            double *blocks, double *work)
 {
-  for (int k = 1; k <= m->body_count && !m->flat; k++) {
+  for (int k = 1; k <= m->body_count; k++) {
     const baum_i_body *body = m->bodies[k];
     if (body->manifold) {
       linearize_body(m, body, q + body->q, v + body->v, blocks + body->mass, work);

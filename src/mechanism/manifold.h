@@ -57,6 +57,20 @@ static inline void baum_i_move(const baum_mechanism *mechanism, double h, const 
   baum_i_add_scaled(mechanism->nv, h, v, q);
 }
 
+/* The same of `from` into q, apart from each other. */
+static inline void baum_i_move_from(const baum_mechanism *mechanism, const double *restrict from,
+                                    double h, const double *restrict v, double *restrict q)
+{
+  if (!mechanism->flat) {
+    memcpy(q, from, (size_t)mechanism->nq * sizeof *q);
+    baum_i_move_bodies(mechanism, h, v, q);
+    return;
+  }
+  for (int i = 0; i < mechanism->nv; i++) {
+    q[i] = from[i] + h * v[i];
+  }
+}
+
 /* The dx (nv) by which baum_i_move() with h = 1 leads from one to the other. */
 void baum_i_difference(const baum_mechanism *mechanism, const double *from, const double *to,
                        double *dx);
