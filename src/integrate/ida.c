@@ -62,7 +62,7 @@ static int evaluate(sunrealtype tau, N_Vector y, N_Vector dy, N_Vector residual,
   double t = run->sundials.origin + tau;
   run->sundials.present = N_VGetArrayPointer(y);
   baum_status status =
-    baum_i_residual(run->sundials.problem->workspace, &run->dae, t, N_VGetArrayPointer(y),
+    baum_i_residual(run->sundials.problem->workspace, &run->dae, t, run->sundials.present,
                     N_VGetArrayPointer(dy), N_VGetArrayPointer(residual));
   return baum_i_sundials_answer(&run->sundials, status);
 }

@@ -162,8 +162,10 @@ static double size_of_motion(const baum_i_ida_newton *newton, double c, const do
     sum += position * position;
   }
   for (int i = 0; i < nv; i++) {
-    double tolerance = fmax(1.0 / weights[nq + i], least * position_tolerance(newton, i));
-    double velocity = d[nq + i] / tolerance;
+    double weight = weights[nq + i];
+    double velocity =
+      d[nq + i] *
+      (least > 0.0 ? 1.0 / fmax(1.0 / weight, least * position_tolerance(newton, i)) : weight);
     sum += velocity * velocity;
   }
   return sqrt(sum / (nq + nv));

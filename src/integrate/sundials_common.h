@@ -67,7 +67,6 @@ void baum_i_sundials_unpack(const baum_mechanism *mechanism, const double *y, do
 /* y' at y, of which workspace->a is the acceleration. */
 void baum_i_sundials_pack_rate(const baum_workspace *workspace, const double *y, double *dy);
 
-/* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
 /* Newton's iterations solve for displacements dx of velocity size (nv) in place of dq (nq), at a q
  * near the manifold: dq = N dx + n, with n = 0 where q is a vector. */
 
@@ -78,6 +77,7 @@ const double *baum_i_sundials_split(const baum_i_sundials *sundials, const doubl
 void baum_i_sundials_join(const baum_i_sundials *sundials, const double *q, const double *dx,
                           double factor, double *dq);
 
+/* The error weights of y, 1 / tolerance; a callback of CVODE and IDA. */
 int baum_i_sundials_weigh(N_Vector y, N_Vector weights, void *run);
 
 #endif

@@ -173,13 +173,10 @@ int baum_i_sundials_klu_solve(baum_i_sundials_klu *klu, N_Vector x, N_Vector b)
   return failed != 0 ? failed : SUNLinSolSolve_KLU(klu->solver, klu->matrix, x, b, 0.0);
 }
 
-int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b)
+static int solve_displacements(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b)
 {
   const baum_mechanism *m = klu->sundials->problem->workspace->mechanism;
   const double *q = klu->sundials->present;
-  if (m->flat) {
-    return baum_i_sundials_klu_solve(klu, x, b);
-  }
   double *right = N_VGetArrayPointer(klu->right);
   const double *solution = N_VGetArrayPointer(klu->solution);
   size_t rest = (size_t)(N_VGetLength(b) - m->nq) * sizeof *right;
@@ -190,6 +187,12 @@ int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Ve
   baum_i_sundials_join(klu->sundials, q, solution, 1.0 / c, N_VGetArrayPointer(x));
   memcpy(N_VGetArrayPointer(x) + m->nq, solution + m->nv, rest);
   return failed;
+}
+
+int baum_i_sundials_klu_solve_positions(baum_i_sundials_klu *klu, double c, N_Vector x, N_Vector b)
+{
+  bool flat = klu->sundials->problem->workspace->mechanism->flat;
+  return flat ? baum_i_sundials_klu_solve(klu, x, b) : solve_displacements(klu, c, x, b);
 }
 
 /* ---- the front ---- */
