@@ -28,18 +28,17 @@ extern "C" {
 /** What an event is: a function of the user that passes zero, or a joint's coordinate that passes a
  *  value. Start from baum_event_def_default(). */
 typedef struct baum_event_def {
-  size_t struct_size; /**< Set by the default. Do not write. */
-  const char *name;   /**< Label in messages. Copied. Default: NULL, "event<k>". */
-  baum_force_fn
-    *function; /**< out (1); q and v are those of the whole run (nq), (nv). Asked after steps, it
-                                cannot ask for smaller ones: > 0 stops the call as < 0 does. Default: NULL,
-                                the joint's coordinate. */
-  baum_joint_id joint; /**< With a coordinate; instead of function. Default: none. */
-  double value;        /**< [rad or m] of the coordinate. Default: 0. */
-  int32_t direction;   /**< [-] 1: rising in time only, -1: falling only, 0: both. Default: 0. */
-  bool terminal;       /**< The call stops at it with BAUM_STOP_EVENT. Default: true. */
-  double tolerance;    /**< [s] > 0, of its time. Default: NaN, rounding of the time. */
-  void *user;          /**< Passed to function, not owned. Default: NULL. */
+  size_t struct_size;      /**< Set by the default. Do not write. */
+  const char *name;        /**< Label in messages. Copied. Default: NULL, "event<k>". */
+  baum_force_fn *function; /**< out (1); q and v are those of the whole run (nq), (nv). Asked after
+                               steps, it cannot ask for smaller ones: > 0 stops the call as < 0
+                               does. Default: NULL, the joint's coordinate. */
+  baum_joint_id joint;     /**< With a coordinate; instead of function. Default: none. */
+  double value;            /**< [rad or m] of the coordinate. Default: 0. */
+  int32_t direction; /**< [-] 1: rising in time only, -1: falling only, 0: both. Default: 0. */
+  bool terminal;     /**< The call stops at it with BAUM_STOP_EVENT. Default: true. */
+  double tolerance;  /**< [s] > 0, of its time. Default: NaN, rounding of the time. */
+  void *user;        /**< Passed to function, not owned. Default: NULL. */
 } baum_event_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

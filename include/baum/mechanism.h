@@ -170,7 +170,7 @@ BAUM_API baum_status baum_mechanism_add_coordinates(baum_mechanism *mechanism,
                                                     const baum_coordinates_def *def,
                                                     baum_body_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_coordinates(const baum_mechanism *mechanism,
@@ -228,7 +228,7 @@ BAUM_API baum_status baum_mechanism_add_user_constraint(baum_mechanism *mechanis
                                                         const baum_user_constraint_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_user_constraint(const baum_mechanism *mechanism,
@@ -284,7 +284,7 @@ static inline baum_driver_def baum_driver_def_default(void)
 BAUM_API baum_status baum_mechanism_add_driver(baum_mechanism *mechanism,
                                                const baum_driver_def *def, baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_driver(const baum_mechanism *mechanism, baum_joint_id id,
@@ -344,7 +344,7 @@ static inline baum_coupling_def baum_coupling_def_default(void)
 BAUM_API baum_status baum_mechanism_add_coupling(baum_mechanism *mechanism,
                                                  const baum_coupling_def *def, baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_coupling(const baum_mechanism *mechanism, baum_joint_id id,
@@ -397,7 +397,7 @@ BAUM_API baum_status baum_mechanism_add_user_force(baum_mechanism *mechanism,
                                                    const baum_user_force_def *def,
                                                    baum_force_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_user_force(const baum_mechanism *mechanism,
@@ -542,12 +542,12 @@ BAUM_API const char *baum_mechanism_input_name(const baum_mechanism *mechanism,
 
 /** What a mechanism can do at its assembled start pose. */
 typedef struct baum_mobility {
-  size_t struct_size; /**< Set by baum_mechanism_mobility(). */
-  int32_t
-    degrees_of_freedom; /**< [-] nv - rank of J at nearby configurations; -1: cannot be assembled. */
-  int32_t redundant_rows;   /**< [-] rows that depend on others at every nearby pose. */
-  int32_t conflicting_rows; /**< [-] rows that cannot be met together with the others. */
-  int32_t free_bodies;      /**< [-] bodies without a joint. */
+  size_t struct_size;         /**< Set by baum_mechanism_mobility(). */
+  int32_t degrees_of_freedom; /**< [-] nv - rank of J at nearby configurations; -1: cannot be
+                                   assembled. */
+  int32_t redundant_rows;     /**< [-] rows that depend on others at every nearby pose. */
+  int32_t conflicting_rows;   /**< [-] rows that cannot be met together with the others. */
+  int32_t free_bodies;        /**< [-] bodies without a joint. */
   bool
     near_singular;  /**< The start configuration has fewer independent rows than its neighbours, or
                                   comes within 1e-5 of that, relative to the scales. */

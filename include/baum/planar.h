@@ -68,7 +68,7 @@ BAUM_API baum_status baum_mechanism_add_planar_body(baum_mechanism *mechanism,
                                                     const baum_planar_body_def *def,
                                                     baum_body_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_body(const baum_mechanism *mechanism,
@@ -118,7 +118,7 @@ BAUM_API baum_status baum_mechanism_add_planar_particle(baum_mechanism *mechanis
                                                         const baum_planar_particle_def *def,
                                                         baum_body_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_particle(const baum_mechanism *mechanism,
@@ -171,7 +171,7 @@ BAUM_API baum_status baum_mechanism_add_planar_revolute(baum_mechanism *mechanis
                                                         const baum_planar_revolute_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_revolute(const baum_mechanism *mechanism,
@@ -198,8 +198,8 @@ typedef struct baum_planar_translational_def {
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
   double axis[2]; /**< [-] not zero; in ground axes with `point`, else body_a's. Default: (1, 0). */
-  double
-    angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design configuration. */
+  double angle;   /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design
+                     configuration. */
 } baum_planar_translational_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -227,7 +227,7 @@ static inline baum_planar_translational_def baum_planar_translational_def_defaul
 BAUM_API baum_status baum_mechanism_add_planar_translational(
   baum_mechanism *mechanism, const baum_planar_translational_def *def, baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_translational(const baum_mechanism *mechanism,
@@ -282,7 +282,7 @@ BAUM_API baum_status baum_mechanism_add_planar_distance(baum_mechanism *mechanis
                                                         const baum_planar_distance_def *def,
                                                         baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_distance(const baum_mechanism *mechanism,
@@ -307,8 +307,8 @@ typedef struct baum_planar_fixed_def {
   double point[2];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
   double point_a[2];   /**< [m] on body_a, its axes. Default: NaN, not given. */
   double point_b[2];   /**< [m] on body_b, its axes. Default: NaN, not given. */
-  double
-    angle; /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design configuration. */
+  double angle;        /**< [rad] angle_b - angle_a that is kept. Default: NaN, that of the design
+                     configuration. */
 } baum_planar_fixed_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -336,7 +336,7 @@ BAUM_API baum_status baum_mechanism_add_planar_fixed(baum_mechanism *mechanism,
                                                      const baum_planar_fixed_def *def,
                                                      baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_fixed(const baum_mechanism *mechanism,
@@ -406,7 +406,7 @@ BAUM_API baum_status baum_mechanism_add_planar_spring(baum_mechanism *mechanism,
                                                       const baum_planar_spring_def *def,
                                                       baum_force_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_spring(const baum_mechanism *mechanism,
@@ -461,7 +461,7 @@ static inline baum_planar_torsion_spring_def baum_planar_torsion_spring_def_defa
 BAUM_API baum_status baum_mechanism_add_planar_torsion_spring(
   baum_mechanism *mechanism, const baum_planar_torsion_spring_def *def, baum_force_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_torsion_spring(const baum_mechanism *mechanism,
@@ -516,7 +516,7 @@ BAUM_API baum_status baum_mechanism_add_planar_load(baum_mechanism *mechanism,
                                                     const baum_planar_load_def *def,
                                                     baum_force_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_load(const baum_mechanism *mechanism,

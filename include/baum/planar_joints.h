@@ -55,7 +55,7 @@ BAUM_API baum_status baum_mechanism_add_planar_pin_in_slot(baum_mechanism *mecha
                                                            const baum_planar_pin_in_slot_def *def,
                                                            baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_pin_in_slot(const baum_mechanism *mechanism,
@@ -117,7 +117,7 @@ static inline baum_planar_rack_and_pinion_def baum_planar_rack_and_pinion_def_de
 BAUM_API baum_status baum_mechanism_add_planar_rack_and_pinion(
   baum_mechanism *mechanism, const baum_planar_rack_and_pinion_def *def, baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_rack_and_pinion(const baum_mechanism *mechanism,
@@ -180,7 +180,7 @@ BAUM_API baum_status baum_mechanism_add_planar_gear(baum_mechanism *mechanism,
                                                     const baum_planar_gear_def *def,
                                                     baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_gear(const baum_mechanism *mechanism,
@@ -248,7 +248,7 @@ BAUM_API baum_status baum_mechanism_add_planar_curve(baum_mechanism *mechanism,
                                                      const baum_planar_curve_def *def,
                                                      baum_joint_id *id);
 
-/** Read a definition back; its name stays owned by the mechanism, until it is set anew.
+/** Read a definition back; its name stays owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_planar_curve(const baum_mechanism *mechanism,

@@ -131,14 +131,15 @@ typedef enum baum_start {
 typedef enum baum_solver {
   BAUM_SOLVER_AUTO = 0, /**< BLOCK where it suits; KLU and QR where that cannot be trusted. */
   BAUM_SOLVER_KLU = 1,  /**< Sparse LU of the whole system, refactored on a fixed pattern. */
-  BAUM_SOLVER_QR = 2,   /**< Sparse rank-revealing QR; slow, for comparison and singular poses. */
+  BAUM_SOLVER_QR =
+    2, /**< Sparse rank-revealing QR; slow, for comparison and singular configurations. */
   BAUM_SOLVER_BLOCK = 3 /**< Schur complement in blocks of two rows, never anything else: refused
                              for mechanisms that it does not suit (a body with more than about 50
                              joints, a dense net, a mass matrix that is not positive definite);
-                             BAUM_ERR_SINGULAR close to singular poses. */
+                             BAUM_ERR_SINGULAR close to singular configurations. */
 } baum_solver;
 
-/** Called now and then during a call that advances a run; each call begins the interval anew. It
+/** Called now and then during a call that advances a run; each call restarts the interval. It
  *  may read the run, with baum_simulation_get() and such, too; what changes, advances or saves it
  *  fails (BAUM_ERR_STATE), and it cannot be destroyed.
  *  @return non-zero to cancel */
@@ -181,10 +182,9 @@ typedef struct baum_simulation_options {
                                 tells. Default: infinity, they are not tested. */
   bool energy_account; /**< Keep the works of baum_simulation_energy_account(). Not for kinematics.
                             Default: false. */
-  const double
-    *row_gains; /**< [-] (row_gain_count) > 0, factors f on the gains of each row: alpha f_i,
-                                beta f_i. Copied. Default: NULL, all 1. */
-  int32_t row_gain_count; /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
+  const double *row_gains; /**< [-] (row_gain_count) > 0, factors f on the gains of each row: alpha
+                               f_i, beta f_i. Copied. Default: NULL, all 1. */
+  int32_t row_gain_count;  /**< [-] nc of the mechanism where row_gains are given. Default: 0. */
   bool error_check; /**< Estimate the error of the motion by a second integration from the start on,
                          see counters.error_estimate, and warn where it is large. Beside a fixed
                          step that is rk8 at 1e-8, beside a variable one the same method at 0.03
@@ -321,7 +321,7 @@ BAUM_API baum_status baum_simulation_set_driver(baum_simulation *simulation, bau
  *  drivers, counters, warnings, energy account.
  *  The run forgets what a restored one cannot know, so that the two go on alike, bit for bit:
  *  methods of several steps and those that choose their step restart from here, which
- *  counters.restarts counts, and KLU chooses its pivots anew, which may allocate in the next step.
+ *  counters.restarts counts, and KLU chooses its pivots again, which may allocate in the next step.
  *  One-step methods with a fixed step lose nothing; with blocks (BAUM_SOLVER_AUTO where they suit)
  *  the run goes on as if it had not been saved. Allocates nothing.
  *  The buffer has no pointers and may be copied, kept in a file and restored in another process;
@@ -513,19 +513,17 @@ typedef struct baum_counters {
   double start_change;  /**< [-] largest displacement of the last assembly, of the scale. */
   double alpha;         /**< [1/s] in use. */
   double beta;          /**< [1/s] in use. */
-  double
-    spectral_radius; /**< [-] what a step of the gains in use leaves of a violation in the long run;
-                               NaN without BAUMGARTE or where steps vary. */
-  double
-    damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
-                       beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise. */
+  double spectral_radius; /**< [-] what a step of the gains in use leaves of a violation in the long
+                               run; NaN without BAUMGARTE or where steps vary. */
+  double damping; /**< [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and
+                       alpha = beta; infinite for a dead-beat pair, negative where violations grow;
+                       NaN likewise. */
   int64_t near_singular_intervals; /**< [-] crossings near singular configurations, see
                                         baum_simulation_near_singular(). */
   int64_t branch_warnings; /**< [-] of these those behind which the motion is on another branch, or
                                 may be. */
-  int64_t
-    forced_steps; /**< [-] of rk8 and dp5, taken over a singular configuration whatever their error
-                                estimate. */
+  int64_t forced_steps; /**< [-] of rk8 and dp5, taken over a singular configuration whatever their
+                             error estimate. */
   double energy_residual; /**< [J] of the energy account at present: gained or lost by the method
                                 itself; NaN without the option energy_account. */
   int64_t doubts;         /**< [-] kinds of warnings that doubt the motion. */
@@ -554,21 +552,21 @@ BAUM_API baum_status baum_simulation_counters(baum_simulation *simulation, baum_
  *  which take shorter steps for it; 4 with variable steps, of rk8 7 with those of its interpolant;
  *  BAUMGARTE adds 2 to 4. */
 typedef struct baum_energy_account {
-  size_t struct_size; /**< Set by baum_simulation_energy_account(). */
-  double kinetic;     /**< [J] v^T M v / 2 at present. */
-  double potential;   /**< [J] of gravity, linear springs, constant loads and as users say. */
-  double start;       /**< [J] kinetic and potential at the start. */
-  double loads;       /**< [J] of loads with an input or a torque, or that follow their body. */
-  double springs;     /**< [J] of springs with a law of the user. */
-  double dampers;     /**< [J] of the damping of linear springs. */
-  double user_forces; /**< [J] of user forces, without the change of their potential. */
-  double bodies;      /**< [J] of the forces of user coordinates, without the change of their
+  size_t struct_size;  /**< Set by baum_simulation_energy_account(). */
+  double kinetic;      /**< [J] v^T M v / 2 at present. */
+  double potential;    /**< [J] of gravity, linear springs, constant loads and as users say. */
+  double start;        /**< [J] kinetic and potential at the start. */
+  double loads;        /**< [J] of loads with an input or a torque, or that follow their body. */
+  double springs;      /**< [J] of springs with a law of the user. */
+  double dampers;      /**< [J] of the damping of linear springs. */
+  double user_forces;  /**< [J] of user forces, without the change of their potential. */
+  double bodies;       /**< [J] of the forces of user coordinates, without the change of their
                            potential, and v^T M' v / 2 of theirs: 0 where these are Lagrange's. */
-  double drivers;     /**< [J] -nu^T lambda: of drivers and other rows that depend on time. */
-  double violation;   /**< [J] -Phi'^T lambda: of rows whose Phi' is not 0. */
-  double projection;  /**< [J] changes of kinetic and potential energy by projections. */
-  double
-    gains; /**< [J] what the gains have done, a part of drivers and violation: not to be added. */
+  double drivers;      /**< [J] -nu^T lambda: of drivers and other rows that depend on time. */
+  double violation;    /**< [J] -Phi'^T lambda: of rows whose Phi' is not 0. */
+  double projection;   /**< [J] changes of kinetic and potential energy by projections. */
+  double gains;        /**< [J] what the gains have done, a part of drivers and violation: not to be
+                     added. */
   double residual;     /**< [J] kinetic + potential - start - all works but gains. */
   int64_t evaluations; /**< [-] of (5) and (7) for the account, which counters leave out. */
 } baum_energy_account;
@@ -590,10 +588,10 @@ typedef enum baum_branch {
   BAUM_BRANCH_UNKNOWN = 3 /**< Cannot be told from the steps taken. */
 } baum_branch;
 
-/** One interval in which a run was near a singular pose. The pivot is the smallest of the equations
- *  of motion against the largest of the run so far; it falls with the square of the distance from a
- *  singular pose. Intervals with a pivot below 1e-3, or as small as the constraint violation of the
- *  run makes it, are listed when the run has come out of them. */
+/** One interval in which a run was near a singular configuration. The pivot is the smallest of the
+ *  equations of motion against the largest of the run so far; it falls with the square of the
+ *  distance from a singular configuration. Intervals with a pivot below 1e-3, or as small as the
+ *  constraint violation of the run makes it, are listed when the run has come out of them. */
 typedef struct baum_near_singular {
   size_t struct_size;  /**< Set by baum_simulation_near_singular(). */
   double begin;        /**< [s] last step before it. */

@@ -52,7 +52,7 @@ BAUM_API baum_status baum_mechanism_add_spline_driver(baum_mechanism *mechanism,
                                                       const baum_spline_driver_def *def,
                                                       baum_joint_id *id);
 
-/** Read a definition back; its pointers stay owned by the mechanism, until it is set anew.
+/** Read a definition back; its pointers stay owned by the mechanism, until it is set again.
  *  @return BAUM_OK, BAUM_ERR_ARGUMENT
  */
 BAUM_API baum_status baum_mechanism_get_spline_driver(const baum_mechanism *mechanism,

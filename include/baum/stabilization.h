@@ -130,10 +130,9 @@ typedef struct baum_amplification {
                                  BAUM_WITHOUT_GAINS. */
   double z[2][2]; /**< [-] the largest root z of each of the two modes, real and imaginary part, the
                        larger of them first; NaN likewise. */
-  double
-    damping; /**< [-] what a step takes off the slowest violation in the long run, as a share of
-                       it: 1 - spectral_radius, with its digits also where that is small; negative
-                       where violations grow; NaN likewise. */
+  double damping; /**< [-] what a step takes off the slowest violation in the long run, as a share
+                       of it: 1 - spectral_radius, with its digits also where that is small;
+                       negative where violations grow; NaN likewise. */
 } baum_amplification;
 
 /** Amplification at a point of the plane of Fig. 1.

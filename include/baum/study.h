@@ -66,14 +66,13 @@ typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_
 /** How to study. Start from baum_study_options_default(). */
 typedef struct baum_study_options {
   size_t struct_size; /**< Set by the default. Do not write. */
-  int32_t
-    samples; /**< [-] 2 to 1e6, at which errors are taken; at most 1e8 / (nq + nv + nc) for large mechanisms. Default: 100. */
+  int32_t samples;    /**< [-] 2 to 1e6, at which errors are taken; at most 1e8 / (nq + nv + nc) for
+                        large mechanisms. Default: 100. */
   int32_t threads; /**< [-] 1 to 1024, for errors; times are always taken one by one. Default: 1. */
   int32_t repeats; /**< [-] 1 to 1e6, most runs for the time of an entry; fewer where they are long.
                             Default: 5. */
-  double
-    entry_limit; /**< [s] > 0 of CPU time, longest run of an entry; may be infinite. The reference may
-                            take a minute, or five times that. Default: 10. */
+  double entry_limit;  /**< [s] > 0 of CPU time, longest run of an entry; may be infinite. The
+                           reference may take a minute, or five times that. Default: 10. */
   double time_budget;  /**< [s] > 0 of wall time, of one baum_study_run(); may be infinite. Default:
                             infinity. */
   bool energy_account; /**< Take the works of the stabilization, at the price of
@@ -82,9 +81,8 @@ typedef struct baum_study_options {
                             none. */
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
   void *user;                       /**< Passed to progress, not owned. Default: NULL. */
-  bool
-    validate; /**< Run entries that may be recommended over twice the span and from other starts, too,
-                      so that recommendations hold there. Default: true. */
+  bool validate; /**< Run entries that may be recommended over twice the span and from other starts,
+                      too, so that recommendations hold there. Default: true. */
 } baum_study_options;
 
 /** Set the default options; writes at most caller_size bytes.
@@ -123,10 +121,9 @@ typedef struct baum_study_grid {
   size_t struct_size;                /**< Set by the default. Do not write. */
   const baum_integrator *integrator; /**< This one alone. Default: NULL, all of the build. */
   baum_formulation formulation;      /**< This one alone. Default: BAUM_FORMULATION_DEFAULT, all. */
-  int32_t settings; /**< [-] 1 to 64, steps or tolerances of each method. Default: 8. */
-  int32_t
-    constants; /**< [-] 0 to 4, constant gains alpha = beta beside the rule of the integrator and auto: 1, 10, 100,
-                          1000 times the rate of the motion. Default: 2. */
+  int32_t settings;  /**< [-] 1 to 64, steps or tolerances of each method. Default: 8. */
+  int32_t constants; /**< [-] 0 to 4, constant gains alpha = beta beside the rule of the integrator
+                          and auto: 1, 10, 100, 1000 times the rate of the motion. Default: 2. */
   double coarsest; /**< [s] > 0, longest step of order 2 and more. Default: NaN, by the rate of the
                         motion. */
   double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: NaN, 1e-13, or
@@ -134,7 +131,8 @@ typedef struct baum_study_grid {
                         differences leave there. */
   bool quick;      /**< The quick grid, a first answer for about a 25th of the cost: every
                         integrator with its default formulation (or the one above) and its own rule
-                        for gains, at most 5 settings; `constants` does not apply. Default: false. */
+                        for gains, at most 5 settings; `constants` does not apply. Default: false.
+                        */
 } baum_study_grid;
 
 /** Set the default grid; writes at most caller_size bytes.
@@ -353,11 +351,12 @@ typedef enum baum_study_origin {
 
 /** How far the reference can be trusted. */
 typedef struct baum_study_reference {
-  size_t struct_size;       /**< Set by baum_study_reference_read(). */
-  baum_study_origin origin; /**< Whose. */
-  bool trusted;       /**< Own: its runs agree to three digits or more and met no singular pose. */
-  double digits;      /**< [-] trusted digits, -log10(uncertainty); NaN before it is made. */
-  double uncertainty; /**< [-] of error. */
+  size_t struct_size;        /**< Set by baum_study_reference_read(). */
+  baum_study_origin origin;  /**< Whose. */
+  bool trusted;              /**< Own: its runs agree to three digits or more and met no singular
+                           configuration. */
+  double digits;             /**< [-] trusted digits, -log10(uncertainty); NaN before it is made. */
+  double uncertainty;        /**< [-] of error. */
   double uncertainty_q;      /**< [-] of error_q. */
   double uncertainty_v;      /**< [-] of error_v. */
   double uncertainty_lambda; /**< [-] of error_lambda. */
@@ -424,9 +423,8 @@ typedef struct baum_study_method {
   double slope; /**< [-] d log error / d log step or rtol where errors fall; NaN: not known. */
   double work_per_digit; /**< [-] factor on work for one more digit; NaN likewise. */
   double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN likewise. */
-  double
-    growth; /**< [-] error_validated over error of its entries, on geometric average; NaN: none was
-                      validated to the end. */
+  double growth; /**< [-] error_validated over error of its entries, on geometric average; NaN: none
+                      was validated to the end. */
 } baum_study_method;
 
 /** Number of methods; 0 for NULL. */

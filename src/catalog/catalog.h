@@ -84,7 +84,7 @@ extern const baum_i_catalog_mechanism baum_i_car_axis;
 extern const baum_i_catalog_mechanism baum_i_chain_of_3;
 extern const baum_i_catalog_mechanism baum_i_chain_of_n;
 
-/* Set this thread's sentence and return the status. */
+/* Set this thread's message and return the status. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
@@ -95,7 +95,7 @@ baum_i_catalog_fail(baum_status status, const char *format, ...);
  * BAUM_ERR_ARGUMENT. */
 baum_status baum_i_catalog_give(void *out, size_t caller_size, const void *whole, size_t size);
 
-/* A mechanism by its name; NULL when there is none, and the sentence is set. */
+/* A mechanism by its name; NULL when there is none, and the message is set. */
 const baum_i_catalog_mechanism *baum_i_catalog_find(const char *name);
 
 /* The mechanism and all its parameters. BAUM_OK or BAUM_ERR_ARGUMENT. */

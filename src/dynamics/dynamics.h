@@ -134,7 +134,7 @@ typedef struct baum_i_probe {
 void baum_i_probe_begin(baum_i_probe *probe, baum_workspace *workspace);
 baum_status baum_i_probe_end(const baum_i_probe *probe, baum_status status);
 
-/* Choose pivots anew at the next factorizations, so that nothing depends on the ones before. */
+/* Choose pivots again at the next factorizations, so that nothing depends on the ones before. */
 void baum_i_workspace_forget(baum_workspace *workspace);
 
 /* What solvers have done for accelerations, projection and assembly. */
@@ -236,7 +236,7 @@ baum_status baum_i_residual_matrix_fill(const baum_i_residual_matrix *matrix,
                                         double t, const double *y, const double *dy,
                                         double *values);
 
-/* dae_positions.c: with dq itself, made anew. As baum_workspace_residual_jacobian(). */
+/* dae_positions.c: with dq itself, made again. As baum_workspace_residual_jacobian(). */
 baum_status baum_i_residual_jacobian(baum_workspace *workspace, const baum_dae *dae, double c,
                                      double t, const double *y, const double *dy, baum_sparse *out);
 

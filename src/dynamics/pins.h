@@ -8,8 +8,8 @@
 
 /* Where and how. */
 typedef struct baum_i_pins {
-  const double
-    *points; /* (even pin_count x 4) on body a and on body b, in the order of block->pins */
+  const double *points; /* (even pin_count x 4) on body a and on body b, in the order of
+                          block->pins */
   const baum_i_frame *frames;
   double bending; /* r = bending gamma - damping Phi' - stiffness Phi */
   double damping;

@@ -3,7 +3,7 @@
  *
  * Three parallel cranks out of line turn freely, but whichever row is omitted, what stays is a
  * parallelogram of two with a third crank that hangs on one row, and has singular configurations of
- * its own. So before these are reached other rows are omitted, as coordinates are partitioned anew
+ * its own. So before these are reached other rows are omitted, as coordinates are partitioned again
  * (Wehage and Haug 1982). Accelerations do not depend on the choice, multipliers do.
  */
 #include "dynamics/row_set.h"

@@ -36,7 +36,7 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
                                       const baum_i_step_ratios *ratios, double t, const double *y,
                                       const double *dy);
 
-/* Choose pivots anew at the next factorization. */
+/* Choose pivots again at the next factorization. */
 void baum_i_step_matrix_forget(baum_i_step_matrix *matrix);
 
 /* x (nv + nc): the right side, then (dq, x). */

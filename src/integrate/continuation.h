@@ -50,10 +50,10 @@ typedef struct baum_i_continuation {
 
 /* Where a singular configuration is singular. */
 typedef struct baum_i_impasse {
-  double
-    gain; /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot be factored */
-  double
-    pull; /* 0 to 1: share of rows that depend on time in the forces that hardly anything resists */
+  double gain;  /* |J^-1|, rows as displacements and coordinates in scales; INFINITY where J cannot
+                  be factored */
+  double pull;  /* 0 to 1: share of rows that depend on time in the forces that hardly anything
+                  resists */
   int driver;   /* their joint with the largest share, or -1 */
   int resister; /* the joint with the largest share beside those, or -1 */
 } baum_i_impasse;

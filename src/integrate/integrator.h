@@ -49,7 +49,7 @@ typedef struct baum_i_state {
 typedef struct baum_i_statistics {
   int64_t rejected;
   int64_t factorizations;      /* of its own matrix */
-  int64_t full_factorizations; /* those that chose pivots anew and may allocate */
+  int64_t full_factorizations; /* those that chose pivots again and may allocate */
   int64_t nonlinear_iterations;
   int64_t forced; /* accepted whatever their error estimate, over a singular configuration */
 } baum_i_statistics;
@@ -63,11 +63,11 @@ struct baum_integrator {
   baum_i_method method;             /* amplification */
   baum_i_method_family family;      /* of methods without one */
   double seen; /* BDF: share of what a step adds to the error of a motion, that is tested */
-  bool
-    predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h |gamma| */
-  bool solves_residuals; /* of the whole system; else it goes by accelerations or poses */
-  bool
-    without_freedom; /* for mechanisms without freedom alone; takes no formulation, step or rtol */
+  bool predicts_violation; /* steady violation of both Eulers: (h/2)|gamma|, (alpha/beta^2) h
+                              |gamma| */
+  bool solves_residuals;   /* of the whole system; else it goes by accelerations or poses */
+  bool without_freedom;    /* for mechanisms without freedom alone; takes no formulation, step or
+                           rtol */
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
   bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
 
@@ -98,7 +98,7 @@ struct baum_integrator {
   /* restart from a state, in problem->direction. Allocates nothing. NULL where nothing is
    * remembered; also not called where baum_i_integrator_remembers() says no. */
   baum_status (*restart)(void *self, const baum_i_problem *problem, const baum_i_state *state);
-  /* restart at the next step, from the state which that is given, and with pivots chosen anew, so
+  /* restart at the next step, from the state which that is given, and with pivots chosen again, so
    * that nothing depends on the steps before. Neither evaluates nor allocates. Where there is
    * `restart`. */
   void (*forget)(void *self);

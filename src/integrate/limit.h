@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Accelerations in a singular pose.
+/* Accelerations in a singular configuration.
  *
  * There the equations allow those of all branches, and next to it they are rounding over the
  * smallest pivot. Those of the motion that goes on as its velocity says are the limit of what is

@@ -13,9 +13,9 @@
 #include "integrate/rk.h"
 
 typedef struct baum_i_rk_crossing {
-  double gap; /* middle of the widest gap between stages, of the step */
-  double
-    ahead; /* [s] from the start of the step to a singular configuration; INFINITY: none is near */
+  double gap;       /* middle of the widest gap between stages, of the step */
+  double ahead;     /* [s] from the start of the step to a singular configuration; INFINITY: none is
+                   near */
   double over;      /* [s] a step over a configuration */
   double least;     /* [s] step shorter than which it is taken; 0 where no pose is near */
   double pivot;     /* at the start of the step, of the usual one */

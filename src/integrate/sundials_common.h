@@ -38,7 +38,7 @@ typedef struct baum_i_sundials {
   double evaluated_at;    /* start of the step in which that evaluation failed */
   char message[BAUM_I_MESSAGE_SIZE];              /* of that evaluation */
   char complaint[BAUM_I_SUNDIALS_COMPLAINT_SIZE]; /* last one of SUNDIALS, "" for none */
-  bool pivots_forgotten;                          /* KLU must choose them anew */
+  bool pivots_forgotten;                          /* KLU must choose them again */
   int64_t full_factorizations;                    /* times KLU chose pivots */
   baum_i_statistics before;                       /* up to the last restart */
 } baum_i_sundials;

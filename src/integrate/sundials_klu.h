@@ -3,7 +3,7 @@
  * IDA and CVODE BDF solve with. Only their files include it, and only when the build has SUNDIALS.
  *
  * KLU keeps its pivots as long as solutions are accurate. SUNDIALS' own criterion, the condition,
- * is always poor here, as c = O(1/h) and 1 stand side by side, and would choose pivots anew, and
+ * is always poor here, as c = O(1/h) and 1 stand side by side, and would choose pivots again, and
  * allocate, in every step.
  */
 #ifndef BAUM_I_INTEGRATE_SUNDIALS_KLU_H

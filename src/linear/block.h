@@ -217,7 +217,7 @@ typedef struct baum_i_block_rows {
 typedef struct baum_i_block_sides_kernel {
   /* f, and a0 = W f. */
   void (*set_force)(baum_i_block *block, const double *force);
-  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the full nodes; pins are set by the
+  /* Sides, Phi' = J v - nu, r, pivots and J a0 - r of the general nodes; pins are set by the
    * caller. */
   void (*set)(baum_i_block *block, const baum_i_block_rows *rows);
 } baum_i_block_sides_kernel;

@@ -38,7 +38,8 @@ static inline void scatter_pin(const baum_i_pin_node *pin, const double *arm, co
   y[2] -= weight[3] * baum_i_dot(baum_i_load(arm + 2), lambda);
 }
 
-/* The same of all full nodes, and their rows of lambda, where these are wanted (NULL: nowhere). */
+/* The same of all general nodes, and their rows of lambda, where these are wanted (NULL:
+ * nowhere). */
 BAUM_I_INLINE void scatter_fulls(const baum_i_block *b, double *rows)
 {
   const int32_t *body_blocks = b->side_body_block;

@@ -20,12 +20,12 @@ typedef struct baum_i_elimination {
   int32_t *node;  /* (count) at each place */
   int32_t *place; /* (count) of each node */
   int32_t *start; /* (count + 1) */
-  int32_t
-    *later; /* (start[count]) places a place is coupled with when it is eliminated, ascending */
+  int32_t *later; /* (start[count]) places a place is coupled with when it is eliminated,
+                    ascending */
 } baum_i_elimination;
 
 /* Minimum degree in rounds: all nodes that make no fill, or else all of the smallest degree, that
- * do not touch each other, then anew. So a chain is eliminated from both ends in turn, and what
+ * do not touch each other, then again. So a chain is eliminated from both ends in turn, and what
  * does not depend on each other stands side by side. Gives up with BAUM_ERR_SINGULAR where more
  * than `most` couplings would arise. BAUM_OK, BAUM_ERR_MEMORY; on failure *out is empty. */
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out);

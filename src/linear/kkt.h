@@ -58,7 +58,7 @@ typedef enum baum_i_kkt_quality {
 
 typedef struct baum_i_kkt_counters {
   int64_t factorizations;      /* refactorizations and full ones */
-  int64_t full_factorizations; /* those that chose pivots anew, which may allocate */
+  int64_t full_factorizations; /* those that chose pivots again, which may allocate */
   int64_t refinements;
   int64_t fallbacks; /* times QR was used because LU could not be trusted */
 } baum_i_kkt_counters;
@@ -74,7 +74,7 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
 void baum_i_kkt_destroy(baum_i_kkt *kkt); /* NULL is fine */
 
 /* Factor at new values, which must stay in place until the last solve with them (the residual is
- * formed from them). Refactors on the fixed pattern, allocation-free, and chooses pivots anew only
+ * formed from them). Refactors on the fixed pattern, allocation-free, and chooses pivots again only
  * when rcond or residual demands it. BAUM_OK (see quality), BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
  * BAUM_ERR_NOT_FINITE; sets no message but for memory: the caller knows time and names. */
 baum_status baum_i_kkt_factor(baum_i_kkt *kkt, const baum_i_kkt_values *values);
@@ -91,13 +91,13 @@ baum_status baum_i_kkt_factor_and_solve(baum_i_kkt *kkt, const baum_i_kkt_values
                                         const double *f, const double *r, double *a,
                                         double *lambda);
 
-/* Choose pivots anew at the next factorization, so that nothing depends on the ones before. */
+/* Choose pivots again at the next factorization, so that nothing depends on the ones before. */
 void baum_i_kkt_forget(baum_i_kkt *kkt);
 
 baum_i_kkt_quality baum_i_kkt_get_quality(const baum_i_kkt *kkt);
 /* Cheap estimate of the reciprocal condition of the scaled matrix, at the present factorization:
- * free of units, continuous while pivots are kept, with a jump where they are chosen anew. 0 for no
- * factorization or no full rank. */
+ * free of units, continuous while pivots are kept, with a jump where they are chosen again. 0 for
+ * no factorization or no full rank. */
 double baum_i_kkt_rcond(const baum_i_kkt *kkt);
 const char *baum_i_kkt_backend(const baum_i_kkt *kkt); /* "klu" or "qr", the one last used */
 baum_i_kkt_counters baum_i_kkt_get_counters(const baum_i_kkt *kkt);

@@ -13,7 +13,7 @@
 
 #include "base/alloc.h"
 
-/* Pivots that have fallen to this share of what they were when chosen are chosen anew. */
+/* Pivots that have fallen to this share of what they were when chosen are chosen again. */
 static const double FALLEN = 1e-4;
 
 struct baum_i_sparse_lu {
@@ -23,7 +23,7 @@ struct baum_i_sparse_lu {
   klu_common common;
   klu_symbolic *symbolic;
   klu_numeric *numeric;
-  bool forgotten; /* pivots are to be chosen anew */
+  bool forgotten; /* pivots are to be chosen again */
   double chosen;  /* rcond when the pivots were chosen */
   baum_i_sparse_lu_work work;
 };

@@ -12,7 +12,7 @@ typedef struct baum_i_sparse_lu baum_i_sparse_lu;
 /* What has been done. */
 typedef struct baum_i_sparse_lu_work {
   int64_t factorizations;
-  int64_t full_factorizations; /* those of them that chose pivots anew, which may allocate */
+  int64_t full_factorizations; /* those of them that chose pivots again, which may allocate */
 } baum_i_sparse_lu_work;
 
 /* For an n x n matrix in compressed columns with ascending rows; the pattern must outlive the
@@ -25,7 +25,7 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is fine */
  * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. Neither sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
-/* Choose pivots anew at the next factorization, so that nothing depends on the ones before. */
+/* Choose pivots again at the next factorization, so that nothing depends on the ones before. */
 void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu);
 
 /* The right side x (n) becomes the solution. After a factorization. */

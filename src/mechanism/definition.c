@@ -192,9 +192,9 @@ static baum_status find(const baum_mechanism *mechanism, const baum_i_family *fa
 {
   BAUM_I_TRY(baum_i_check_id(mechanism, family, id, definition->kind, "id"));
   int k = baum_i_index(mechanism, family, id);
-  if (k < 0) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: ground has no definition", definition->kind);
-  }
+  BAUM_I_TRY(k >= 0
+               ? BAUM_OK
+               : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: ground has no definition", definition->kind));
   *out = family->at(mechanism, k);
   return BAUM_OK;
 }

@@ -7,9 +7,9 @@
 
 /* Functions of the user are not in it, nor names of elements. */
 typedef struct baum_i_fingerprint {
-  uint64_t
-    structure; /* kinds of elements in their order, on which bodies each acts, names of inputs */
-  uint64_t numbers; /* masses, lengths and all others */
+  uint64_t structure; /* kinds of elements in their order, on which bodies each acts, names of
+                         inputs */
+  uint64_t numbers;   /* masses, lengths and all others */
 } baum_i_fingerprint;
 
 baum_i_fingerprint baum_i_mechanism_fingerprint(const baum_mechanism *mechanism);

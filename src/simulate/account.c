@@ -52,7 +52,7 @@ struct baum_i_account {
   baum_workspace *workspace;
   baum_i_problem problem; /* the run's, with that workspace */
   int nodes;
-  bool fresh;        /* no step since the method began anew */
+  bool fresh;        /* no step since the method restarted */
   bool far;          /* the projection of the last step moved far */
   void *stepper;     /* the method once more, for shorter steps; NULL: none */
   baum_i_state from; /* start of the last step */

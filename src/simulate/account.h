@@ -37,7 +37,7 @@ void baum_i_account_accept(baum_simulation *run);
 /* Works up to the present state or to a sample, for go_on() or the columns. */
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state);
 
-/* Choose pivots anew, and what is saved of it. */
+/* Choose pivots again, and what is saved of it. */
 void baum_i_account_forget(baum_i_account *account);
 void baum_i_account_saved(baum_i_account *account, baum_i_saved *list);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which branch a motion is on behind a singular pose.
+/* Which branch a motion is on behind a singular configuration.
  *
  * At such a configuration several branches of motion cross, each with a direction of its own; the
  * smooth motion is the one whose velocity goes on. Polynomials through positions and velocities of

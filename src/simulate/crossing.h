@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Crossings: what a run has come through close to singular poses. It only watches; singular_step.h
- * steps. */
+/* Crossings: what a run has come through close to singular configurations. It only watches;
+ * singular_step.h steps. */
 #ifndef BAUM_I_SIMULATE_CROSSING_H
 #define BAUM_I_SIMULATE_CROSSING_H
 

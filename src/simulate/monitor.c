@@ -146,7 +146,7 @@ static void predict(const baum_simulation *run, baum_counters *c)
   c->predicted_phi_rate = predicted ? 0.5 * h * run->largest_gamma : (double)NAN;
 }
 
-/* Judged anew only when the largest violation has doubled, for it costs a pass over J. */
+/* Judged again only when the largest violation has doubled, for it costs a pass over J. */
 static void observe_large(baum_simulation *run, double t)
 {
   baum_workspace *w = run->workspace;

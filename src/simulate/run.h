@@ -54,7 +54,7 @@ typedef struct baum_i_saved baum_i_saved; /* saved.h */
 struct baum_simulation {
   /* How far it has come: numbers alone, saved up to `options`. */
   baum_i_grid grid;
-  double origin; /* [s] where the method began anew: its times may be counted from there */
+  double origin; /* [s] where the method restarted: its times may be counted from there */
   double start_energy;
   double largest_gamma;               /* over all rows and steps */
   double rows_looked_at;              /* [s] redundant ones, with KLU and QR; see rows.c */
@@ -76,8 +76,8 @@ struct baum_simulation {
   baum_i_events *events;       /* see events.h; NULL: there are none */
   baum_i_companion *companion; /* see companion.h; NULL: the error is not estimated */
 
-  baum_i_crossings
-    *crossings; /* through singular configurations, see crossing.h; NULL: not looked for */
+  baum_i_crossings *crossings; /* through singular configurations, see crossing.h; NULL: not looked
+                                 for */
 
   double *parameters;       /* own copy of the mechanism's once a driver is set, else NULL */
   baum_i_schedule schedule; /* of inputs */
@@ -89,8 +89,8 @@ struct baum_simulation {
   double *acceleration;     /* (nv) at the start of a step */
 
   baum_i_fingerprint fingerprint; /* of the mechanism */
-  baum_i_work
-    before; /* what solvers have done for the run in other processes, less what is not of it */
+  baum_i_work before; /* what solvers have done for the run in other processes, less what is not of
+                         it */
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
@@ -145,7 +145,7 @@ baum_status baum_i_run_end_call(baum_simulation *run, baum_status status,
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v);
 
 /* Of the trial state, when the rows to leave out are known: BAUM_ERR_INCONSISTENT, or a warning,
- * where rows are met that hold hardly by velocities that are far from what they ask for. */
+ * where ill-conditioned rows meet velocities that are far from what they ask for. */
 baum_status baum_i_run_check_velocities(baum_simulation *run);
 
 /* Energy of the trial state; leaves Phi and Phi' there in the workspace. */

@@ -284,7 +284,8 @@ typedef struct reader {
   baum_i_saved_places parts;
 } reader;
 
-#define refuse(...)   baum_i_fail(BAUM_ERR_BUFFER, "baum_simulation_restore: the buffer " __VA_ARGS__)
+#define refuse(...) baum_i_fail(BAUM_ERR_BUFFER, "baum_simulation_restore: the buffer " __VA_ARGS__)
+
 #define OTHER_OPTIONS "is of a run with other options: "
 
 /* Is it of this library, and whole? */

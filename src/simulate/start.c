@@ -125,7 +125,7 @@ static baum_status check_exact(baum_simulation *run)
   return check_rows(run, w->phi_rate, EXACT * rate, "Phi'", "m/s or rad/s");
 }
 
-/* ---- velocities that rows hold hardly ---- */
+/* ---- velocities against ill-conditioned rows ---- */
 
 /* Rows may agree with velocities to their last digits and still not tell them: two pins a nanometre
  * apart are met within a nanometre per second by any rate between their bodies. Accelerations are

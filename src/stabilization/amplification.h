@@ -14,8 +14,9 @@ typedef enum baum_i_method_kind {
   BAUM_I_METHOD_VARIABLE_STEP = 0, /* no fixed region; see baum_i_method_family */
   BAUM_I_METHOD_ONE_STEP,          /* z = R(mu), R(mu) = sum coefficients[k] mu^k */
   BAUM_I_METHOD_SEMI_IMPLICIT,     /* z^2 + (B + 2 A - 2) z + (1 - 2 A) */
-  BAUM_I_METHOD_ADAMS_BASHFORTH, /* z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), k = degree */
-  BAUM_I_METHOD_WITHOUT_GAINS    /* fixed step, but keeps the constraints by itself */
+  BAUM_I_METHOD_ADAMS_BASHFORTH,   /* z^k = z^(k-1) + mu sum_j coefficients[j] z^(k-1-j), k = degree
+                                    */
+  BAUM_I_METHOD_WITHOUT_GAINS      /* fixed step, but keeps the constraints by itself */
 } baum_i_method_kind;
 
 /* Of BAUM_I_METHOD_VARIABLE_STEP: what can be said without a region. */

@@ -13,7 +13,7 @@ static void clear(baum_study_entry *entry)
 {
   for (const baum_i_field *f = baum_i_entry_fields; f->key; f++) {
     if (f->filed && f->kind == BAUM_I_NUMBER) {
-      *(double *)((char *)entry + f->place) = (double)NAN;
+      *(double *)(void *)((char *)entry + f->place) = (double)NAN;
     }
   }
 }

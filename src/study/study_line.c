@@ -27,7 +27,7 @@ void baum_i_study_write_fields(char line[LINE], const void *object, const baum_i
 {
   for (const baum_i_field *f = fields; f->key; f++) {
     if (f->filed && f->kind == BAUM_I_NUMBER) {
-      double x = *(const double *)((const char *)object + f->place);
+      double x = *(const double *)(const void *)((const char *)object + f->place);
       baum_i_append(line, LINE, " %s", baum_i_exact(x, name_of_not_finite(x)).text);
     } else if (f->filed) {
       baum_i_append(line, LINE, " %" PRId64, baum_i_field_whole(f, object));

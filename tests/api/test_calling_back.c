@@ -208,7 +208,7 @@ static void try_workspace(baum_workspace *w, baum_input_id input)
   baum_workspace_destroy(w);
 }
 
-/* The mechanism is constant, and what is made of it anew is another's. */
+/* The mechanism is constant, and what is made of it again is another's. */
 static void use_another(const asked *b)
 {
   double q[ASKED_NV];

@@ -452,7 +452,7 @@ static long count_allocations(const call *c, uint64_t *seen)
 {
   scene s;
   make_scene(&s, c->stage);
-  (void)look(&s, !c->works); /* saving makes solvers choose their pivots anew */
+  (void)look(&s, !c->works); /* saving makes solvers choose their pivots again */
   heap_watch();
   baum_status status = c->make(&s);
   long allocations = heap_stop();

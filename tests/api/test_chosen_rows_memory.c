@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows that are chosen anew on the way, and put back by restoring: every allocation may
+/* Redundant rows that are chosen again on the way, and put back by restoring: every allocation may
  * fail. */
 #define _GNU_SOURCE /* of heap.h */
 #include <math.h>

@@ -325,7 +325,7 @@ static void assert_same_numbers(const double *got, const double *want, int count
 {
   for (int i = 0; i < count; i++) {
     if (!(isnan(got[i]) && isnan(want[i]))) {
-      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* pivots chosen anew round otherwise */
+      ASSERT_NEAR(got[i], want[i], 1e-12, 1e-14); /* pivots chosen again round otherwise */
     }
   }
 }

@@ -2,7 +2,7 @@
 /* Saved runs go on in another process as in their own, bit for bit.
  *
  * This process takes a run through random times, saves it at each, and goes on. Then this program
- * is started once more with the buffers; it builds the same mechanism anew, restores, goes on
+ * is started once more with the buffers; it builds the same mechanism again, restores, goes on
  * likewise, and tells where it came to.
  */
 #define _GNU_SOURCE /* fork */
@@ -21,7 +21,7 @@
 
 #include "saved_scenes.h"
 
-enum { ANEW = 10 /* every so many buffers the other process makes a run anew */ };
+enum { ANEW = 10 /* every so many buffers the other process makes a run again */ };
 
 static const char *program; /* argv[0] */
 
@@ -39,7 +39,7 @@ typedef struct outcome {
   baum_warning warning;
 } outcome;
 
-/* What the run remembers of events and singular poses. */
+/* What the run remembers of events and singular configurations. */
 static void look_back(baum_simulation *run, outcome *out)
 {
   baum_event_record record;

@@ -15,7 +15,7 @@
 
 static unsigned char buffer[1 << 17];
 
-/* Whether steps after a restore may have to choose pivots anew. */
+/* Whether steps after a restore may have to choose pivots again. */
 static bool chooses_pivots(const saved_scene *scene)
 {
   const baum_simulation_options *o = &scene->options;

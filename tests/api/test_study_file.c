@@ -153,7 +153,7 @@ static void a_killed_study_goes_on_without_losing_or_doubling_entries(void **sta
     run_and_be_killed(&broken, kills[k]);
   }
   baum_study *got = run_to_the_end(&broken, &first);
-  assert_int_equal(first, entries + 1); /* no error is taken anew */
+  assert_int_equal(first, entries + 1); /* no error is taken again */
   assert_same_entries(got, want);
   char *text = read_file(broken.path);
   for (int stage = 1; stage <= 2; stage++) { /* measured, timed */

@@ -24,7 +24,7 @@ $apart debootstrap --variant=minbase "$release" "$root" "$mirror" >"$root.log" 2
   exit 1
 }
 apt-config dump | grep -E '^Acquire::(http|https|Check|Retries)' >"$root/etc/apt/apt.conf.d/90here" || true
-# The package ca-certificates, once something installs it, makes the bundle anew from this folder too.
+# The package ca-certificates, once something installs it, makes the bundle again from this folder too.
 mkdir -p "$root/usr/local/share/ca-certificates"
 cp -R /usr/local/share/ca-certificates/. "$root/usr/local/share/ca-certificates" 2>/dev/null || true
 for file in /etc/resolv.conf /etc/pip.conf /etc/ssl/certs/ca-certificates.crt "${PIP_CERT:-}"; do

@@ -146,8 +146,9 @@ baum_status model_chain_build(const model_chain *data, model *out);
  * -------------------------------- */
 
 typedef enum model_parallelogram {
-  MODEL_TWO_CRANKS,   /* one at each end: 9 coordinates, 8 rows */
-  MODEL_THREE_CRANKS, /* and one in the middle: 12 coordinates, 12 rows, of which one is redundant */
+  MODEL_TWO_CRANKS,    /* one at each end: 9 coordinates, 8 rows */
+  MODEL_THREE_CRANKS,  /* and one in the middle: 12 coordinates, 12 rows, of which one is redundant
+                         */
   MODEL_THIRD_BY_A_ROD /* the middle one held parallel by a massless rod of 1 m: 11 rows */
 } model_parallelogram;
 

@@ -4,7 +4,7 @@
  * Two cranks keep the coupler level; a third one of the same length then moves along by itself, and
  * one of the two rows of its pin says nothing new. A massless rod of 1 m instead, from its tip to
  * the coupler's left end, gives the one row that is needed. Above the others' line the third crank
- * takes away the singular poses that the two of them have where they are flat.
+ * takes away the singular configurations that the two of them have where they are flat.
  */
 #include "models.h"
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Redundant rows are chosen anew on the way: two bars that two pins lock turn over and over,
+/* Redundant rows are chosen again on the way: two bars that two pins lock turn over and over,
  * through every integrator, formulation and solver, as if they were welded.
  */
 #include <math.h>

@@ -26,7 +26,8 @@ static const double ANGLE = 0.7;
 /* ---- the mechanism ---- */
 
 typedef enum again {
-  PIN_ASIDE, /* both of its points elsewhere: rod and crank cannot turn against each other any more */
+  PIN_ASIDE,  /* both of its points elsewhere: rod and crank cannot turn against each other any more
+                */
   PIN_APART,  /* one of them: contradicts the other pin */
   FOOT_ASIDE, /* both: the crank cannot turn */
   GUIDE_TURNED,
@@ -163,7 +164,7 @@ static bool names_a_joint(const char *message)
   return false;
 }
 
-/* Of the accelerations that rows leave which hold hardly. */
+/* Of the accelerations that ill-conditioned rows leave. */
 static double error_of(const baum_mechanism *m, baum_simulation *run)
 {
   const baum_channel channel = baum_channel_of(BAUM_A);
@@ -194,9 +195,8 @@ static double error_of(const baum_mechanism *m, baum_simulation *run)
  * much and more, for they go with the square. */
 static double allowed(double rate)
 {
-  return rate > 0.0
-           ? 1e-5
-           : 1e-9; /* 1e-10 apart count as one row: in a guide turned by so much a moves by as much */
+  /* 1e-10 apart count as one row: in a guide turned by so much a moves by as much. */
+  return rate > 0.0 ? 1e-5 : 1e-9;
 }
 
 static bool is_right(const baum_mechanism *m, baum_simulation *run, double rate, const char *name)

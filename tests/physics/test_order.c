@@ -57,8 +57,8 @@ typedef struct high_ladder {
   int samples;
   int coarsest;
   int rungs;
-  double
-    too_steep; /* slopes seen, but for projection, are up to 0.55 (order 5) and 0.25 (8) above the order */
+  double too_steep; /* slopes seen, but for projection, are up to 0.55 (order 5) and 0.25 (8) above
+                       the order */
 } high_ladder;
 
 static const high_ladder HIGH[] = {

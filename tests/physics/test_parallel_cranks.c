@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Three parallel cranks out of line turn freely, as the wheels of a locomotive do: one row is
- * redundant in every configuration, but whichever is left out, the others have singular poses.
- * Every integrator with every formulation goes round as a pendulum of the same inertia does,
- * silently of singular poses.
+ * redundant in every configuration, but whichever is left out, the others have singular
+ * configurations. Every integrator with every formulation goes round as a pendulum of the same
+ * inertia does, silently of singular configurations.
  */
 #include <math.h>
 #include <setjmp.h>

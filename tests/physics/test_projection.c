@@ -4,9 +4,9 @@
  *   |Phi_i|  <= 1e-13 L_i + rounding,                 L_i = max_j |J_ij| scale_j: the length scale
  *   in the unit of the row |Phi'_i| <= 1e-13 (|J_i| |v| + |nu_i|) + rounding
  *
- * Every integrator that offers it, in both ways to step, on mechanisms away from singular poses.
- * Rounding: of the terms of a row, and of velocities it is relative to the fastest of the
- * mechanism, for all of them are solved for at once.
+ * Every integrator that offers it, in both ways to step, on mechanisms away from singular
+ * configurations. Rounding: of the terms of a row, and of velocities it is relative to the fastest
+ * of the mechanism, for all of them are solved for at once.
  */
 #include <setjmp.h>
 #include <stdarg.h>

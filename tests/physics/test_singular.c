@@ -291,7 +291,7 @@ static baum_counters run_taut_rod(double mass, double direction, const baum_simu
 }
 
 /* Pivots fall to the ratio of masses where the slot holds the bob by the light rod; J keeps its
- * rank. No step may go over that, as one does over a singular pose. */
+ * rank. No step may go over that, as one does over a singular configuration. */
 static void a_light_rod_that_comes_taut_is_not_singular(void **state)
 {
   (void)state;

@@ -34,7 +34,8 @@ typedef enum outcome {
   REFUSED, /* before the start */
   STOPPED, /* with a reason */
   WARNED,  /* of doubt in the motion */
-  CROSSED, /* took branches within 1e-10 of each other for crossing ones, and told of the crossing */
+  CROSSED, /* took branches within 1e-10 of each other for crossing ones, and told of the crossing
+              */
   WRONG,   /* status OK, no doubt, and off by more than promised */
   OUTCOMES
 } outcome;

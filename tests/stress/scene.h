@@ -35,8 +35,8 @@ typedef struct scene {
   double violation; /* [m] by which the last body is drawn beside its place */
   int spare;        /* joints that say again what others say */
   double off;       /* [m] by which spare joints disagree */
-  double
-    gap; /* [rad] or [-] from a singular configuration at start; tells the grade, not the mechanism */
+  double gap;       /* [rad] or [-] from a singular configuration at start; tells the grade, not the
+                 mechanism */
   model_units units;
 } scene;
 

@@ -13,9 +13,9 @@
 #include <baum/dynamics.h>
 
 typedef struct quad_rows {
-  int rank; /* rows that are at least QUAD_DEPENDENT apart from those before them */
-  double
-    distance; /* smallest singular value of W; with dependent rows, how far the first is from the others */
+  int rank;        /* rows that are at least QUAD_DEPENDENT apart from those before them */
+  double distance; /* smallest singular value of W; with dependent rows, how far the first is from
+                      the others */
   double kept;     /* smallest singular value of the rows of the rank */
   double conflict; /* largest |W^T y - c| of dependent rows, of |c|, |y| and |L^-1 g| */
   double size;     /* largest |a| or |M^-1 g| */

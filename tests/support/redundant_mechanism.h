@@ -50,9 +50,9 @@ enum { REDUNDANT_STATES = 3 };
 typedef struct redundant_tally {
   long workspace[REDUNDANT_STATES][REDUNDANT_VERDICTS];
   long run[REDUNDANT_STATES][REDUNDANT_VERDICTS];
-  double worst; /* imbalance of those met */
-  long
-    wrong_unique; /* multipliers that the run calls unique and are not, or the reverse, on the constraints */
+  double worst;      /* imbalance of those met */
+  long wrong_unique; /* multipliers that the run calls unique and are not, or the reverse, on the
+                        constraints */
 } redundant_tally;
 
 /* Judge the workspace and a run that starts as given, in the three states. What is wrong is

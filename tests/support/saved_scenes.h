@@ -27,7 +27,7 @@ struct saved_scene {
   baum_status (*law)(baum_simulation *run, const saved_scene *scene);
 };
 
-/* The number-th, its mechanism built anew; false past the last. */
+/* The number-th, its mechanism built again; false past the last. */
 bool saved_scene_open(saved_scene *scene, int number);
 void saved_scene_close(saved_scene *scene);
 

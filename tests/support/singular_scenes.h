@@ -20,15 +20,16 @@ typedef enum singular_kind {
   SINGULAR_PARALLELOGRAM,
   SINGULAR_THREE_CRANKS,
   SINGULAR_SLIDER_CRANK,       /* rod and crank of one length */
-  SINGULAR_NEAR_PARALLELOGRAM, /* coupler longer by 1e-4: close to singular only; no angle is known */
+  SINGULAR_NEAR_PARALLELOGRAM, /* coupler longer by 1e-4: close to singular only; no angle is known
+                                  */
   SINGULAR_KINDS
 } singular_kind;
 
 typedef struct singular_scene {
   model m;
-  double end; /* [s] */
-  double
-    unit; /* [s] time in which it turns by about five radians, of which steps and gains are told */
+  double end;  /* [s] */
+  double unit; /* [s] time in which it turns by about five radians, of which steps and gains are
+                  told */
   double want[SINGULAR_SAMPLES + 1]; /* [rad] th at k end / SINGULAR_SAMPLES */
   int count;                         /* of angles in q that follow th */
   int angle[SINGULAR_ANGLES];        /* where they are */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adams-Bashforth methods: their formulas, steps beside the grid, and what begins them anew. */
+/* Adams-Bashforth methods: their formulas, steps beside the grid, and what restarts them. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -234,7 +234,7 @@ static void turning_round_does_not_cost_the_order(void **state)
   demand_order(error_there_and_back);
 }
 
-/* Set anew in the midst, at another place of the same motion. */
+/* Set again in the midst, at another place of the same motion. */
 static double error_with_set_state(const baum_integrator *integrator, double step)
 {
   baum_input_id u;

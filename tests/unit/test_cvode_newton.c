@@ -110,7 +110,8 @@ static bool differentiate(const solver *s, double t, const double *y, const doub
   return regular;
 }
 
-/* |x - gamma df x - r| against the largest of these three vectors; NaN near a singular pose. */
+/* |x - gamma df x - r| against the largest of these three vectors; NaN near a singular
+ * configuration. */
 static double defect_of(const solver *s, double t, const double *y, double gamma, const double *r)
 {
   double x[SIZE];

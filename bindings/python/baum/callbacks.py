@@ -241,7 +241,9 @@ def _shell_normalize(function, write, nq, nv):
 def _answer_nan(error, out, count):
     """For functions without a status: the library stops at numbers that are not finite."""
     _calls.raise_later(error)
-    ctypes.cast(out, ctypes.POINTER(ctypes.c_double))[:count] = [np.nan] * count
+    numbers = ctypes.cast(out, ctypes.POINTER(ctypes.c_double))
+    for k in range(count):
+        numbers[k] = np.nan
 
 
 def _answer(error):

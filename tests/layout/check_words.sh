@@ -1,0 +1,34 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSD-3-Clause
+# usage: check_words.sh PROJECT
+# Terms of the field are used everywhere, and comments keep to the columns of the formatter.
+set -eu
+cd "$1"
+columns=100
+failures=0
+
+# banned WORD INSTEAD: whole words only, so that identifiers with underscores are not meant.
+banned() {
+  found=$(grep -rnwEI --include='*.[ch]' --include='*.py' --include='*.md' --include='*.gp' -e "$1" \
+    README.md docs include src bindings/python/baum examples tests --exclude-dir=corpus) || return 0
+  echo "$found"
+  echo "say \"$2\" instead"
+  failures=$((failures + 1))
+}
+
+banned 'sentences?' message
+banned 'drawn poses?' 'design configuration'
+banned 'singular poses?' 'singular configuration'
+banned 'freedoms' 'degrees of freedom'
+banned 'immobile' fixed
+banned 'passages?' crossing
+banned 'without a word' silently
+banned 'hold hardly' ill-conditioned
+banned 'anew' 'again, or restart'
+banned 'dearer' 'more expensive'
+banned 'full nodes?' 'general node'
+
+wide=$(find include src examples tests -name '*.[ch]' -exec awk -v n=$columns \
+  'length > n { print FILENAME ":" FNR ": " length " columns" }' {} +)
+[ -z "$wide" ] || { echo "$wide"; failures=$((failures + 1)); }
+[ "$failures" -eq 0 ]
