@@ -28,7 +28,7 @@ COLUMNS = {
 
 
 def shaper():
-    """Three bodies in a rough drawing with the crank at angle 0; assembly does the rest."""
+    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)

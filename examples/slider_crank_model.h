@@ -47,7 +47,7 @@ static inline baum_joint_id slider_crank_pin(baum_mechanism *mechanism, const ch
   return id;
 }
 
-/* Bodies in a rough drawing with the crank at angle 0; assembly does the rest. */
+/* Bodies in a rough design configuration with the crank at angle 0; assembly does the rest. */
 static inline void slider_crank_add_bodies(slider_crank *s, bool driven)
 {
   const double r = SLIDER_CRANK_R;

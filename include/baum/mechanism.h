@@ -485,7 +485,8 @@ BAUM_API baum_status baum_mechanism_get_gravity(const baum_mechanism *mechanism,
 
 /** Set the characteristic length L that tolerances and errors of positions are relative to.
  *  @param mechanism  not yet frozen
- *  @param length     [m] > 0. Default of a mechanism: the size of the drawing, found at freeze.
+ *  @param length     [m] > 0. Default of a mechanism: the size of the design configuration, found
+ *                    at freeze.
  *  @return           BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE
  */
 BAUM_API baum_status baum_mechanism_set_characteristic_length(baum_mechanism *mechanism,
@@ -567,7 +568,7 @@ typedef struct baum_mobility {
 BAUM_API baum_status baum_mechanism_mobility(const baum_mechanism *mechanism, baum_mobility *out,
                                              size_t caller_size);
 
-/** What an evaluation of the accelerations costs in a run, and what it is spared. Counts follow
+/** What an evaluation of the accelerations costs in a run, and which work it skips. Counts follow
  *  from the structure; forces and functions of the user are not counted. */
 typedef struct baum_report {
   size_t struct_size; /**< Set by baum_mechanism_report(). */

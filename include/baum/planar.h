@@ -40,7 +40,7 @@ typedef struct baum_planar_body_def {
   double angle;  /**< [rad] of the body axes in the design configuration. Default: 0. */
   double velocity[2];      /**< [m/s] of the centre of mass at start. Default: NaN, free. */
   double angular_velocity; /**< [rad/s] at start. Default: NaN, free. */
-  bool held;               /**< Assembly keeps the drawn position and angle. Default: false. */
+  bool held;               /**< Assembly keeps the design position and angle. Default: false. */
 } baum_planar_body_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.
@@ -90,7 +90,7 @@ typedef struct baum_planar_particle_def {
   double mass;        /**< [kg] > 0. Default: 1. */
   double position[2]; /**< [m] in the design configuration. Default: (0, 0). */
   double velocity[2]; /**< [m/s] at start. Default: NaN, free. */
-  bool held;          /**< Assembly keeps the drawn position. Default: false. */
+  bool held;          /**< Assembly keeps the design position. Default: false. */
 } baum_planar_particle_def;
 
 /** Set the defaults of a definition; writes at most caller_size bytes.

@@ -235,7 +235,7 @@ BAUM_API void baum_simulation_destroy(baum_simulation *simulation);
  *  @param t  [s] finite
  *  @return   BAUM_OK, BAUM_WARNED, BAUM_STOP_CANCELLED, BAUM_STOP_EVENT, BAUM_ERR_ARGUMENT,
  *            BAUM_ERR_SINGULAR, BAUM_ERR_STEP (also: max_steps have been taken, or 10000 steps in
- *            a row have led on by less than 1e-9 each of the time 1/rate of the motion),
+ *            a row have advanced by less than 1e-9 each of the time 1/rate of the motion),
  *            BAUM_ERR_CONVERGENCE, BAUM_ERR_INTEGRATOR, BAUM_ERR_NOT_FINITE, BAUM_ERR_CALLBACK,
  *            BAUM_ERR_INCONSISTENT (kinematics, where a driver jumps at a break), BAUM_ERR_MEMORY
  */

@@ -119,8 +119,8 @@ enum { BAUM_I_SOLVER_TEXT_SIZE = 256 };
 void baum_i_solver_text(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 void baum_i_blocks_reason(const baum_workspace *workspace, char text[BAUM_I_SOLVER_TEXT_SIZE]);
 
-/* BAUM_ERR_STATE within a function of the user that the workspace is calling; `what` is what he
- * used it through. */
+/* BAUM_ERR_STATE within a function of the user that the workspace is calling; `what` names
+ * what it was used through. */
 baum_status baum_i_check_idle(const baum_workspace *w, const char *call, const char *what);
 
 /* A look at another state in the workspace of a motion: what it finds near singular is not counted,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an evaluation of a mechanism costs and what it is spared, in numbers and in words. */
+/* What an evaluation of a mechanism costs and which work it skips, in numbers and in words. */
 #include <stdarg.h>
 #include <string.h>
 
@@ -134,7 +134,7 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
   return status;
 }
 
-/* ---- what is spared ---- */
+/* ---- skipped work ---- */
 
 static bool has_constant_force(const baum_mechanism *m)
 {
@@ -154,7 +154,7 @@ static void BAUM_I_PRINTF(3, 4) spare(baum_report *report, int *count, const cha
   va_start(arguments, format);
   (void)baum_i_format(text, sizeof text, format, arguments);
   va_end(arguments);
-  say(report, "%s%s", (*count)++ > 0 ? "; " : "spared        ", text);
+  say(report, "%s%s", (*count)++ > 0 ? "; " : "skipped       ", text);
 }
 
 static void report_spared(const baum_mechanism *m, baum_report *report)
@@ -181,7 +181,7 @@ static void report_spared(const baum_mechanism *m, baum_report *report)
           report->fixed_bodies == 1 ? "y" : "ies");
   }
   if (count == 0) {
-    say(report, "spared        nothing");
+    say(report, "skipped       nothing");
   }
 }
 

@@ -149,8 +149,8 @@ void baum_i_box_include(baum_i_box *box, double x, double y)
   box->high[1] = fmax(box->high[1], y);
 }
 
-/* Size of the drawing: the diagonal of the box around all bodies, and points of planar joints. 1
- * when it has none, as with user coordinates only. */
+/* Size of the design configuration: the diagonal of the box around all bodies, and points of planar
+ * joints. 1 when it has none, as with user coordinates only. */
 static double design_size(const baum_mechanism *mechanism)
 {
   baum_i_box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};

@@ -78,7 +78,8 @@ static baum_status fail_creeping(baum_simulation *run)
   const baum_i_state *now = &run->ahead;
   baum_status status = baum_i_fail(
     BAUM_ERR_STEP,
-    "t = %.9g s: %s creeps: %d steps have led on by less than 1e-9 of the time of the motion each; "
+    "t = %.9g s: %s creeps: %d steps have advanced by less than 1e-9 of the time of the motion "
+    "each; "
     "forces may be stiff, which only cvode_bdf and ida are for, or the configuration singular, "
     "where rk8 "
     "goes "

@@ -502,7 +502,7 @@ static baum_status make_room(baum_simulation *run, const reader *r)
   baum_status status = baum_i_run_omit_rows(run, r->parts.at[BAUM_I_SAVED_OMITTED]);
   return status == BAUM_OK || status == BAUM_ERR_MEMORY
            ? status
-           : refuse("is damaged: the rows that it leaves out cannot be spared");
+           : refuse("is damaged: the rows that it omits are needed");
 }
 
 static void put_inputs_back(baum_simulation *run, const reader *r)

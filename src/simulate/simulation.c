@@ -148,7 +148,7 @@ static baum_status choose_solver(baum_simulation *run)
   return baum_i_use_blocks(w);
 }
 
-static baum_status start_as_drawn(baum_simulation *run)
+static baum_status start_as_designed(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   return baum_i_run_start(run, run->options.start_time, m->design_q, m->design_v);
@@ -187,9 +187,9 @@ static baum_status accept_start(baum_simulation *run)
 
 /* One after the other, each on what the ones before have made. */
 static baum_status (*const STAGES[])(baum_simulation *run) = {
-  make_states,    start_as_drawn,  choose_solver,  baum_i_run_check_velocities,
-  choose_problem, make_account,    make_crossings, make_integrator,
-  make_companion, warn_redundancy, warn_settings,  accept_start,
+  make_states,    start_as_designed, choose_solver,  baum_i_run_check_velocities,
+  choose_problem, make_account,      make_crossings, make_integrator,
+  make_companion, warn_redundancy,   warn_settings,  accept_start,
 };
 
 static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)

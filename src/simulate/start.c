@@ -12,8 +12,8 @@
 #include "simulate/schedule.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
- * radians. A drawing further off is more likely to be mounted on a branch that its author did not
- * mean. */
+ * radians. A design configuration further off is more likely to be mounted on a branch that its
+ * author did not mean. */
 static const double LARGEST_MOVE = 0.25;
 static const double LARGEST_TURN = 1.0;
 static const double EXACT = 1e-9; /* of the scales */
@@ -34,7 +34,7 @@ static const char *unit_of(const baum_i_body *body, int coordinate)
   return is_angle(body, coordinate) ? " rad" : " m";
 }
 
-/* The joint that the drawing violates most. */
+/* The joint that the design configuration violates most. */
 static void name_worst_joint(baum_simulation *run, double t, const double *drawn,
                              char label[BAUM_I_LABEL_SIZE])
 {
@@ -60,7 +60,7 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   name_worst_joint(run, run->trial.t, drawn, joint);
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
-                     "drawing fits least in %s; draw the start configuration closer",
+                     "design configuration fits least in %s; give it closer to the assembled one",
                      run->trial.t, baum_i_label(&body->element, "body", label), fabs(moved),
                      unit_of(body, coordinate), limit * scale, unit_of(body, coordinate), joint);
 }

@@ -161,9 +161,10 @@ static void a_drawing_too_far_off_is_refused(void **state)
   (void)state;
   bead_def def = GOOD_BEAD;
   def.length = 2.0;
-  check_bead_refused(&def, BAUM_START_ASSEMBLE,
-                     "assembly would move body 1 \"bead\" by 1 m, more than| m; the drawing|"
-                     "\"rod\"|closer");
+  check_bead_refused(
+    &def, BAUM_START_ASSEMBLE,
+    "assembly would move body 1 \"bead\" by 1 m, more than| m; the design configuration|"
+    "\"rod\"|closer");
 }
 
 static void a_rough_drawing_is_assembled_and_reported(void **state)

@@ -329,7 +329,7 @@ static void masses_that_are_not_known_as_drawn_are_told(void **state)
   baum_report report;
   check(baum_mechanism_report(m, &report, sizeof report));
   assert_false(report.blocks);
-  assert_non_null(strstr(report.text, "\nspared        nothing"));
+  assert_non_null(strstr(report.text, "\nskipped       nothing"));
   baum_simulation_options o = euler(BAUM_SOLVER_AUTO);
   o.start_time = 1.5;
   o.step = 0.5;

@@ -172,7 +172,7 @@ static baum_catalog_error run(const known *k, double rtol)
   printf("%-24s rtol %.0e: start %.0e %.0e, q %.1e at %g s, v %.1e at %g s, floors %.0e %.0e\n",
          k->entry.name, rtol, start.q, start.v, error.q, error.q_time, error.v, error.v_time,
          error.q_floor, error.v_floor);
-  /* Rounding of the drawing and of its assembly. */
+  /* Rounding of the design configuration and of its assembly. */
   assert_true(start.q <= 1e-15 && start.v <= 1e-15);
   baum_simulation_destroy(simulation);
   free(rows);

@@ -64,7 +64,7 @@ static baum_joint_id pin(baum_mechanism *m, baum_body_id a, baum_body_id b, doub
   return id;
 }
 
-/* b slides in a along an axis of the drawing. */
+/* b slides in a along an axis of the design configuration. */
 static baum_joint_id guide(baum_mechanism *m, baum_body_id a, baum_body_id b, const double at[2],
                            const double axis[2])
 {

@@ -30,12 +30,12 @@ class Adding:
         held=None,
     ):
         """Add a rigid body in the plane: mass [kg], inertia [kg m^2] about the centre of mass,
-        drawn position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
+        design position [m] and angle [rad], velocities at start [m/s], [rad/s] (free when left out),
         held: assembly keeps the design configuration."""
         return self._add("planar_body", locals())
 
     def planar_particle(self, name=None, *, mass=None, position=None, velocity=None, held=None):
-        """Add a point mass [kg] at a drawn position [m], with a velocity at start [m/s]."""
+        """Add a point mass [kg] at a design position [m], with a velocity at start [m/s]."""
         return self._add("planar_particle", locals())
 
     def coordinates(
@@ -86,17 +86,17 @@ class Adding:
         self, name, body_a, body_b, *, axis=None, point=None, point_a=None, point_b=None, angle=None
     ):
         """Add a slider: body_b moves along an axis of body_a without turning. Two rows [m], [rad].
-        angle: angle_b - angle_a that is kept [rad], default that of the drawing."""
+        angle: angle_b - angle_a that is kept [rad], default that of the design configuration."""
         return self._add("planar_translational", locals())
 
     def distance(self, name, body_a, body_b, *, point_a=None, point_b=None, length=None):
         """Add a rod without mass between two points. One row [m]. length [m], default that of the
-        drawing."""
+        design configuration."""
         return self._add("planar_distance", locals())
 
     def fixed(self, name, body_a, body_b, *, point=None, point_a=None, point_b=None, angle=None):
         """Add a weld. Three rows [m], [m], [rad]. angle: angle_b - angle_a [rad], default that of
-        the drawing."""
+        the design configuration."""
         return self._add("planar_fixed", locals())
 
     def pin_in_slot(
@@ -122,13 +122,13 @@ class Adding:
         """Add a pinion of body_b, about its point, that rolls on a rack of body_a along an axis:
         displacement - radius (angle_b - angle_a) = offset. One row [m]. radius [m] > 0: the rack is
         on the left of the axis; < 0: on the right, which is below for the axis (1, 0). offset [m],
-        default that of the drawing."""
+        default that of the design configuration."""
         return self._add("planar_rack_and_pinion", locals())
 
     def gear(self, name, body_a, body_b, radius_a, radius_b, *, carrier=None, offset=None):
         """Add a gear of two wheels on a carrier (default: ground): radius_a (angle_a - angle_c) +
         radius_b (angle_b - angle_c) = offset. One row [m]. A negative radius [m] is a ring with
-        internal teeth. offset [m], default that of the drawing."""
+        internal teeth. offset [m], default that of the design configuration."""
         return self._add("planar_gear", locals())
 
     def curve(
@@ -150,7 +150,8 @@ class Adding:
 
     def coupling(self, name, joint_a, joint_b, *, ratio=None, offset=None, law=None, user=None):
         """Tie the coordinates of two joints: b = ratio a + offset (default offset: that of the
-        drawing), or b = f(a), a cam: law(a) returns f, its slope and its curvature. One row."""
+        design configuration), or b = f(a), a cam: law(a) returns f, its slope and its curvature.
+        One row."""
         return self._add("coupling", locals())
 
     def driver(self, name, joint, *, value=None, rate=None, acceleration=None, law=None, user=None):
@@ -195,8 +196,8 @@ class Adding:
         user=None,
     ):
         """Add a spring [N/m] and damper [N s/m] between two points; free_length [m], default that
-        of the drawing. Or law(length, rate), which returns the tension [N] and its derivatives by
-        length and by rate, and has no potential energy; depends_on_velocity: False where it does not
+        of the design configuration. Or law(length, rate), which returns the tension [N] and its
+        derivatives by length and by rate, and has no potential energy; depends_on_velocity: False where it does not
         read the rate (rattle needs that)."""
         return self._add("planar_spring", locals())
 
@@ -214,8 +215,8 @@ class Adding:
         user=None,
     ):
         """Add a spring [N m/rad] and damper [N m s/rad] on angle_b - angle_a, which goes on over
-        turns; free_angle [rad], default that of the drawing. Or law(angle, rate), which returns the
-        torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
+        turns; free_angle [rad], default that of the design configuration. Or law(angle, rate),
+        which returns the torque that turns the angle back [N m] and its derivatives by angle and by rate, and has no
         potential energy; depends_on_velocity as of springs."""
         return self._add("planar_torsion_spring", locals())
 

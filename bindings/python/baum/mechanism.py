@@ -31,7 +31,7 @@ class Mobility(namedtuple("Mobility", [name for name, _ in _abi.baum_mobility._f
 
 
 class Report(namedtuple("Report", [name for name, _ in _abi.baum_report._fields_[1:]])):
-    """What an evaluation of the accelerations costs in a run, and what it is spared. str() says it
+    """What an evaluation of the accelerations costs in a run, and which work it skips. str() says it
     in lines, by name, with the reasons."""
 
     __slots__ = ()

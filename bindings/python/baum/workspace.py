@@ -161,7 +161,7 @@ class Workspace:
 
     def assemble(self, t=0.0, q=None, v=None, held=()):
         """The nearest q with Phi = 0, and v: finite entries are held, NaN ones follow. Left out,
-        both are those of the drawing. held: bodies whose positions stay."""
+        both are those of the design configuration. held: bodies whose positions stay."""
         design_q, design_v = self.design()
         q = design_q if q is None else self._q(q)
         v = design_v if v is None else self._v(v)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Are the derivatives that a user gives those of his functions?
+/* Are the derivatives that a user gives those of the functions given?
  *
  * A given value g is compared with differences d at a row of shrinking steps.
  * It is right as soon as
@@ -12,10 +12,10 @@
  * that of neighbouring steps, plus rounding. And only where the function has a derivative at all:
  * at a kink, such as dry friction at rest, the two sides differ by as much at any step.
  *
- * Configurations are the drawn one and three beside it, where nothing is zero or symmetric by
+ * Configurations are the design one and three beside it, where nothing is zero or symmetric by
  * chance. Phi is not zero there: derivatives must be those of the function, not only where the
  * constraint is met. A configuration that a function of an element refuses says nothing; only when
- * it refuses them all is that the result. (The drawn one alone may be refused without fault:
+ * it refuses them all is that the result. (The design one alone may be refused without fault:
  * velocities that will follow from the constraints are taken as zero there.)
  */
 #include "mechanism/general/check.h"
@@ -278,7 +278,7 @@ baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
   return BAUM_OK;
 }
 
-/* Pose 0 is the drawn one, with the velocities given; others are beside it and move. */
+/* Pose 0 is the design one, with the velocities given; others are beside it and move. */
 static void set_pose(place *p, int pose)
 {
   static const double times[POSE_COUNT] = {0.0, 0.0, 0.37, 1.3};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Derivatives by central differences, for what a user does not give and for checking what he gives.
+/* Derivatives by central differences, for what a user does not give and for checking what is given.
  *
  * Everything is a derivative at s = 0 along a ray in (t, q, v):
  *

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constraints given by functions of the user: Phi(q, t), and what else he has of
+/* Constraints given by functions of the user: Phi(q, t), and what else is given of
  *
  *   J = Phi_q,  nu = -Phi_t,  gamma = -(J v)_q v - 2 Phi_tq v - Phi_tt
  *

@@ -12,7 +12,8 @@
 #include "base/message.h"
 #include "mechanism/definition.h"
 
-/* A drawing in decimal numbers puts a particle and a pin at the same place only to rounding. */
+/* A design configuration in decimal numbers puts a particle and a pin at the same place only to
+ * rounding. */
 static const double SAME_PLACE = 1e-9;
 
 /* ---- bodies ---- */
