@@ -8,7 +8,7 @@
 #include <baum/planar.h>
 
 #include "mechanism/definition.h"
-#include "mechanism/planar/gravity.h"
+#include "mechanism/general/gravity.h"
 
 /* Parameters; the mass is where gravity.c looks for it. */
 enum { MASS = BAUM_I_GRAVITY_MASS, PARAMETER_COUNT };

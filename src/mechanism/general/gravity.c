@@ -1,11 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gravity in the plane: force (m g_x, m g_y) at the centre of mass (x, y),
- * potential -m (g_x x + g_y y). */
-#include "mechanism/planar/gravity.h"
+/* Gravity: force m g at the centre of mass r, potential -m g . r; in the plane of x and y alone. */
+#include "mechanism/general/gravity.h"
 
 static double mass_of(const baum_i_body *body, const baum_i_point *point)
 {
   return point->parameters[body->element.parameter + BAUM_I_GRAVITY_MASS];
+}
+
+static int dimensions(const baum_i_body_group *group)
+{
+  return baum_i_is_spatial(group->type->frame) ? 3 : 2;
 }
 
 baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *point, double *force)
@@ -14,8 +18,9 @@ baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *p
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
     double mass = mass_of(body, point);
-    force[body->v] += mass * gravity[0];
-    force[body->v + 1] += mass * gravity[1];
+    for (int k = 0; k < dimensions(group); k++) {
+      force[body->v + k] += mass * gravity[k];
+    }
   }
   return BAUM_OK;
 }
@@ -27,7 +32,11 @@ baum_status baum_i_gravity_potential(const baum_i_body_group *group, baum_i_poin
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
     const double *r = point->q + body->q;
-    *sum -= mass_of(body, point) * (gravity[0] * r[0] + gravity[1] * r[1]);
+    double height = gravity[0] * r[0] + gravity[1] * r[1];
+    if (dimensions(group) == 3) {
+      height += gravity[2] * r[2];
+    }
+    *sum -= mass_of(body, point) * height;
   }
   return BAUM_OK;
 }

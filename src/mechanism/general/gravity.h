@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Gravity on bodies whose first coordinates are those of the centre of mass and whose first
  * parameter is the mass. */
-#ifndef BAUM_I_MECHANISM_PLANAR_GRAVITY_H
-#define BAUM_I_MECHANISM_PLANAR_GRAVITY_H
+#ifndef BAUM_I_MECHANISM_GENERAL_GRAVITY_H
+#define BAUM_I_MECHANISM_GENERAL_GRAVITY_H
 
 #include "mechanism/identify.h"
 

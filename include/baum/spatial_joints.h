@@ -1,0 +1,450 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/** @file
+ *  Joints in space. What spatial.h says of placing and reactions holds here.
+ *
+ *  axis: with `point` in ground axes of the design configuration, else in the axes of body_a.
+ *  axis_b: the same axis on body_b, with `point` in ground axes, else in the axes of body_b; where
+ *  it is not given it coincides with axis in the design configuration. Assembly refuses axes that
+ *  come to lie opposite to each other.
+ */
+#ifndef BAUM_SPATIAL_JOINTS_H
+#define BAUM_SPATIAL_JOINTS_H
+
+#include <baum/mechanism.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- spherical joint ------------------------------------------------------------------------- */
+
+/** A ball joint: both points coincide. Three rows [m]. */
+typedef struct baum_spatial_spherical_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+} baum_spatial_spherical_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_spherical_def_init(baum_spatial_spherical_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_spherical_def baum_spatial_spherical_def_default(void)
+{
+  baum_spatial_spherical_def def;
+  baum_spatial_spherical_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_spherical(baum_mechanism *mechanism,
+                                                          const baum_spatial_spherical_def *def,
+                                                          baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_spherical(const baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          baum_spatial_spherical_def *out,
+                                                          size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_spherical(baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          const baum_spatial_spherical_def *def);
+
+/* ---- revolute joint -------------------------------------------------------------------------- */
+
+/** A hinge about an axis. Five rows: points coincide [m], axes are parallel [-]. Its coordinate is
+ *  the angle of body_b relative to body_a about the axis [rad], 0 in the design configuration,
+ *  between -pi and pi. */
+typedef struct baum_spatial_revolute_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+} baum_spatial_revolute_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_revolute_def_init(baum_spatial_revolute_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_revolute_def baum_spatial_revolute_def_default(void)
+{
+  baum_spatial_revolute_def def;
+  baum_spatial_revolute_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_revolute(baum_mechanism *mechanism,
+                                                         const baum_spatial_revolute_def *def,
+                                                         baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_revolute(const baum_mechanism *mechanism,
+                                                         baum_joint_id id,
+                                                         baum_spatial_revolute_def *out,
+                                                         size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_revolute(baum_mechanism *mechanism,
+                                                         baum_joint_id id,
+                                                         const baum_spatial_revolute_def *def);
+
+/* ---- universal joint ------------------------------------------------------------------------- */
+
+/** Hooke's joint: points coincide [m] and the axes, one of each body, stay perpendicular [-]. Four
+ *  rows. axis_b must be given. */
+typedef struct baum_spatial_universal_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  double axis_b[3]; /**< [-] likewise on body_b. Must be given. */
+} baum_spatial_universal_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_universal_def_init(baum_spatial_universal_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_universal_def baum_spatial_universal_def_default(void)
+{
+  baum_spatial_universal_def def;
+  baum_spatial_universal_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_universal(baum_mechanism *mechanism,
+                                                          const baum_spatial_universal_def *def,
+                                                          baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_universal(const baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          baum_spatial_universal_def *out,
+                                                          size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_universal(baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          const baum_spatial_universal_def *def);
+
+/* ---- cylindrical joint ----------------------------------------------------------------------- */
+
+/** body_b slides along an axis of body_a and rotates about it. Four rows: axes are parallel [-],
+ *  points on one line [m]. Its coordinate is the displacement of body_b's point along the axis
+ *  [m]. */
+typedef struct baum_spatial_cylindrical_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+} baum_spatial_cylindrical_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_cylindrical_def_init(baum_spatial_cylindrical_def *def,
+                                                size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_cylindrical_def baum_spatial_cylindrical_def_default(void)
+{
+  baum_spatial_cylindrical_def def;
+  baum_spatial_cylindrical_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_cylindrical(baum_mechanism *mechanism,
+                                                            const baum_spatial_cylindrical_def *def,
+                                                            baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_cylindrical(const baum_mechanism *mechanism,
+                                                            baum_joint_id id,
+                                                            baum_spatial_cylindrical_def *out,
+                                                            size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_cylindrical(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_cylindrical_def *def);
+
+/* ---- prismatic joint ------------------------------------------------------------------------- */
+
+/** body_b slides along an axis of body_a and does not rotate. Five rows: axes are parallel [-],
+ *  points on one line [m], no rotation about it [-]. Its coordinate is the displacement of
+ *  body_b's point along the axis [m]. */
+typedef struct baum_spatial_prismatic_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+} baum_spatial_prismatic_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_prismatic_def_init(baum_spatial_prismatic_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_prismatic_def baum_spatial_prismatic_def_default(void)
+{
+  baum_spatial_prismatic_def def;
+  baum_spatial_prismatic_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_prismatic(baum_mechanism *mechanism,
+                                                          const baum_spatial_prismatic_def *def,
+                                                          baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_prismatic(const baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          baum_spatial_prismatic_def *out,
+                                                          size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_prismatic(baum_mechanism *mechanism,
+                                                          baum_joint_id id,
+                                                          const baum_spatial_prismatic_def *def);
+
+/* ---- planar joint ---------------------------------------------------------------------------- */
+
+/** body_b moves in a plane of body_a. Three rows: normals are parallel [-], point in the plane
+ *  [m]. The axis is the normal. */
+typedef struct baum_spatial_planar_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+  double axis_b[3]; /**< [-] likewise on body_b. Default: NaN, that of the design configuration. */
+} baum_spatial_planar_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_planar_def_init(baum_spatial_planar_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_planar_def baum_spatial_planar_def_default(void)
+{
+  baum_spatial_planar_def def;
+  baum_spatial_planar_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_planar(baum_mechanism *mechanism,
+                                                       const baum_spatial_planar_def *def,
+                                                       baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_planar(const baum_mechanism *mechanism,
+                                                       baum_joint_id id,
+                                                       baum_spatial_planar_def *out,
+                                                       size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_planar(baum_mechanism *mechanism, baum_joint_id id,
+                                                       const baum_spatial_planar_def *def);
+
+/* ---- fixed joint (weld) ---------------------------------------------------------------------- */
+
+/** Points coincide and the relative orientation stays that of the design configuration. Six rows:
+ *  three [m], three [-]. */
+typedef struct baum_spatial_fixed_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+} baum_spatial_fixed_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_fixed_def_init(baum_spatial_fixed_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_fixed_def baum_spatial_fixed_def_default(void)
+{
+  baum_spatial_fixed_def def;
+  baum_spatial_fixed_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_fixed(baum_mechanism *mechanism,
+                                                      const baum_spatial_fixed_def *def,
+                                                      baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_fixed(const baum_mechanism *mechanism,
+                                                      baum_joint_id id, baum_spatial_fixed_def *out,
+                                                      size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_fixed(baum_mechanism *mechanism, baum_joint_id id,
+                                                      const baum_spatial_fixed_def *def);
+
+/* ---- distance joint (massless rod) ----------------------------------------------------------- */
+
+/** A rod without mass between two points. One row [m]: (d.d - length^2) / (2 length) with d from
+ *  body_a's point to body_b's. */
+typedef struct baum_spatial_distance_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double length;       /**< [m] > 0. Default: NaN, that of the design configuration. */
+} baum_spatial_distance_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_distance_def_init(baum_spatial_distance_def *def, size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_distance_def baum_spatial_distance_def_default(void)
+{
+  baum_spatial_distance_def def;
+  baum_spatial_distance_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_distance(baum_mechanism *mechanism,
+                                                         const baum_spatial_distance_def *def,
+                                                         baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_distance(const baum_mechanism *mechanism,
+                                                         baum_joint_id id,
+                                                         baum_spatial_distance_def *out,
+                                                         size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_distance(baum_mechanism *mechanism,
+                                                         baum_joint_id id,
+                                                         const baum_spatial_distance_def *def);
+
+/* ---- point on a line ------------------------------------------------------------------------- */
+
+/** body_b's point stays on a line of body_a through its point. Two rows [m]. Its coordinate is the
+ *  displacement along the line [m]. body_b may be a particle. */
+typedef struct baum_spatial_point_on_line_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+} baum_spatial_point_on_line_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_point_on_line_def_init(baum_spatial_point_on_line_def *def,
+                                                  size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_point_on_line_def baum_spatial_point_on_line_def_default(void)
+{
+  baum_spatial_point_on_line_def def;
+  baum_spatial_point_on_line_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_point_on_line(
+  baum_mechanism *mechanism, const baum_spatial_point_on_line_def *def, baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_point_on_line(const baum_mechanism *mechanism,
+                                                              baum_joint_id id,
+                                                              baum_spatial_point_on_line_def *out,
+                                                              size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_point_on_line(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_line_def *def);
+
+/* ---- point on a plane ------------------------------------------------------------------------ */
+
+/** body_b's point stays in a plane of body_a through its point; axis is the normal. One row [m].
+ *  body_b may be a particle. */
+typedef struct baum_spatial_point_on_plane_def {
+  size_t struct_size;  /**< Set by the default. Do not write. */
+  const char *name;    /**< Label in messages. Copied. Default: NULL, "joint<k>". */
+  baum_body_id body_a; /**< Must be set. */
+  baum_body_id body_b; /**< Must be set; not body_a. */
+  double point[3];     /**< [m] ground axes, design configuration. Default: NaN, not given. */
+  double point_a[3];   /**< [m] on body_a, its axes. Default: NaN, not given. */
+  double point_b[3];   /**< [m] on body_b, its axes. Default: NaN, not given. */
+  double
+    axis[3]; /**< [-] not zero; with `point` in ground axes, else body_a's. Default: (0, 0, 1). */
+} baum_spatial_point_on_plane_def;
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API void baum_spatial_point_on_plane_def_init(baum_spatial_point_on_plane_def *def,
+                                                   size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+static inline baum_spatial_point_on_plane_def baum_spatial_point_on_plane_def_default(void)
+{
+  baum_spatial_point_on_plane_def def;
+  baum_spatial_point_on_plane_def_init(&def, sizeof def);
+  return def;
+}
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_add_spatial_point_on_plane(
+  baum_mechanism *mechanism, const baum_spatial_point_on_plane_def *def, baum_joint_id *id);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_get_spatial_point_on_plane(const baum_mechanism *mechanism,
+                                                               baum_joint_id id,
+                                                               baum_spatial_point_on_plane_def *out,
+                                                               size_t caller_size);
+
+/** See "Definitions" in mechanism.h. */
+BAUM_API baum_status baum_mechanism_set_spatial_point_on_plane(
+  baum_mechanism *mechanism, baum_joint_id id, const baum_spatial_point_on_plane_def *def);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

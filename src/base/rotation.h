@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Vectors of three, rotation matrices A (by rows) and unit quaternions p in Hamilton's convention, w
+ * first. Both turn body axes into ground axes: x = A s. Results never share memory with arguments.
+ */
+#ifndef BAUM_I_BASE_ROTATION_H
+#define BAUM_I_BASE_ROTATION_H
+
+#include <math.h>
+
+static inline double baum_i_dot3(const double a[3], const double b[3])
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static inline void baum_i_cross(const double a[3], const double b[3], double out[3])
+{
+  out[0] = a[1] * b[2] - a[2] * b[1];
+  out[1] = a[2] * b[0] - a[0] * b[2];
+  out[2] = a[0] * b[1] - a[1] * b[0];
+}
+
+/* out = A s */
+static inline void baum_i_turn(const double axes[9], const double s[3], double out[3])
+{
+  for (int i = 0; i < 3; i++) {
+    out[i] = baum_i_dot3(axes + 3 * i, s);
+  }
+}
+
+/* out = A^T x */
+static inline void baum_i_turn_back(const double axes[9], const double x[3], double out[3])
+{
+  for (int i = 0; i < 3; i++) {
+    out[i] = axes[i] * x[0] + axes[3 + i] * x[1] + axes[6 + i] * x[2];
+  }
+}
+
+/* a o b */
+static inline void baum_i_quaternion_product(const double a[4], const double b[4], double out[4])
+{
+  out[0] = a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3];
+  out[1] = a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2];
+  out[2] = a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1];
+  out[3] = a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0];
+}
+
+static inline double baum_i_quaternion_length(const double p[4])
+{
+  return sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2] + p[3] * p[3]);
+}
+
+static inline void baum_i_quaternion_normalize(double p[4])
+{
+  double length = baum_i_quaternion_length(p);
+  for (int i = 0; i < 4; i++) {
+    p[i] /= length;
+  }
+}
+
+/* A of a unit quaternion. */
+static inline void baum_i_rotation_of(const double p[4], double axes[9])
+{
+  const double w = p[0], x = p[1], y = p[2], z = p[3];
+  axes[0] = 1.0 - 2.0 * (y * y + z * z);
+  axes[1] = 2.0 * (x * y - w * z);
+  axes[2] = 2.0 * (x * z + w * y);
+  axes[3] = 2.0 * (x * y + w * z);
+  axes[4] = 1.0 - 2.0 * (x * x + z * z);
+  axes[5] = 2.0 * (y * z - w * x);
+  axes[6] = 2.0 * (x * z - w * y);
+  axes[7] = 2.0 * (y * z + w * x);
+  axes[8] = 1.0 - 2.0 * (x * x + y * y);
+}
+
+/* The rotation about the axis and by the angle of a vector. */
+void baum_i_quaternion_exp(const double rotation[3], double p[4]);
+
+/* The rotation vector of a unit quaternion, of at most pi. */
+void baum_i_quaternion_log(const double p[4], double rotation[3]);
+
+/* A unit vector orthogonal to the unit vector z, and z x it. */
+void baum_i_complete_axes(const double z[3], double x[3], double y[3]);
+
+#endif

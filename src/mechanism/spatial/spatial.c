@@ -1,0 +1,183 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Checks of the fields that spatial elements share, and their points in body axes.
+ *
+ * A point given in ground axes of the design configuration becomes s = A^T (point - r).
+ */
+#include "mechanism/spatial/spatial.h"
+
+#include <string.h>
+
+#include "base/message.h"
+
+/* Decimal numbers put a particle and a joint at the same place only to rounding. */
+static const double SAME_PLACE = 1e-9;
+
+/* ---- bodies ---- */
+
+static const baum_i_body *body_of(const baum_mechanism *mechanism, baum_body_id id)
+{
+  return mechanism->bodies[baum_i_body_index(mechanism, id)];
+}
+
+static bool has_axes(const baum_i_body *body)
+{
+  baum_i_frame_kind kind = baum_i_frame_of(body);
+  return kind != BAUM_I_FRAME_NONE && kind != BAUM_I_FRAME_PARTICLE &&
+         kind != BAUM_I_FRAME_SPATIAL_PARTICLE;
+}
+
+static baum_status fail_body(const baum_i_body *body, const char *label, const char *field,
+                             const char *what)
+{
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no %s", label, field,
+                     baum_i_label(&body->element, "body", text), what);
+}
+
+baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field)
+{
+  const baum_i_body *body = body_of(mechanism, id);
+  return baum_i_frame_of(body) == BAUM_I_FRAME_NONE
+           ? fail_body(body, label, field, "place in space")
+           : BAUM_OK;
+}
+
+baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
+                                         const char *label, const char *field)
+{
+  BAUM_I_TRY(baum_i_spatial_check_body(mechanism, id, label, field));
+  const baum_i_body *body = body_of(mechanism, id);
+  return has_axes(body) ? BAUM_OK : fail_body(body, label, field, "orientation");
+}
+
+static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_spatial_head *head,
+                                const char *label)
+{
+  BAUM_I_TRY(baum_i_spatial_check_body(mechanism, head->body_a, label, "body_a"));
+  BAUM_I_TRY(baum_i_spatial_check_body(mechanism, head->body_b, label, "body_b"));
+  if (head->body_a.index1 != head->body_b.index1) {
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  const baum_i_body *body = body_of(mechanism, head->body_a);
+  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
+                     body->type ? baum_i_label(&body->element, "body", text) : "ground");
+}
+
+/* ---- points ---- */
+
+static baum_status check_one_way(const baum_i_spatial_head *head, const char *label,
+                                 bool has_length)
+{
+  bool point = baum_i_spatial_is_given(head->point);
+  bool a = baum_i_spatial_is_given(head->point_a);
+  bool b = baum_i_spatial_is_given(head->point_b);
+  if (point && has_length) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point is given and leaves no length; give point_a and point_b instead",
+                       label);
+  }
+  if (point && (a || b)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: point and %s are both given; give point alone, or point_a and point_b",
+                       label, a ? "point_a" : "point_b");
+  }
+  if (!point && a != b) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is given, but not %s", label,
+                       a ? "point_a" : "point_b", a ? "point_b" : "point_a");
+  }
+  return point || a
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: no point is given; give %spoint_a and point_b",
+                         label, has_length ? "" : "point, or ");
+}
+
+static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_id id,
+                                     const char *label, const char *field, const double s[3])
+{
+  const baum_i_body *body = body_of(mechanism, id);
+  if (has_axes(body) || !baum_i_spatial_is_given(s) || baum_i_dot3(s, s) == 0.0) {
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: %s is (%g, %g, %g) m, must be (0, 0, 0) on the particle %s", label, field,
+                     s[0], s[1], s[2], baum_i_label(&body->element, "body", text));
+}
+
+baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
+                                      const char *label, bool has_length)
+{
+  const baum_i_spatial_head *head = def;
+  BAUM_I_TRY(check_bodies(mechanism, head, label));
+  BAUM_I_TRY(check_one_way(head, label, has_length));
+  BAUM_I_TRY(check_on_particle(mechanism, head->body_a, label, "point_a", head->point_a));
+  return check_on_particle(mechanism, head->body_b, label, "point_b", head->point_b);
+}
+
+/* A point in ground axes to a body's axes. */
+static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[3],
+                            const char *label, double s[3])
+{
+  const baum_i_body *body = mechanism->bodies[index];
+  const baum_i_spatial_frame frame = baum_i_spatial_design_frame(mechanism, index);
+  double apart[3];
+  for (int i = 0; i < 3; i++) {
+    apart[i] = point[i] - frame.r[i];
+  }
+  baum_i_turn_back(frame.axes, apart, s);
+  if (has_axes(body)) {
+    return BAUM_OK;
+  }
+  double near =
+    SAME_PLACE * (sqrt(baum_i_dot3(point, point)) + sqrt(baum_i_dot3(frame.r, frame.r)));
+  if (baum_i_dot3(s, s) <= near * near) {
+    memset(s, 0, 3 * sizeof *s);
+    return BAUM_OK;
+  }
+  char text[BAUM_I_LABEL_SIZE];
+  return baum_i_fail(BAUM_ERR_ARGUMENT,
+                     "%s: point is (%g, %g, %g) m, must be at the particle %s, whose design "
+                     "position is (%g, %g, %g) m",
+                     label, point[0], point[1], point[2],
+                     baum_i_label(&body->element, "body", text), frame.r[0], frame.r[1],
+                     frame.r[2]);
+}
+
+baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const void *def,
+                                  const char *label, double s[6])
+{
+  const baum_i_spatial_head *head = def;
+  if (!baum_i_spatial_is_given(head->point)) {
+    memcpy(s, head->point_a, sizeof head->point_a);
+    memcpy(s + 3, head->point_b, sizeof head->point_b);
+    return BAUM_OK;
+  }
+  int a = baum_i_body_index(mechanism, head->body_a);
+  int b = baum_i_body_index(mechanism, head->body_b);
+  BAUM_I_TRY(place_on(mechanism, a, head->point, label, s));
+  return place_on(mechanism, b, head->point, label, s + 3);
+}
+
+/* ---- extent ---- */
+
+static void include_point(baum_i_box *box, const baum_mechanism *mechanism, int body,
+                          const double s[3])
+{
+  if (baum_i_spatial_is_given(s)) {
+    const baum_i_spatial_frame frame = baum_i_spatial_design_frame(mechanism, body);
+    double at[3];
+    baum_i_turn(frame.axes, s, at);
+    baum_i_box_include(box, frame.r[0] + at[0], frame.r[1] + at[1], frame.r[2] + at[2]);
+  }
+}
+
+void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                           baum_i_box *box)
+{
+  const baum_i_spatial_head *head = joint->element.def;
+  include_point(box, mechanism, 0, head->point);
+  include_point(box, mechanism, joint->span.bodies[0], head->point_a);
+  include_point(box, mechanism, joint->span.bodies[1], head->point_b);
+}

@@ -1,0 +1,84 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What spatial joints and forces share: frames, the six columns of a body, and the fields that
+ * their definitions begin with.
+ *
+ * The columns of a body are the velocity of its origin in ground axes and its angular velocity in
+ * body axes. A particle has the first three of them. A planar body has x, y and the rotation about
+ * z: it takes part in spatial joints and stays in its plane.
+ */
+#ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
+#define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
+
+#include <baum/spatial.h>
+#include <baum/spatial_joints.h>
+
+#include "base/rotation.h"
+#include "mechanism/identify.h"
+
+enum { BAUM_I_SPATIAL_COLUMNS = 6 };
+
+/* ---- frames ---- */
+
+/* Frame of a body at its q, and its v or NULL for rest; that of ground for kinds without a place. */
+baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
+                                             const double *v);
+
+/* Frame of a body in the design configuration, at rest. Valid before freeze. */
+baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int body);
+
+/* ---- columns: six of each body of a span, packed into those that the bodies have ---- */
+
+void baum_i_spatial_gather(const baum_mechanism *mechanism, const baum_i_span *span,
+                           const double *x, double *wide);
+void baum_i_spatial_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
+                            const double *wide, double *x);
+void baum_i_spatial_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
+                         const double *wide, double *packed);
+void baum_i_spatial_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
+                                const double *wide, double *packed);
+
+/* ---- definitions ---- */
+
+/* The fields that every joint and spring begins with. */
+typedef struct baum_i_spatial_head {
+  size_t struct_size;
+  const char *name;
+  baum_body_id body_a;
+  baum_body_id body_b;
+  double point[3];
+  double point_a[3];
+  double point_b[3];
+} baum_i_spatial_head;
+
+#define BAUM_I_SPATIAL_FIELDS(DEF)                                                      \
+  BAUM_I_FIELD(DEF, body_a, BODY), BAUM_I_FIELD(DEF, body_b, BODY),                     \
+    BAUM_I_OPTIONAL(DEF, point, POINT, "m"), BAUM_I_OPTIONAL(DEF, point_a, POINT, "m"), \
+    BAUM_I_OPTIONAL(DEF, point_b, POINT, "m")
+
+/* Check that a body has a place in space; and an orientation. */
+baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
+                                      const char *label, const char *field);
+baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_body_id id,
+                                         const char *label, const char *field);
+
+/* Check the head: bodies that differ, and points that are given in exactly one way, not by `point`
+ * where the element has a length. */
+baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
+                                      const char *label, bool has_length);
+
+/* Points of a checked head on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point` away
+ * from it: BAUM_ERR_ARGUMENT. */
+baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const void *def,
+                                  const char *label, double s[6]);
+
+/* Include the points of a joint's definition; the `extent` of types. */
+void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                           baum_i_box *box);
+
+/* All of a point, or nothing. */
+static inline bool baum_i_spatial_is_given(const double point[3])
+{
+  return !isnan(point[0]);
+}
+
+#endif

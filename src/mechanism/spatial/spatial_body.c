@@ -1,0 +1,292 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Rigid body in space: q = (r, p), the centre of mass in ground axes and a unit quaternion;
+ * v = (r', w), w the angular velocity in body axes.
+ *
+ *   p' = p o (0, w) / 2
+ *   M  = diag(m E, I), constant
+ *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I
+ *
+ * A displacement (dr, dth) moves p to p o exp(dth), dth in body axes. The difference of two p is the
+ * logarithm of p^-1 o p'.
+ */
+#include <string.h>
+
+#include <baum/spatial.h>
+
+#include "base/message.h"
+#include "base/rotation.h"
+#include "mechanism/definition.h"
+#include "mechanism/general/gravity.h"
+
+/* Parameters; the mass is where gravity.c looks for it, the inertia a 3 x 3 matrix. */
+enum { MASS = BAUM_I_GRAVITY_MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
+
+/* Of a quaternion that was typed in. */
+static const double NEAR_UNIT = 1e-6;
+
+/* Of the largest moment: smaller ones are rounding. */
+static const double SMALLEST_MOMENT = 1e-12;
+static const double ROUNDING = 1e-9;
+
+static const baum_i_def_field fields[] = {
+  BAUM_I_NUMBERS(baum_spatial_body_def, mass, POSITIVE, "kg", 1.0),
+  BAUM_I_NUMBERS(baum_spatial_body_def, inertia, FINITE, "kg m^2", 1.0, 1.0, 1.0),
+  BAUM_I_NUMBERS(baum_spatial_body_def, position, FINITE, "m", 0.0),
+  BAUM_I_NUMBERS(baum_spatial_body_def, orientation, FINITE, "-", 1.0),
+  BAUM_I_OPTIONAL(baum_spatial_body_def, velocity, FREE, "m/s"),
+  BAUM_I_OPTIONAL(baum_spatial_body_def, angular_velocity, FREE, "rad/s"),
+  BAUM_I_FIELD(baum_spatial_body_def, held, START_FLAG),
+  {0},
+};
+
+/* ---- definition ---- */
+
+/* From xx, yy, zz, xy, xz, yz. */
+static void matrix_of(const double inertia[6], double out[9])
+{
+  static const int places[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};
+  for (int i = 0; i < 9; i++) {
+    out[i] = inertia[places[i]];
+  }
+}
+
+/* Principal moments of a symmetric matrix, rising, by Jacobi's rotations (1846): three sweeps leave
+ * rounding. */
+static void principal(const double matrix[9], double moments[3])
+{
+  double a[9];
+  memcpy(a, matrix, sizeof a);
+  for (int n = 0; n < 18; n++) {
+    static const int pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    int i = pairs[n % 3][0];
+    int j = pairs[n % 3][1];
+    double angle = 0.5 * atan2(2.0 * a[3 * i + j], a[4 * i] - a[4 * j]);
+    double c = cos(angle);
+    double s = sin(angle);
+    for (int k = 0; k < 3; k++) { /* columns, then rows */
+      double x = a[3 * k + i];
+      double y = a[3 * k + j];
+      a[3 * k + i] = c * x + s * y;
+      a[3 * k + j] = c * y - s * x;
+    }
+    for (int k = 0; k < 3; k++) {
+      double x = a[3 * i + k];
+      double y = a[3 * j + k];
+      a[3 * i + k] = c * x + s * y;
+      a[3 * j + k] = c * y - s * x;
+    }
+  }
+  moments[0] = fmin(a[0], fmin(a[4], a[8]));
+  moments[2] = fmax(a[0], fmax(a[4], a[8]));
+  moments[1] = a[0] + a[4] + a[8] - moments[0] - moments[2];
+}
+
+static baum_status check_inertia(const baum_spatial_body_def *def, const char *label)
+{
+  double matrix[9];
+  double m[3];
+  matrix_of(def->inertia, matrix);
+  principal(matrix, m);
+  if (!(m[0] > SMALLEST_MOMENT * m[2])) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: inertia has the principal moments %g, %g and %g kg m^2, all must be > 0",
+                       label, m[0], m[1], m[2]);
+  }
+  if (!(m[2] - m[1] <= m[0] + ROUNDING * m[2])) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: inertia has the principal moments %g, %g and %g kg m^2; of a body none "
+                       "is above the sum of the other two",
+                       label, m[0], m[1], m[2]);
+  }
+  return BAUM_OK;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  (void)mechanism;
+  const baum_spatial_body_def *def = given;
+  double length = baum_i_quaternion_length(def->orientation);
+  if (!(fabs(length - 1.0) <= NEAR_UNIT)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "%s: orientation has the length %.9g, must be 1 to 1e-6: a unit quaternion "
+                       "w, x, y, z",
+                       label, length);
+  }
+  return check_inertia(def, label);
+}
+
+static void lower(const baum_i_body *body, double *parameters)
+{
+  const baum_spatial_body_def *def = body->element.def;
+  parameters[MASS] = def->mass;
+  matrix_of(def->inertia, parameters + INERTIA);
+}
+
+static void design(const void *given, double *q, double *v, bool *held)
+{
+  const baum_spatial_body_def *def = given;
+  memcpy(q, def->position, sizeof def->position);
+  memcpy(q + 3, def->orientation, sizeof def->orientation);
+  baum_i_quaternion_normalize(q + 3);
+  memcpy(v, def->velocity, sizeof def->velocity);
+  memcpy(v + 3, def->angular_velocity, sizeof def->angular_velocity);
+  *held = def->held;
+}
+
+static void scale(const void *def, double length, double *out)
+{
+  (void)def;
+  for (int i = 0; i < 6; i++) {
+    out[i] = i < 3 ? length : 1.0;
+  }
+}
+
+static void position_scale(const void *def, double length, double *out)
+{
+  (void)def;
+  for (int i = 0; i < 7; i++) {
+    out[i] = i < 3 ? length : 0.5;
+  }
+}
+
+/* ---- the manifold ---- */
+
+static void rate(const baum_i_body *body, const double *q, const double *v, double *dq)
+{
+  (void)body;
+  const double half[4] = {0.0, 0.5 * v[3], 0.5 * v[4], 0.5 * v[5]};
+  memcpy(dq, v, 3 * sizeof *dq);
+  baum_i_quaternion_product(q + 3, half, dq + 3);
+}
+
+static void move(const baum_i_body *body, double h, const double *v, double *q)
+{
+  (void)body;
+  const double rotation[3] = {h * v[3], h * v[4], h * v[5]};
+  double p[4];
+  double turn[4];
+  for (int i = 0; i < 3; i++) {
+    q[i] += h * v[i];
+  }
+  memcpy(p, q + 3, sizeof p);
+  baum_i_quaternion_exp(rotation, turn);
+  baum_i_quaternion_product(p, turn, q + 3);
+}
+
+static void difference(const baum_i_body *body, const double *from, const double *to, double *dx)
+{
+  (void)body;
+  const double back[4] = {from[3], -from[4], -from[5], -from[6]};
+  double turn[4];
+  for (int i = 0; i < 3; i++) {
+    dx[i] = to[i] - from[i];
+  }
+  baum_i_quaternion_product(back, to + 3, turn);
+  baum_i_quaternion_log(turn, dx + 3);
+}
+
+static void normalize(const baum_i_body *body, double *q)
+{
+  (void)body;
+  baum_i_quaternion_normalize(q + 3);
+}
+
+static const baum_i_manifold *manifold(const void *def)
+{
+  static const baum_i_manifold rotations = {
+    .rate = rate, .move = move, .difference = difference, .normalize = normalize};
+  (void)def;
+  return &rotations;
+}
+
+/* ---- evaluation ---- */
+
+static baum_status mass(const baum_i_body_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_body *body = group->bodies[i];
+    const double *numbers = point->parameters + body->element.parameter;
+    double *block = out + body->mass;
+    memset(block, 0, 36 * sizeof *block);
+    for (int k = 0; k < 3; k++) {
+      block[7 * k] = numbers[MASS];
+      memcpy(block + 6 * (3 + k) + 3, numbers + INERTIA + (ptrdiff_t)3 * k, 3 * sizeof *block);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* The gyroscopic moment is that of a velocity; at rest there is none. */
+static bool depends_on_velocity(const void *given)
+{
+  const baum_spatial_body_def *def = given;
+  const double *x = def->inertia;
+  return x[0] != x[1] || x[1] != x[2] || x[3] != 0.0 || x[4] != 0.0 || x[5] != 0.0;
+}
+
+static baum_status force(const baum_i_body_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; point->v && i < group->count; i++) {
+    const baum_i_body *body = group->bodies[i];
+    const double *w = point->v + body->v + 3;
+    double momentum[3];
+    double moment[3];
+    baum_i_turn(point->parameters + body->element.parameter + INERTIA, w, momentum);
+    baum_i_cross(momentum, w, moment);
+    for (int k = 0; k < 3; k++) {
+      out[body->v + 3 + k] += moment[k];
+    }
+  }
+  return baum_i_gravity_force(group, point, out);
+}
+
+/* Column j is (I e_j) x w + (I w) x e_j. */
+static baum_status linearize(const baum_i_body *body, baum_i_point *point, const double *a,
+                             const baum_i_body_blocks *blocks)
+{
+  (void)a;
+  const double *inertia = point->parameters + body->element.parameter + INERTIA;
+  const double *w = point->v + body->v + 3;
+  double momentum[3];
+  if (!blocks->force_v) {
+    return BAUM_OK;
+  }
+  baum_i_turn(inertia, w, momentum);
+  for (int j = 0; j < 3; j++) {
+    const double axis[3] = {j == 0, j == 1, j == 2};
+    double column[3];
+    double first[3];
+    double second[3];
+    baum_i_turn(inertia, axis, column);
+    baum_i_cross(column, w, first);
+    baum_i_cross(momentum, axis, second);
+    for (int i = 0; i < 3; i++) {
+      blocks->force_v[body->mass + 6 * (3 + i) + 3 + j] = first[i] + second[i];
+    }
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_body_type type = {
+  .definition = {.kind = "spatial body",
+                 .size = sizeof(baum_spatial_body_def),
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = PARAMETER_COUNT},
+  .frame = BAUM_I_FRAME_SPATIAL_BODY,
+  .scleronomic = true,
+  .nq = 7,
+  .nv = 6,
+  .manifold = manifold,
+  .depends_on_velocity = depends_on_velocity,
+  .lower = lower,
+  .design = design,
+  .scale = scale,
+  .position_scale = position_scale,
+  .mass = mass,
+  .force = force,
+  .potential = baum_i_gravity_potential,
+  .linearize = linearize,
+};
+
+BAUM_I_DEFINE(body, spatial_body, type)

@@ -1,0 +1,126 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Distance joint in space: a rod without mass keeps two points at length L. With e from body_a's
+ * point to body_b's (spatial_rows.h):
+ *
+ *   Phi = (e . e - L^2) / (2 L)        (1), change of length to first order, smooth at e = 0
+ */
+#include <math.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/spatial/spatial_joint.h"
+
+/* Numbers behind both points. */
+enum { LENGTH = 6, PARAMETER_COUNT };
+
+static const baum_i_spatial_row SQUARE = {BAUM_I_APART, BAUM_I_APART};
+
+static const baum_i_def_field fields[] = {
+  BAUM_I_SPATIAL_FIELDS(baum_spatial_distance_def),
+  BAUM_I_OPTIONAL(baum_spatial_distance_def, length, OPTIONAL_POSITIVE, "m"),
+  {0},
+};
+
+/* ---- definition ---- */
+
+static baum_status check(const baum_mechanism *mechanism, const void *def, const char *label)
+{
+  return baum_i_spatial_check_head(mechanism, def, label, true);
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                         double *parameters)
+{
+  const baum_spatial_distance_def *def = joint->element.def;
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_label(&joint->element, "joint", label);
+  BAUM_I_TRY(baum_i_spatial_points(mechanism, def, label, parameters));
+  parameters[LENGTH] = isnan(def->length)
+                         ? baum_i_spatial_design_length(mechanism, &joint->span, parameters)
+                         : def->length;
+  return parameters[LENGTH] > 0.0
+           ? BAUM_OK
+           : baum_i_fail(
+               BAUM_ERR_ARGUMENT,
+               "%s: length is not given and is 0 m in the design configuration, must be > 0",
+               label);
+}
+
+/* ---- evaluation ---- */
+
+static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
+                         const baum_i_rows *out)
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  const baum_i_spatial_pair pair = baum_i_spatial_pair_at(&joint->span, numbers, false, point);
+  double length = numbers[LENGTH];
+  baum_i_coordinate square;
+  baum_i_spatial_row_at(&pair, SQUARE, &square);
+  if (out->phi) {
+    out->phi[joint->row] = 0.5 * (square.value / length - length);
+  }
+  if (out->gamma) {
+    out->gamma[joint->row] = 0.5 * square.gamma / length;
+  }
+  if (out->jacobian) {
+    for (int i = 0; i < BAUM_I_SPATIAL_PAIR_COLUMNS; i++) {
+      square.gradient[i] *= 0.5 / length;
+    }
+    baum_i_spatial_pack(point->mechanism, &joint->span, 1, square.gradient,
+                        out->jacobian + joint->jacobian);
+  }
+}
+
+static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                            const baum_i_rows *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    evaluate_one(group->joints[i], point, out);
+  }
+  return BAUM_OK;
+}
+
+static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
+                             const double *lambda, const baum_i_joint_blocks *blocks)
+{
+  const double *numbers = point->parameters + joint->element.parameter;
+  const baum_i_spatial_pair pair = baum_i_spatial_pair_at(&joint->span, numbers, false, point);
+  double scale = 0.5 / numbers[LENGTH];
+  baum_i_spatial_second second;
+  baum_i_spatial_second_of(&pair, SQUARE, &second);
+  baum_i_spatial_put_row(joint, point->mechanism, &second, 0, scale, w, blocks);
+  if (blocks->jtl_q) {
+    double factor = lambda ? scale * lambda[joint->row] : 0.0;
+    for (int i = 0; i < BAUM_I_SPATIAL_PAIR_COLUMNS * BAUM_I_SPATIAL_PAIR_COLUMNS; i++) {
+      second.columns_q[i] *= factor;
+    }
+    baum_i_spatial_pack_square(point->mechanism, &joint->span, second.columns_q,
+                               blocks->jtl_q + joint->square);
+  }
+  return BAUM_OK;
+}
+
+static void place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
+{
+  const baum_i_spatial_pair pair = baum_i_spatial_pair_at(
+    &joint->span, point->parameters + joint->element.parameter, false, point);
+  baum_i_spatial_place_of(&pair, at);
+}
+
+static const baum_i_joint_type type = {
+  .definition = {.kind = "spatial distance joint",
+                 .size = sizeof(baum_spatial_distance_def),
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = PARAMETER_COUNT},
+  .width = BAUM_I_SPATIAL_COLUMNS,
+  .scleronomic = true,
+  .row_count = 1,
+  .lower = lower,
+  .extent = baum_i_spatial_extent,
+  .evaluate = evaluate,
+  .linearize = linearize,
+  .place = place,
+};
+
+BAUM_I_DEFINE(joint, spatial_distance, type)

@@ -1,0 +1,60 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* A spatial joint as a table: its rows and what its coordinate is made of. The functions of the
+ * type struct are the same for all.
+ */
+#ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
+#define BAUM_I_MECHANISM_SPATIAL_SPATIAL_JOINT_H
+
+#include "mechanism/definition.h"
+#include "mechanism/spatial/spatial_rows.h"
+
+/* The type of a joint; begins with what all types have. */
+typedef struct baum_i_spatial_joint_type {
+  baum_i_joint_type type;
+  baum_i_spatial_row rows[BAUM_I_SPATIAL_ROWS];
+  /* Of a displacement, the product that it is; of an angle, those that are its sine and cosine. */
+  baum_i_spatial_row coordinate[2];
+  /* Products that are 1 where the joint is mounted as meant, and -1 where its rows are fulfilled
+   * although it is mounted the wrong way round. */
+  int directed_count;
+  baum_i_spatial_row directed[2];
+} baum_i_spatial_joint_type;
+
+/* The fields of joints with axes, which follow those of the head. */
+typedef struct baum_i_spatial_axis_head {
+  baum_i_spatial_head head;
+  double axis[3];
+  double axis_b[3];
+} baum_i_spatial_axis_head;
+
+#define BAUM_I_SPATIAL_AXIS_FIELDS(DEF)                                                 \
+  BAUM_I_SPATIAL_FIELDS(DEF), BAUM_I_NUMBERS(DEF, axis, DIRECTION, "-", 0.0, 0.0, 1.0), \
+    BAUM_I_OPTIONAL(DEF, axis_b, POINT, "-")
+
+/* ---- members of the type struct ---- */
+
+baum_status baum_i_spatial_evaluate(const baum_i_joint_group *group, baum_i_point *point,
+                                    const baum_i_rows *out);
+baum_status baum_i_spatial_linearize(const baum_i_joint *joint, baum_i_point *point,
+                                     const double *w, const double *lambda,
+                                     const baum_i_joint_blocks *blocks);
+void baum_i_spatial_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
+bool baum_i_spatial_is_reversed(const baum_i_joint *joint, const baum_i_point *point);
+void baum_i_spatial_coordinate(const baum_i_joint *joint, const baum_i_point *point,
+                               baum_i_coordinate *out);
+void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i_point *point,
+                                         const double *w, double lambda,
+                                         baum_i_coordinate_blocks *out);
+
+#define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS)                                  \
+  .definition = {.kind = (TITLE),                                                              \
+                 .size = sizeof(baum_##NAME##_def),                                            \
+                 .fields = NAME##_fields,                                                      \
+                 .check = (CHECK),                                                             \
+                 .parameter_count = BAUM_I_SPATIAL_NUMBERS},                                   \
+  .width = BAUM_I_SPATIAL_COLUMNS, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \
+  .extent = baum_i_spatial_extent, .evaluate = baum_i_spatial_evaluate,                        \
+  .linearize = baum_i_spatial_linearize, .place = baum_i_spatial_place,                        \
+  .is_reversed = baum_i_spatial_is_reversed
+
+#endif

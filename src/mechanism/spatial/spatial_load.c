@@ -1,0 +1,203 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Load on one body in space: force f at the point s, and moment n, both times the input if there is
+ * one. Over r (ground axes) and rotations (body axes), with F = A^T f in body axes:
+ *
+ *   ground axes    g = (f, s x A^T f + A^T n)     rows of rotation: [s]x [F]x + [A^T n]x
+ *                  V = -f . (r + A s) where n = 0
+ *   follows_body   g = (A f, s x f + n)           rows of r: -A [f]x
+ *
+ * A constant moment has no potential in space. Nor has a load with an input: its changes would make
+ * the potential jump where no work is done.
+ */
+#include <string.h>
+
+#include "base/message.h"
+#include "mechanism/definition.h"
+#include "mechanism/spatial/spatial.h"
+
+/* Parameters. */
+enum { POINT = 0, FORCE = 3, MOMENT = 6, PARAMETER_COUNT = 9 };
+
+static const baum_i_def_field fields[] = {
+  BAUM_I_FIELD(baum_spatial_load_def, body, BODY),
+  BAUM_I_NUMBERS(baum_spatial_load_def, point, FINITE, "m", 0.0),
+  BAUM_I_NUMBERS(baum_spatial_load_def, force, FINITE, "N", 0.0),
+  BAUM_I_NUMBERS(baum_spatial_load_def, moment, FINITE, "N m", 0.0),
+  BAUM_I_FIELD(baum_spatial_load_def, follows_body, FLAG),
+  BAUM_I_FIELD(baum_spatial_load_def, input, INPUT),
+  {0},
+};
+
+/* ---- definition ---- */
+
+static bool is_zero(const double x[3])
+{
+  return x[0] == 0.0 && x[1] == 0.0 && x[2] == 0.0;
+}
+
+static baum_status check(const baum_mechanism *mechanism, const void *given, const char *label)
+{
+  const baum_spatial_load_def *def = given;
+  BAUM_I_TRY(baum_i_spatial_check_body(mechanism, def->body, label, "body"));
+  int index = baum_i_body_index(mechanism, def->body);
+  if (index == 0) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body is ground, which does not move", label);
+  }
+  bool needs_axes = !is_zero(def->point) || !is_zero(def->moment) || def->follows_body;
+  return needs_axes ? baum_i_spatial_check_turning(mechanism, def->body, label, "body") : BAUM_OK;
+}
+
+static bool has_input(const baum_spatial_load_def *def)
+{
+  return def->input.index1 != 0 || def->input.tag != 0;
+}
+
+static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *force,
+                         double *parameters)
+{
+  (void)mechanism;
+  const baum_spatial_load_def *def = force->element.def;
+  memcpy(parameters + POINT, def->point, sizeof def->point);
+  memcpy(parameters + FORCE, def->force, sizeof def->force);
+  memcpy(parameters + MOMENT, def->moment, sizeof def->moment);
+  return BAUM_OK;
+}
+
+/* ---- one load ---- */
+
+typedef struct load {
+  const baum_i_spatial_frame *frame;
+  const double *point;
+  double force[2][3];  /* ground axes, body axes */
+  double moment[2][3]; /* likewise */
+  bool follows_body;
+  bool has_potential;
+} load;
+
+static void set_both(const baum_i_spatial_frame *frame, const double *given, double scale,
+                     bool follows_body, double out[2][3])
+{
+  int own = follows_body ? 1 : 0;
+  for (int i = 0; i < 3; i++) {
+    out[own][i] = scale * given[i];
+  }
+  if (follows_body) {
+    baum_i_turn(frame->axes, out[1], out[0]);
+  } else {
+    baum_i_turn_back(frame->axes, out[0], out[1]);
+  }
+}
+
+static load load_at(const baum_i_force *element, const baum_i_point *point)
+{
+  const baum_spatial_load_def *def = element->element.def;
+  const double *numbers = point->parameters + element->element.parameter;
+  double scale = has_input(def) ? point->inputs[def->input.index1 - 1] : 1.0;
+  load l = {
+    .frame = &point->spatial[element->span.bodies[0]],
+    .point = numbers + POINT,
+    .follows_body = def->follows_body,
+    .has_potential = !def->follows_body && is_zero(numbers + MOMENT) && !has_input(def),
+  };
+  set_both(l.frame, numbers + FORCE, scale, def->follows_body, l.force);
+  set_both(l.frame, numbers + MOMENT, scale, def->follows_body, l.moment);
+  return l;
+}
+
+/* ---- type ---- */
+
+static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const load l = load_at(group->forces[i], point);
+    double wide[BAUM_I_SPATIAL_COLUMNS];
+    memcpy(wide, l.force[0], sizeof l.force[0]);
+    baum_i_cross(l.point, l.force[1], wide + 3);
+    for (int k = 0; k < 3; k++) {
+      wide[3 + k] += l.moment[1][k];
+    }
+    baum_i_spatial_scatter(point->mechanism, &group->forces[i]->span, wide, out);
+  }
+  return BAUM_OK;
+}
+
+static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+{
+  for (int i = 0; i < group->count; i++) {
+    const load l = load_at(group->forces[i], point);
+    if (l.has_potential) {
+      *sum -= baum_i_dot3(l.force[0], l.frame->r) + baum_i_dot3(l.force[1], l.point);
+    }
+  }
+  return BAUM_OK;
+}
+
+static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+                         double sum[BAUM_I_POWERS])
+{
+  for (int i = 0; i < group->count; i++) {
+    const load l = load_at(group->forces[i], point);
+    if (!l.has_potential) {
+      double moment[3];
+      double w[3];
+      baum_i_turn_back(l.frame->axes, l.frame->w, w);
+      baum_i_cross(l.point, l.force[1], moment);
+      sum[BAUM_I_POWER_LOADS] += baum_i_dot3(l.force[0], l.frame->v) + baum_i_dot3(moment, w) +
+                                 baum_i_dot3(l.moment[1], w);
+    }
+  }
+  return BAUM_OK;
+}
+
+/* Column of the rotation about axis j: what the entries of g change at. */
+static void set_column(const load *l, int j, double square[36])
+{
+  const double axis[3] = {j == 0, j == 1, j == 2};
+  double turned[3];
+  double rows[6] = {0.0};
+  if (l->follows_body) {
+    baum_i_cross(axis, l->force[1], turned);
+    baum_i_turn(l->frame->axes, turned, rows);
+  } else {
+    double moment[3];
+    baum_i_cross(l->force[1], axis, turned);
+    baum_i_cross(l->point, turned, rows + 3);
+    baum_i_cross(l->moment[1], axis, moment);
+    for (int i = 0; i < 3; i++) {
+      rows[3 + i] += moment[i];
+    }
+  }
+  for (int i = 0; i < 6; i++) {
+    square[6 * i + 3 + j] = rows[i];
+  }
+}
+
+static baum_status linearize(const baum_i_force *element, baum_i_point *point,
+                             const baum_i_force_blocks *blocks)
+{
+  if (blocks->force_q) {
+    const load l = load_at(element, point);
+    double square[36] = {0.0};
+    for (int j = 0; j < 3; j++) {
+      set_column(&l, j, square);
+    }
+    baum_i_spatial_pack_square(point->mechanism, &element->span, square,
+                               blocks->force_q + element->square);
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_force_type type = {
+  .definition = {.kind = "spatial load",
+                 .size = sizeof(baum_spatial_load_def),
+                 .fields = fields,
+                 .check = check,
+                 .parameter_count = PARAMETER_COUNT},
+  .lower = lower,
+  .force = force,
+  .potential = potential,
+  .linearize = linearize,
+  .power = power,
+};
+
+BAUM_I_DEFINE(force, spatial_load, type)

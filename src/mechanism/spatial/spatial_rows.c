@@ -1,0 +1,253 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Products of vectors on two bodies, and their derivatives; see spatial_rows.h. */
+#include "mechanism/spatial/spatial_rows.h"
+
+#include <string.h>
+
+enum { COLUMNS = BAUM_I_SPATIAL_PAIR_COLUMNS };
+
+/* ---- vectors ---- */
+
+typedef struct vector {
+  double value[3];
+  double on[2][3]; /* what turns with body_a and body_b */
+  double apart;    /* t */
+} vector;
+
+static vector vector_of(const baum_i_spatial_pair *pair, baum_i_spatial_vector which)
+{
+  vector u = {.apart = which == BAUM_I_APART ? 1.0 : 0.0};
+  if (which == BAUM_I_APART) {
+    for (int i = 0; i < 3; i++) {
+      u.on[0][i] = -pair->arm[0][i];
+      u.on[1][i] = pair->arm[1][i];
+      u.value[i] = pair->frame[1]->r[i] + u.on[1][i] - (pair->frame[0]->r[i] - u.on[0][i]);
+    }
+  } else if (which >= BAUM_I_X_GROUND) {
+    u.value[which - BAUM_I_X_GROUND] = 1.0;
+  } else {
+    int body = which >= BAUM_I_X_B ? 1 : 0;
+    const double *axis = pair->axes[body] + 3 * ((int)which % 3);
+    memcpy(u.on[body], axis, sizeof u.value);
+    memcpy(u.value, axis, sizeof u.value);
+  }
+  return u;
+}
+
+/* A motion of both bodies in ground axes. */
+typedef struct motion {
+  double v[2][3];
+  double w[2][3];
+} motion;
+
+/* u' along a motion. */
+static vector along(const vector *u, const motion *m)
+{
+  vector out = {.apart = 0.0};
+  baum_i_cross(m->w[0], u->on[0], out.on[0]);
+  baum_i_cross(m->w[1], u->on[1], out.on[1]);
+  for (int i = 0; i < 3; i++) {
+    out.value[i] = u->apart * (m->v[1][i] - m->v[0][i]) + out.on[0][i] + out.on[1][i];
+  }
+  return out;
+}
+
+static motion motion_of(const baum_i_spatial_pair *pair)
+{
+  motion m;
+  for (int k = 0; k < 2; k++) {
+    memcpy(m.v[k], pair->frame[k]->v, sizeof m.v[k]);
+    memcpy(m.w[k], pair->frame[k]->w, sizeof m.w[k]);
+  }
+  return m;
+}
+
+static motion unit_motion(const baum_i_spatial_pair *pair, int column)
+{
+  motion m = {.v = {{0.0}}};
+  int k = column / BAUM_I_SPATIAL_COLUMNS;
+  int i = column % 3;
+  if (column % BAUM_I_SPATIAL_COLUMNS < 3) {
+    m.v[k][i] = 1.0;
+  } else {
+    const double axis[3] = {i == 0, i == 1, i == 2};
+    baum_i_turn(pair->frame[k]->axes, axis, m.w[k]);
+  }
+  return m;
+}
+
+/* out += factor (x . y)_q */
+static void add_gradient(const baum_i_spatial_pair *pair, double factor, const vector *x,
+                         const vector *y, double out[COLUMNS])
+{
+  for (int k = 0; k < 2; k++) {
+    double *own = out + (ptrdiff_t)BAUM_I_SPATIAL_COLUMNS * k;
+    double moments[2][3];
+    double turned[3];
+    baum_i_cross(x->on[k], y->value, moments[0]);
+    baum_i_cross(y->on[k], x->value, moments[1]);
+    for (int i = 0; i < 3; i++) {
+      moments[0][i] += moments[1][i];
+    }
+    baum_i_turn_back(pair->frame[k]->axes, moments[0], turned);
+    double sign = k == 0 ? -factor : factor;
+    for (int i = 0; i < 3; i++) {
+      own[i] += sign * (x->apart * y->value[i] + y->apart * x->value[i]);
+      own[3 + i] += factor * turned[i];
+    }
+  }
+}
+
+/* ---- rows ---- */
+
+baum_i_spatial_pair baum_i_spatial_pair_at(const baum_i_span *span, const double *numbers,
+                                           bool has_axes, const baum_i_point *point)
+{
+  baum_i_spatial_pair pair;
+  for (int k = 0; k < 2; k++) {
+    const baum_i_spatial_frame *frame = &point->spatial[span->bodies[k]];
+    pair.frame[k] = frame;
+    baum_i_turn(frame->axes, numbers + BAUM_I_SPATIAL_POINTS + (ptrdiff_t)3 * k, pair.arm[k]);
+    for (int i = 0; has_axes && i < 9; i += 3) {
+      baum_i_turn(frame->axes, numbers + BAUM_I_SPATIAL_AXES_A + (ptrdiff_t)9 * k + i,
+                  pair.axes[k] + i);
+    }
+  }
+  return pair;
+}
+
+double baum_i_spatial_product(const baum_i_spatial_pair *pair, baum_i_spatial_row row)
+{
+  const vector x = vector_of(pair, row.x);
+  const vector y = vector_of(pair, row.y);
+  return baum_i_dot3(x.value, y.value);
+}
+
+/* x, y and their first and second derivatives along a motion. */
+typedef struct product {
+  vector x[3];
+  vector y[3];
+} product;
+
+static product product_along(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                             const motion *m)
+{
+  product p = {.x = {vector_of(pair, row.x)}, .y = {vector_of(pair, row.y)}};
+  for (int i = 0; i < 2; i++) {
+    p.x[i + 1] = along(&p.x[i], m);
+    p.y[i + 1] = along(&p.y[i], m);
+  }
+  return p;
+}
+
+void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                           baum_i_coordinate *out)
+{
+  const motion m = motion_of(pair);
+  const product p = product_along(pair, row, &m);
+  *out = (baum_i_coordinate){.value = baum_i_dot3(p.x[0].value, p.y[0].value),
+                             .rate = baum_i_dot3(p.x[1].value, p.y[0].value) +
+                                     baum_i_dot3(p.x[0].value, p.y[1].value),
+                             .gamma = -baum_i_dot3(p.x[2].value, p.y[0].value) -
+                                      2.0 * baum_i_dot3(p.x[1].value, p.y[1].value) -
+                                      baum_i_dot3(p.x[0].value, p.y[2].value)};
+  add_gradient(pair, 1.0, &p.x[0], &p.y[0], out->gradient);
+}
+
+/* (J w)_q along a motion w. */
+static void add_first(const baum_i_spatial_pair *pair, const vector *x, const vector *y,
+                      const motion *w, double out[COLUMNS])
+{
+  const vector x_w = along(x, w);
+  const vector y_w = along(y, w);
+  add_gradient(pair, 1.0, &x_w, y, out);
+  add_gradient(pair, 1.0, x, &y_w, out);
+}
+
+void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
+                              baum_i_spatial_second *out)
+{
+  *out = (baum_i_spatial_second){.rate_q = {0.0}};
+  const motion m = motion_of(pair);
+  const product p = product_along(pair, row, &m);
+  add_gradient(pair, -1.0, &p.x[2], &p.y[0], out->gamma_q);
+  add_gradient(pair, -2.0, &p.x[1], &p.y[1], out->gamma_q);
+  add_gradient(pair, -1.0, &p.x[0], &p.y[2], out->gamma_q);
+  add_first(pair, &p.x[0], &p.y[0], &m, out->rate_q);
+  double v[COLUMNS];
+  for (int k = 0; k < 2; k++) {
+    double *own = v + (ptrdiff_t)BAUM_I_SPATIAL_COLUMNS * k;
+    memcpy(own, m.v[k], sizeof m.v[k]);
+    baum_i_turn_back(pair->frame[k]->axes, m.w[k], own + 3);
+  }
+  for (int i = 0; i < COLUMNS; i++) {
+    double *column = out->columns_q + (ptrdiff_t)COLUMNS * i;
+    const motion unit = unit_motion(pair, i);
+    add_first(pair, &p.x[0], &p.y[0], &unit, column);
+    out->gamma_v[i] = -out->rate_q[i];
+    for (int j = 0; j < COLUMNS; j++) {
+      out->gamma_v[i] -= column[j] * v[j];
+    }
+  }
+}
+
+void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *w, double factor,
+                             double *out)
+{
+  for (int i = 0; i < COLUMNS; i++) {
+    for (int j = 0; j < COLUMNS; j++) {
+      out[j] += factor * w[i] * second->columns_q[COLUMNS * i + j];
+    }
+  }
+}
+
+static void put(const baum_i_joint *joint, const baum_mechanism *mechanism, double factor, int row,
+                const double *wide, double *blocks)
+{
+  double scaled[COLUMNS];
+  for (int i = 0; i < COLUMNS; i++) {
+    scaled[i] = factor * wide[i];
+  }
+  baum_i_spatial_pack(mechanism, &joint->span, 1, scaled,
+                      blocks + joint->jacobian + (ptrdiff_t)row * joint->span.nl);
+}
+
+void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_mechanism *mechanism,
+                            const baum_i_spatial_second *second, int row, double factor,
+                            const double *w, const baum_i_joint_blocks *blocks)
+{
+  if (blocks->jw_q) {
+    double w_wide[COLUMNS];
+    double wide[COLUMNS] = {0.0};
+    baum_i_spatial_gather(mechanism, &joint->span, w, w_wide);
+    baum_i_spatial_add_jw_q(second, w_wide, 1.0, wide);
+    put(joint, mechanism, factor, row, wide, blocks->jw_q);
+  }
+  if (blocks->gamma_q) {
+    put(joint, mechanism, factor, row, second->gamma_q, blocks->gamma_q);
+  }
+  if (blocks->gamma_v) {
+    put(joint, mechanism, factor, row, second->gamma_v, blocks->gamma_v);
+  }
+}
+
+void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3])
+{
+  for (int i = 0; i < 3; i++) {
+    at[i] = pair->frame[1]->r[i] + pair->arm[1][i];
+  }
+}
+
+double baum_i_spatial_design_length(const baum_mechanism *mechanism, const baum_i_span *span,
+                                    const double points[6])
+{
+  baum_i_spatial_frame frames[2];
+  baum_i_spatial_pair pair;
+  for (int k = 0; k < 2; k++) {
+    frames[k] = baum_i_spatial_design_frame(mechanism, span->bodies[k]);
+    pair.frame[k] = &frames[k];
+    baum_i_turn(frames[k].axes, points + (ptrdiff_t)3 * k, pair.arm[k]);
+  }
+  const vector e = vector_of(&pair, BAUM_I_APART);
+  return sqrt(baum_i_dot3(e.value, e.value));
+}
