@@ -7,9 +7,9 @@ static double mass_of(const baum_i_body *body, const baum_i_point *point)
   return point->parameters[body->element.parameter + BAUM_I_GRAVITY_MASS];
 }
 
-static int dimensions(const baum_i_body_group *group)
+static int dimensions(const baum_i_body *body)
 {
-  return baum_i_is_spatial(group->type->frame) ? 3 : 2;
+  return baum_i_is_spatial(body->type->frame) ? 3 : 2;
 }
 
 baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *point, double *force)
@@ -18,25 +18,21 @@ baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *p
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
     double mass = mass_of(body, point);
-    for (int k = 0; k < dimensions(group); k++) {
+    for (int k = 0; k < dimensions(body); k++) {
       force[body->v + k] += mass * gravity[k];
     }
   }
   return BAUM_OK;
 }
 
-baum_status baum_i_gravity_potential(const baum_i_body_group *group, baum_i_point *point,
-                                     double *sum)
+baum_status baum_i_gravity_potential(const baum_i_body *body, baum_i_point *point, double *sum)
 {
   const double *gravity = point->mechanism->gravity;
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_body *body = group->bodies[i];
-    const double *r = point->q + body->q;
-    double height = gravity[0] * r[0] + gravity[1] * r[1];
-    if (dimensions(group) == 3) {
-      height += gravity[2] * r[2];
-    }
-    *sum -= mass_of(body, point) * height;
+  const double *r = point->q + body->q;
+  double height = gravity[0] * r[0] + gravity[1] * r[1];
+  if (dimensions(body) == 3) {
+    height += gravity[2] * r[2];
   }
+  *sum -= mass_of(body, point) * height;
   return BAUM_OK;
 }

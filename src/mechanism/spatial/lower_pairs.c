@@ -75,7 +75,7 @@ static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_jo
 {
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_spatial_points(mechanism, joint->element.def,
-                               baum_i_label(&joint->element, "joint", label), parameters);
+                               baum_i_label(&joint->element, label), parameters);
 }
 
 /* An axis in ground axes where the joint is given by `point`, else in those of its body, becomes
@@ -134,7 +134,7 @@ static baum_status fail_opposite(const baum_i_joint *joint)
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: axis and axis_b point in opposite directions in the design "
                      "configuration; turn one of them round",
-                     baum_i_label(&joint->element, "joint", label));
+                     baum_i_label(&joint->element, label));
 }
 
 /* x_b is x_a, turned as z_a turns to z_b by the shortest way: the angle is 0 in the design

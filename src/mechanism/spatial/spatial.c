@@ -31,7 +31,7 @@ static baum_status fail_body(const baum_i_body *body, const char *label, const c
 {
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no %s", label, field,
-                     baum_i_label(&body->element, "body", text), what);
+                     baum_i_label(&body->element, text), what);
 }
 
 baum_status baum_i_spatial_check_body(const baum_mechanism *mechanism, baum_body_id id,
@@ -62,7 +62,7 @@ static baum_status check_bodies(const baum_mechanism *mechanism, const baum_i_sp
   char text[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = body_of(mechanism, head->body_a);
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
-                     body->type ? baum_i_label(&body->element, "body", text) : "ground");
+                     body->type ? baum_i_label(&body->element, text) : "ground");
 }
 
 /* ---- points ---- */
@@ -103,7 +103,7 @@ static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: %s is (%g, %g, %g) m, must be (0, 0, 0) on the particle %s", label, field,
-                     s[0], s[1], s[2], baum_i_label(&body->element, "body", text));
+                     s[0], s[1], s[2], baum_i_label(&body->element, text));
 }
 
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
@@ -141,7 +141,7 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
                      "%s: point is (%g, %g, %g) m, must be at the particle %s, whose design "
                      "position is (%g, %g, %g) m",
                      label, point[0], point[1], point[2],
-                     baum_i_label(&body->element, "body", text), frame.r[0], frame.r[1],
+                     baum_i_label(&body->element, text), frame.r[0], frame.r[1],
                      frame.r[2]);
 }
 

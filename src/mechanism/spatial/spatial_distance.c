@@ -33,7 +33,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 {
   const baum_spatial_distance_def *def = joint->element.def;
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_label(&joint->element, "joint", label);
+  (void)baum_i_label(&joint->element, label);
   BAUM_I_TRY(baum_i_spatial_points(mechanism, def, label, parameters));
   parameters[LENGTH] = isnan(def->length)
                          ? baum_i_spatial_design_length(mechanism, &joint->span, parameters)

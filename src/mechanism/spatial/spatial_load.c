@@ -121,31 +121,28 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    const load l = load_at(group->forces[i], point);
-    if (l.has_potential) {
-      *sum -= baum_i_dot3(l.force[0], l.frame->r) + baum_i_dot3(l.force[1], l.point);
-    }
+  const load l = load_at(element, point);
+  if (l.has_potential) {
+    *sum -= baum_i_dot3(l.force[0], l.frame->r) + baum_i_dot3(l.force[1], l.point);
   }
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    const load l = load_at(group->forces[i], point);
-    if (!l.has_potential) {
-      double moment[3];
-      double w[3];
-      baum_i_turn_back(l.frame->axes, l.frame->w, w);
-      baum_i_cross(l.point, l.force[1], moment);
-      sum[BAUM_I_POWER_LOADS] += baum_i_dot3(l.force[0], l.frame->v) + baum_i_dot3(moment, w) +
-                                 baum_i_dot3(l.moment[1], w);
-    }
+  const load l = load_at(element, point);
+  double moment[3];
+  double w[3];
+  if (l.has_potential) {
+    return BAUM_OK;
   }
+  baum_i_turn_back(l.frame->axes, l.frame->w, w);
+  baum_i_cross(l.point, l.force[1], moment);
+  sum[BAUM_I_POWER_LOADS] += baum_i_dot3(l.force[0], l.frame->v) + baum_i_dot3(moment, w) +
+                             baum_i_dot3(l.moment[1], w);
   return BAUM_OK;
 }
 

@@ -52,7 +52,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
 {
   const baum_spatial_spring_def *def = force->element.def;
   char label[BAUM_I_LABEL_SIZE];
-  BAUM_I_TRY(baum_i_spatial_points(mechanism, def, baum_i_label(&force->element, "force", label),
+  BAUM_I_TRY(baum_i_spatial_points(mechanism, def, baum_i_label(&force->element, label),
                                    parameters));
   double *numbers = parameters + LAW;
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
@@ -116,25 +116,18 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    const spring s = spring_at(group->forces[i], point);
-    *sum += baum_i_spring_potential(&s.law, s.length);
-  }
+  const spring s = spring_at(element, point);
+  *sum += baum_i_spring_potential(&s.law, s.length);
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    const spring s = spring_at(group->forces[i], point);
-    if (s.length > 0.0) {
-      BAUM_I_TRY(baum_i_spring_power(&s.law, point, s.length, s.rate, sum));
-    }
-  }
-  return BAUM_OK;
+  const spring s = spring_at(element, point);
+  return s.length > 0.0 ? baum_i_spring_power(&s.law, point, s.length, s.rate, sum) : BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
