@@ -141,23 +141,23 @@ static baum_status number(baum_mechanism *mechanism, const baum_i_family *family
 
 /* ---- length scale ---- */
 
-void baum_i_box_include(baum_i_box *box, double x, double y)
+void baum_i_box_include(baum_i_box *box, double x, double y, double z)
 {
-  box->low[0] = fmin(box->low[0], x);
-  box->low[1] = fmin(box->low[1], y);
-  box->high[0] = fmax(box->high[0], x);
-  box->high[1] = fmax(box->high[1], y);
+  const double at[3] = {x, y, z};
+  for (int i = 0; i < 3; i++) {
+    box->low[i] = fmin(box->low[i], at[i]);
+    box->high[i] = fmax(box->high[i], at[i]);
+  }
 }
 
-/* Size of the design configuration: the diagonal of the box around all bodies, and points of planar
+/* Size of the design configuration: the diagonal of the box around all bodies, and points of
  * joints. 1 when it has none, as with user coordinates only. */
 static double design_size(const baum_mechanism *mechanism)
 {
-  baum_i_box b = {{INFINITY, INFINITY}, {-INFINITY, -INFINITY}};
+  baum_i_box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
   for (int i = 1; i <= mechanism->body_count; i++) {
     if (mechanism->bodies[i]->type->frame != BAUM_I_FRAME_NONE) {
-      baum_i_frame f = baum_i_design_frame(mechanism, i);
-      baum_i_box_include(&b, f.x, f.y);
+      baum_i_include_body(mechanism, i, &b);
     }
   }
   for (int i = 0; i < mechanism->joint_count; i++) {
@@ -166,11 +166,11 @@ static double design_size(const baum_mechanism *mechanism)
       joint->type->extent(mechanism, joint, &b);
     }
   }
-  double diagonal = hypot(b.high[0] - b.low[0], b.high[1] - b.low[1]);
+  double diagonal = hypot(hypot(b.high[0] - b.low[0], b.high[1] - b.low[1]), b.high[2] - b.low[2]);
   if (isfinite(diagonal) && diagonal > 0.0) {
     return diagonal;
   }
-  double offset = hypot(b.low[0], b.low[1]); /* one particle: its distance from the origin */
+  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* one particle: its distance from the origin */
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 
@@ -194,6 +194,18 @@ static baum_status make_arrays(baum_mechanism *mechanism)
   return complete ? BAUM_OK : baum_i_fail_memory();
 }
 
+static bool has_spatial_elements(const baum_mechanism *m)
+{
+  bool found = false;
+  for (int i = 0; i < m->joint_count; i++) {
+    found = found || m->joints[i]->type->width == BAUM_I_SPACE;
+  }
+  for (int i = 0; i < m->force_count; i++) {
+    found = found || m->forces[i]->type->spatial;
+  }
+  return found;
+}
+
 static void draw_bodies(baum_mechanism *mechanism)
 {
   mechanism->length =
@@ -201,6 +213,7 @@ static void draw_bodies(baum_mechanism *mechanism)
   mechanism->all_planar = true;
   mechanism->constant_mass = true;
   mechanism->flat = true;
+  mechanism->spatial = has_spatial_elements(mechanism);
   for (int i = 1; i <= mechanism->body_count; i++) {
     const baum_i_body *body = mechanism->bodies[i];
     bool held = false;
@@ -208,6 +221,7 @@ static void draw_bodies(baum_mechanism *mechanism)
       body->type->lower(body, mechanism->parameters + body->element.parameter);
     }
     mechanism->flat &= !body->manifold;
+    mechanism->spatial |= baum_i_is_spatial(body->type->frame);
     mechanism->places[i] =
       (baum_i_body_place){.q = body->q, .v = body->v, .kind = body->type->frame};
     mechanism->all_planar = mechanism->all_planar && body->type->frame == BAUM_I_FRAME_BODY;

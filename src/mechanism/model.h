@@ -47,11 +47,18 @@ typedef struct baum_i_span {
 
 /* Where a body's frame comes from. */
 typedef enum baum_i_frame_kind {
-  BAUM_I_FRAME_NONE,     /* user coordinates: no place in the plane */
+  BAUM_I_FRAME_NONE,     /* user coordinates: no place */
   BAUM_I_FRAME_PARTICLE, /* x, y */
   BAUM_I_FRAME_BODY,     /* x, y, angle */
-  BAUM_I_FRAME_GROUND
+  BAUM_I_FRAME_GROUND,
+  BAUM_I_FRAME_SPATIAL_PARTICLE, /* x, y, z */
+  BAUM_I_FRAME_SPATIAL_BODY      /* x, y, z, quaternion */
 } baum_i_frame_kind;
+
+static inline bool baum_i_is_spatial(baum_i_frame_kind kind)
+{
+  return kind >= BAUM_I_FRAME_SPATIAL_PARTICLE;
+}
 
 typedef struct baum_i_body_type baum_i_body_type;
 typedef struct baum_i_manifold baum_i_manifold;
@@ -119,6 +126,14 @@ typedef struct baum_i_frame {
   double angle;  /* continuous */
 } baum_i_frame;
 
+/* Likewise in space, for spatial elements. */
+typedef struct baum_i_spatial_frame {
+  double r[3];    /* origin */
+  double v[3];    /* velocities in ground axes; zero at position level */
+  double w[3];    /* angular velocity in ground axes */
+  double axes[9]; /* A by rows: turns body axes into ground axes */
+} baum_i_spatial_frame;
+
 /* Where a body's frame comes from. */
 typedef struct baum_i_body_place {
   int32_t q;    /* first position */
@@ -143,6 +158,7 @@ typedef struct baum_i_point {
   double *normalized;   /* (nq); NULL where the mechanism is flat */
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
+  baum_i_spatial_frame *spatial; /* likewise; NULL where nothing is spatial */
   const double *inputs; /* (input_count) present values; NULL while there are none */
   double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
   bool retry;           /* set when the last failure may vanish with a smaller step */
@@ -156,6 +172,9 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
  * BAUM_ERR_MEMORY; then, too, what there is has to be released. */
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
+
+/* Set the spatial frames; spatial/spatial_frames.c. */
+void baum_i_point_set_spatial(baum_i_point *point);
 
 /* The two of baum_i_point_set(): where the mechanism is flat, or else. */
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v);
@@ -176,11 +195,11 @@ static inline void baum_i_point_set(baum_i_point *point, double t, const double 
 
 /* The smallest box around points in ground axes. */
 typedef struct baum_i_box {
-  double low[2];
-  double high[2];
+  double low[3];
+  double high[3];
 } baum_i_box;
 
-void baum_i_box_include(baum_i_box *box, double x, double y);
+void baum_i_box_include(baum_i_box *box, double x, double y, double z);
 
 /* What is wanted of all constraint rows; NULL members are not. Rows of nu whose joint is
  * scleronomic are left as they are: they hold zeros. */
@@ -274,29 +293,35 @@ struct baum_i_body_type {
   baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
 
-/* A joint's coordinate for drivers and channels:
- * over its six columns x_a y_a angle_a x_b y_b angle_b. */
+/* Columns of a body in the kernels of elements of the plane and of space. */
+enum { BAUM_I_PLANE = 3, BAUM_I_SPACE = 6, BAUM_I_PAIR_COLUMNS = 2 * BAUM_I_SPACE };
+
+/* A joint's coordinate for drivers and channels, over the columns of both bodies, as many as its
+ * type is wide: in the plane x_a y_a angle_a x_b y_b angle_b. */
 typedef struct baum_i_coordinate {
   double value;
   double rate;
-  double gradient[6];
+  double gradient[BAUM_I_PAIR_COLUMNS];
   double gamma; /* so that gradient a = (coordinate)'' + gamma */
 } baum_i_coordinate;
 
 /* Second derivatives of a coordinate: for w and a multiplier l, as in baum_i_joint_blocks. */
 typedef struct baum_i_coordinate_blocks {
-  double jw_q[6];
-  double jtl_q[36];
-  double gamma_q[6];
-  double gamma_v[6];
+  double jw_q[BAUM_I_PAIR_COLUMNS];
+  double jtl_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
+  double gamma_q[BAUM_I_PAIR_COLUMNS];
+  double gamma_v[BAUM_I_PAIR_COLUMNS];
+  double rate_q[BAUM_I_PAIR_COLUMNS]; /* (gradient v)_q; in the plane -gamma_v / 2, not set */
 } baum_i_coordinate_blocks;
 
 struct baum_i_joint_type {
   baum_i_definition definition;
-  bool planar;      /* two planar bodies: reaction is force and moment */
+  int width;        /* BAUM_I_PLANE or BAUM_I_SPACE: its reaction is force and moment; 0: neither */
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
-  bool drives;      /* one row: the coordinate of another joint minus a function of time */
+  /* One row: the coordinate of that joint minus a function of time; NULL: no driver. Its width is
+   * that of the joint. */
+  const baum_i_joint *(*driven)(const baum_mechanism *mechanism, const void *def);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
@@ -315,8 +340,10 @@ struct baum_i_joint_type {
   /* Where one body is, by the pose of the other (body_a's if from_a; NULL: ground); NULL: no
    * weld. */
   void (*weld)(const double *parameters, bool from_a, const double *known, double *q);
-  /* The joint's point on body_b in ground axes, for reactions and drawing; planar types only. */
-  void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+  /* The joint's point on body_b in ground axes, for reactions and drawing; NULL without width. */
+  void (*place)(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
+  /* Its rows are fulfilled, but it is mounted the wrong way round; NULL: it cannot be. */
+  bool (*is_reversed)(const baum_i_joint *joint, const baum_i_point *point);
   /* Include its points in the design configuration; NULL: it has none. */
   void (*extent)(const baum_mechanism *mechanism, const baum_i_joint *joint, baum_i_box *box);
   /* Only joints with a coordinate, else NULL. */
@@ -326,7 +353,7 @@ struct baum_i_joint_type {
                                   const char *label);
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
-                               const double w[6], double lambda, baum_i_coordinate_blocks *out);
+                               const double *w, double lambda, baum_i_coordinate_blocks *out);
   baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
   /* Relative error of derivatives by differences; NULL: none are taken. */
   double (*noise)(const void *def);
@@ -334,6 +361,7 @@ struct baum_i_joint_type {
 
 struct baum_i_force_type {
   baum_i_definition definition;
+  bool spatial; /* reads spatial frames */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_force *force,
                        double *parameters);
   /* Adds to (nv). */
@@ -385,6 +413,7 @@ struct baum_mechanism {
   double length;             /* scale L */
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
+  bool spatial;              /* has a spatial body, joint or force */
   double *parameters;
   double *design_q;               /* (nq) */
   double *design_v;               /* (nv) NaN where free */

@@ -109,7 +109,7 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
     return baum_i_reaction_width(m, joint);
   }
   if (c->quantity == BAUM_DRIVE_EFFORT) {
-    return m->joints[joint]->type->drives ? 1 : fail_channel(k, "only drivers have an effort");
+    return m->joints[joint]->type->driven ? 1 : fail_channel(k, "only drivers have an effort");
   }
   if (!m->joints[joint]->type->coordinate) {
     (void)baum_i_fail(BAUM_ERR_ARGUMENT, "channel %d: joint is a %s, which has no coordinate", k,

@@ -411,7 +411,7 @@ static baum_status check_laws(const reader *r, const baum_mechanism *m)
   }
   for (int k = 0; k < m->joint_count && count > 0; k++) {
     int at = m->joints[k]->element.parameter + BAUM_I_DRIVER_POLYNOMIAL;
-    if (m->joints[k]->type->drives && m->parameters[at] != 0.0 && number_at(numbers, at) == 0.0) {
+    if (m->joints[k]->type->driven && m->parameters[at] != 0.0 && number_at(numbers, at) == 0.0) {
       return refuse("is damaged: it has no law for joint %d", k + 1);
     }
   }

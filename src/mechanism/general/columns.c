@@ -1,50 +1,57 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "mechanism/general/columns.h"
 
-void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
-                           double *six)
+/* The column of a body's velocity i among its own: a planar body rotates about z. */
+static int column(const baum_i_body *body, int width, int i)
 {
-  for (int k = 0; k < span->body_count; k++) {
+  return width == BAUM_I_SPACE && i == 2 && body->type->frame == BAUM_I_FRAME_BODY ? 5 : i;
+}
+
+void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
+                           const double *x, double *wide)
+{
+  memset(wide, 0, (size_t)(span->body_count * width) * sizeof *wide);
+  for (int k = 0; x && k < span->body_count; k++, wide += width) {
     const baum_i_body *body = point->mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < 3; i++) {
-      six[3 * k + i] = x && i < body->nv ? x[body->v + i] : 0.0;
+    for (int i = 0; i < body->nv; i++) {
+      wide[column(body, width, i)] = x[body->v + i];
     }
   }
 }
 
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                                const double *six, double *x)
+                                int width, const double *wide, double *x)
 {
-  for (int k = 0; k < span->body_count; k++) {
+  for (int k = 0; k < span->body_count; k++, wide += width) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
     for (int i = 0; i < body->nv; i++) {
-      x[body->v + i] += six[3 * k + i];
+      x[body->v + i] += wide[column(body, width, i)];
     }
   }
 }
 
-void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                             const double *six, double *packed)
+void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                             int rows, const double *wide, double *packed)
 {
   for (int row = 0; row < rows; row++) {
-    for (int k = 0; k < span->body_count; k++) {
-      int nv = mechanism->bodies[span->bodies[k]]->nv;
-      for (int i = 0; i < nv; i++) {
-        *packed++ = six[i];
+    for (int k = 0; k < span->body_count; k++, wide += width) {
+      const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+      for (int i = 0; i < body->nv; i++) {
+        *packed++ = wide[column(body, width, i)];
       }
-      six += 3;
     }
   }
 }
 
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                                const double *six, double *packed)
+                                int width, const double *wide, double *packed)
 {
-  /* Three rows of each body, of which it has the first nv. */
-  ptrdiff_t rows_size = (ptrdiff_t)9 * span->body_count;
-  for (int k = 0; k < span->body_count; k++) {
-    int nv = mechanism->bodies[span->bodies[k]]->nv;
-    baum_i_columns_pack(mechanism, span, nv, six + rows_size * k, packed);
-    packed += (ptrdiff_t)nv * span->nl;
+  const ptrdiff_t size = (ptrdiff_t)span->body_count * width;
+  for (int k = 0; k < span->body_count; k++, wide += width * size) {
+    const baum_i_body *body = mechanism->bodies[span->bodies[k]];
+    for (int i = 0; i < body->nv; i++, packed += span->nl) {
+      baum_i_columns_pack_any(mechanism, span, width, 1, wide + size * column(body, width, i),
+                              packed);
+    }
   }
 }

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three columns for each body of a span, and what the bodies have of them: a particle has no angle,
- * ground has none. Kernels write over the six of two bodies; what is said here of six holds for any
- * number of bodies.
+/* Columns that kernels write over, the same number for each body of a span, and what the bodies
+ * have of them. In the plane these are three, of which a particle has no angle; in space six, the
+ * velocity of the origin in ground axes and the angular velocity in body axes. A particle in space
+ * has the first three; a planar body x, y and the rotation about z. Ground has none.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -12,14 +13,13 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
- * absent, all for NULL. */
-void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
-                           double *six);
+/* A vector over v as `width` numbers of each body; zeros where absent, all for NULL. */
+void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, int width,
+                           const double *x, double *wide);
 
-/* The same as baum_i_columns_scatter(), whatever the bodies are. */
+/* Add numbers to the bodies' places in a vector over v. */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                                const double *six, double *x);
+                                int width, const double *wide, double *x);
 
 BAUM_I_INLINE void baum_i_columns_add_three(const double *three, double *x)
 {
@@ -27,7 +27,7 @@ BAUM_I_INLINE void baum_i_columns_add_three(const double *three, double *x)
   x[2] += three[2];
 }
 
-/* Add six numbers to the bodies' places in a vector over v. */
+/* The same of three for each body; nearly always of bodies with all three, or on the ground. */
 BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
                                           const double *six, double *x)
 {
@@ -38,7 +38,7 @@ BAUM_I_INLINE void baum_i_columns_scatter(const baum_mechanism *mechanism, const
   } else if (pair && span->nl == 3) {
     baum_i_columns_add_three(six + (span->bodies[1] == 0 ? 0 : 3), x + span->columns[0]);
   } else {
-    baum_i_columns_scatter_any(mechanism, span, six, x);
+    baum_i_columns_scatter_any(mechanism, span, BAUM_I_PLANE, six, x);
   }
 }
 
@@ -50,15 +50,15 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
   if (span->nl == 3) {
     baum_i_columns_add_three(three, x + span->columns[0]);
   } else {
-    baum_i_columns_scatter_any(mechanism, span, three, x);
+    baum_i_columns_scatter_any(mechanism, span, BAUM_I_PLANE, three, x);
   }
 }
 
-/* The same as baum_i_columns_pack(), whatever the bodies are. */
-void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                             const double *six, double *packed);
+/* Rows of `width` for each body to rows of nl. */
+void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                             int rows, const double *wide, double *packed);
 
-/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the
+/* The same of three for each body; nearly always of two bodies with all of them, or of one on the
  * ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
@@ -74,12 +74,12 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
       }
     }
   } else {
-    baum_i_columns_pack_any(mechanism, span, rows, six, packed);
+    baum_i_columns_pack_any(mechanism, span, BAUM_I_PLANE, rows, six, packed);
   }
 }
 
-/* 6 x 6 to nl x nl. */
+/* Such a square matrix to nl x nl. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                                const double *six, double *packed);
+                                int width, const double *wide, double *packed);
 
 #endif

@@ -135,7 +135,7 @@ baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *poi
   return BAUM_OK;
 }
 
-void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[2])
+void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
 {
   const baum_i_joint *driven = driven_by(point->mechanism, joint->element.def);
   driven->type->place(driven, point, at);

@@ -52,6 +52,6 @@ baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def
                                 const char *label);
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                                     const double *lambda, const baum_i_joint_blocks *blocks);
-void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+void baum_i_driver_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
 #endif

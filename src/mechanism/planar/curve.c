@@ -133,7 +133,7 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
     BAUM_I_TRY(set_third(joint, point, &s));
   }
   double w_six[BAUM_I_PLANAR_COLUMNS];
-  baum_i_columns_gather(point, &joint->span, w, w_six);
+  baum_i_columns_gather(point, &joint->span, BAUM_I_PLANE, w, w_six);
   for (int i = 0; i < 2; i++) {
     baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
   }

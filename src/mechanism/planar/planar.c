@@ -28,7 +28,8 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
                                      const char *label, const char *field)
 {
   const baum_i_body *body = mechanism->bodies[baum_i_body_index(mechanism, id)];
-  if (baum_i_frame_of(body) == BAUM_I_FRAME_NONE) {
+  baum_i_frame_kind kind = baum_i_frame_of(body);
+  if (kind == BAUM_I_FRAME_NONE || baum_i_is_spatial(kind)) {
     char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no place in the plane", label,
                        field, baum_i_label(&body->element, text));
@@ -211,7 +212,7 @@ static void include_marker(baum_i_box *box, const baum_i_frame *f, const double 
 {
   if (is_given(s)) {
     baum_i_marker marker = baum_i_marker_on(f, s);
-    baum_i_box_include(box, marker.r[0], marker.r[1]);
+    baum_i_box_include(box, marker.r[0], marker.r[1], 0.0);
   }
 }
 

@@ -177,7 +177,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     load l = load_at(element, point);
     double three[9] = {0.0};
     set_force_q(&l, three);
-    baum_i_columns_pack_square(point->mechanism, &element->span, three,
+    baum_i_columns_pack_square(point->mechanism, &element->span, BAUM_I_PLANE, three,
                                blocks->force_q + element->square);
   }
   return BAUM_OK;

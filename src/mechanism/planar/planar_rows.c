@@ -10,7 +10,7 @@ void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanis
     baum_i_columns_pack(mechanism, span, joint->rows, six->jw_q, blocks->jw_q + joint->jacobian);
   }
   if (blocks->jtl_q) {
-    baum_i_columns_pack_square(mechanism, span, six->jtl_q, blocks->jtl_q + joint->square);
+    baum_i_columns_pack_square(mechanism, span, BAUM_I_PLANE, six->jtl_q, blocks->jtl_q + joint->square);
   }
   if (blocks->gamma_q) {
     baum_i_columns_pack(mechanism, span, joint->rows, six->gamma_q,
@@ -22,11 +22,12 @@ void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanis
   }
 }
 
-void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2])
+void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3])
 {
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   at[0] = pair.b.r[0];
   at[1] = pair.b.r[1];
+  at[2] = 0.0;
 }
 
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,

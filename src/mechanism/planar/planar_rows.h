@@ -160,7 +160,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   static const double none[BAUM_I_PLANAR_ROWS] = {0.0};
   baum_i_planar_pair pair = baum_i_planar_pair_at(joint, point);
   double w_six[BAUM_I_PLANAR_COLUMNS];
-  baum_i_columns_gather(point, &joint->span, w, w_six);
+  baum_i_columns_gather(point, &joint->span, BAUM_I_PLANE, w, w_six);
   baum_i_planar_blocks six = {.jw_q = {0.0}};
   kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
   baum_i_planar_put(joint, point->mechanism, &six, blocks);
@@ -190,10 +190,10 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
                  .fields = fields,                                                          \
                  .check = (CHECK),                                                          \
                  .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)},                         \
-  .planar = true, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
+  .width = BAUM_I_PLANE, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
   .evaluate = evaluate, .place = baum_i_planar_place
 
-void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
+void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[3]);
 
 /* Its points from the design configuration; then the joint lowers its own numbers. Fails where a
  * particle is drawn off `point`. */

@@ -200,11 +200,11 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     double v[6];
     baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
     set_force_q(&s, &t, v, six);
-    baum_i_columns_pack_square(point->mechanism, span, six, blocks->force_q + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six, blocks->force_q + element->square);
   }
   if (blocks->force_v) {
     set_force_v(&s, &t, six);
-    baum_i_columns_pack_square(point->mechanism, span, six, blocks->force_v + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six, blocks->force_v + element->square);
   }
   return BAUM_OK;
 }

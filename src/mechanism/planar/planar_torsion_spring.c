@@ -98,7 +98,7 @@ static void put_square(const baum_i_force *force, const baum_mechanism *mechanis
     six[6 * 2 + 5] = factor;
     six[6 * 5 + 2] = factor;
     six[6 * 5 + 5] = -factor;
-    baum_i_columns_pack_square(mechanism, &force->span, six, squares + force->square);
+    baum_i_columns_pack_square(mechanism, &force->span, BAUM_I_PLANE, six, squares + force->square);
   }
 }
 

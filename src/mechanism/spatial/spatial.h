@@ -1,10 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What spatial joints and forces share: frames, the six columns of a body, and the fields that
- * their definitions begin with.
- *
- * The columns of a body are the velocity of its origin in ground axes and its angular velocity in
- * body axes. A particle has the first three of them. A planar body has x, y and the rotation about
- * z: it takes part in spatial joints and stays in its plane.
+/* What spatial joints and forces share: frames, and the fields that their definitions begin with.
+ * Kernels write over the six columns of each body (general/columns.h). A planar body takes part in
+ * spatial joints and stays in its plane.
  */
 #ifndef BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
 #define BAUM_I_MECHANISM_SPATIAL_SPATIAL_H
@@ -13,9 +10,7 @@
 #include <baum/spatial_joints.h>
 
 #include "base/rotation.h"
-#include "mechanism/identify.h"
-
-enum { BAUM_I_SPATIAL_COLUMNS = 6 };
+#include "mechanism/general/columns.h"
 
 /* ---- frames ---- */
 
@@ -25,17 +20,6 @@ baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const doubl
 
 /* Frame of a body in the design configuration, at rest. Valid before freeze. */
 baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int body);
-
-/* ---- columns: six of each body of a span, packed into those that the bodies have ---- */
-
-void baum_i_spatial_gather(const baum_mechanism *mechanism, const baum_i_span *span,
-                           const double *x, double *wide);
-void baum_i_spatial_scatter(const baum_mechanism *mechanism, const baum_i_span *span,
-                            const double *wide, double *x);
-void baum_i_spatial_pack(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
-                         const double *wide, double *packed);
-void baum_i_spatial_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                                const double *wide, double *packed);
 
 /* ---- definitions ---- */
 

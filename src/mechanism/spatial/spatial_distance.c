@@ -63,10 +63,10 @@ static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
     out->gamma[joint->row] = 0.5 * square.gamma / length;
   }
   if (out->jacobian) {
-    for (int i = 0; i < BAUM_I_SPATIAL_PAIR_COLUMNS; i++) {
+    for (int i = 0; i < BAUM_I_PAIR_COLUMNS; i++) {
       square.gradient[i] *= 0.5 / length;
     }
-    baum_i_spatial_pack(point->mechanism, &joint->span, 1, square.gradient,
+    baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, square.gradient,
                         out->jacobian + joint->jacobian);
   }
 }
@@ -88,13 +88,13 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   double scale = 0.5 / numbers[LENGTH];
   baum_i_spatial_second second;
   baum_i_spatial_second_of(&pair, SQUARE, &second);
-  baum_i_spatial_put_row(joint, point->mechanism, &second, 0, scale, w, blocks);
+  baum_i_spatial_put_row(joint, point, &second, 0, scale, w, blocks);
   if (blocks->jtl_q) {
     double factor = lambda ? scale * lambda[joint->row] : 0.0;
-    for (int i = 0; i < BAUM_I_SPATIAL_PAIR_COLUMNS * BAUM_I_SPATIAL_PAIR_COLUMNS; i++) {
+    for (int i = 0; i < BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS; i++) {
       second.columns_q[i] *= factor;
     }
-    baum_i_spatial_pack_square(point->mechanism, &joint->span, second.columns_q,
+    baum_i_columns_pack_square(point->mechanism, &joint->span, BAUM_I_SPACE, second.columns_q,
                                blocks->jtl_q + joint->square);
   }
   return BAUM_OK;
@@ -113,7 +113,7 @@ static const baum_i_joint_type type = {
                  .fields = fields,
                  .check = check,
                  .parameter_count = PARAMETER_COUNT},
-  .width = BAUM_I_SPATIAL_COLUMNS,
+  .width = BAUM_I_SPACE,
   .scleronomic = true,
   .row_count = 1,
   .lower = lower,

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { COLUMNS = BAUM_I_SPATIAL_PAIR_COLUMNS };
+enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 static const baum_i_spatial_joint_type *type_of(const baum_i_joint *joint)
 {
@@ -33,7 +33,7 @@ static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
       out->gamma[joint->row + i] = row.gamma;
     }
     if (out->jacobian) {
-      baum_i_spatial_pack(point->mechanism, &joint->span, 1, row.gradient,
+      baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, row.gradient,
                           out->jacobian + joint->jacobian + (ptrdiff_t)i * joint->span.nl);
     }
   }
@@ -52,19 +52,18 @@ baum_status baum_i_spatial_linearize(const baum_i_joint *joint, baum_i_point *po
                                      const double *w, const double *lambda,
                                      const baum_i_joint_blocks *blocks)
 {
-  const baum_mechanism *m = point->mechanism;
   const baum_i_spatial_pair pair = pair_at(joint, point);
   double square[COLUMNS * COLUMNS] = {0.0};
   for (int i = 0; i < joint->rows; i++) {
     baum_i_spatial_second second;
     baum_i_spatial_second_of(&pair, type_of(joint)->rows[i], &second);
-    baum_i_spatial_put_row(joint, m, &second, i, 1.0, w, blocks);
+    baum_i_spatial_put_row(joint, point, &second, i, 1.0, w, blocks);
     for (int k = 0; lambda && k < COLUMNS * COLUMNS; k++) {
       square[k] += lambda[joint->row + i] * second.columns_q[k];
     }
   }
   if (blocks->jtl_q) {
-    baum_i_spatial_pack_square(m, &joint->span, square, blocks->jtl_q + joint->square);
+    baum_i_columns_pack_square(point->mechanism, &joint->span, BAUM_I_SPACE, square, blocks->jtl_q + joint->square);
   }
   return BAUM_OK;
 }

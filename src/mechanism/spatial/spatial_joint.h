@@ -52,7 +52,7 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i
                  .fields = NAME##_fields,                                                      \
                  .check = (CHECK),                                                             \
                  .parameter_count = BAUM_I_SPATIAL_NUMBERS},                                   \
-  .width = BAUM_I_SPATIAL_COLUMNS, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \
+  .width = BAUM_I_SPACE, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \
   .extent = baum_i_spatial_extent, .evaluate = baum_i_spatial_evaluate,                        \
   .linearize = baum_i_spatial_linearize, .place = baum_i_spatial_place,                        \
   .is_reversed = baum_i_spatial_is_reversed

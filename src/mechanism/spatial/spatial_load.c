@@ -110,13 +110,13 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
 {
   for (int i = 0; i < group->count; i++) {
     const load l = load_at(group->forces[i], point);
-    double wide[BAUM_I_SPATIAL_COLUMNS];
+    double wide[BAUM_I_SPACE];
     memcpy(wide, l.force[0], sizeof l.force[0]);
     baum_i_cross(l.point, l.force[1], wide + 3);
     for (int k = 0; k < 3; k++) {
       wide[3 + k] += l.moment[1][k];
     }
-    baum_i_spatial_scatter(point->mechanism, &group->forces[i]->span, wide, out);
+    baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, BAUM_I_SPACE, wide, out);
   }
   return BAUM_OK;
 }
@@ -178,7 +178,7 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     for (int j = 0; j < 3; j++) {
       set_column(&l, j, square);
     }
-    baum_i_spatial_pack_square(point->mechanism, &element->span, square,
+    baum_i_columns_pack_square(point->mechanism, &element->span, BAUM_I_SPACE, square,
                                blocks->force_q + element->square);
   }
   return BAUM_OK;

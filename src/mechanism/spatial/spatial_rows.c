@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-enum { COLUMNS = BAUM_I_SPATIAL_PAIR_COLUMNS };
+enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* ---- vectors ---- */
 
@@ -65,9 +65,9 @@ static motion motion_of(const baum_i_spatial_pair *pair)
 static motion unit_motion(const baum_i_spatial_pair *pair, int column)
 {
   motion m = {.v = {{0.0}}};
-  int k = column / BAUM_I_SPATIAL_COLUMNS;
+  int k = column / BAUM_I_SPACE;
   int i = column % 3;
-  if (column % BAUM_I_SPATIAL_COLUMNS < 3) {
+  if (column % BAUM_I_SPACE < 3) {
     m.v[k][i] = 1.0;
   } else {
     const double axis[3] = {i == 0, i == 1, i == 2};
@@ -81,7 +81,7 @@ static void add_gradient(const baum_i_spatial_pair *pair, double factor, const v
                          const vector *y, double out[COLUMNS])
 {
   for (int k = 0; k < 2; k++) {
-    double *own = out + (ptrdiff_t)BAUM_I_SPATIAL_COLUMNS * k;
+    double *own = out + (ptrdiff_t)BAUM_I_SPACE * k;
     double moments[2][3];
     double turned[3];
     baum_i_cross(x->on[k], y->value, moments[0]);
@@ -176,7 +176,7 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
   add_first(pair, &p.x[0], &p.y[0], &m, out->rate_q);
   double v[COLUMNS];
   for (int k = 0; k < 2; k++) {
-    double *own = v + (ptrdiff_t)BAUM_I_SPATIAL_COLUMNS * k;
+    double *own = v + (ptrdiff_t)BAUM_I_SPACE * k;
     memcpy(own, m.v[k], sizeof m.v[k]);
     baum_i_turn_back(pair->frame[k]->axes, m.w[k], own + 3);
   }
@@ -201,33 +201,33 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
   }
 }
 
-static void put(const baum_i_joint *joint, const baum_mechanism *mechanism, double factor, int row,
+static void put(const baum_i_joint *joint, const baum_i_point *point, double factor, int row,
                 const double *wide, double *blocks)
 {
   double scaled[COLUMNS];
   for (int i = 0; i < COLUMNS; i++) {
     scaled[i] = factor * wide[i];
   }
-  baum_i_spatial_pack(mechanism, &joint->span, 1, scaled,
-                      blocks + joint->jacobian + (ptrdiff_t)row * joint->span.nl);
+  baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, scaled,
+                          blocks + joint->jacobian + (ptrdiff_t)row * joint->span.nl);
 }
 
-void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_mechanism *mechanism,
+void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_i_point *point,
                             const baum_i_spatial_second *second, int row, double factor,
                             const double *w, const baum_i_joint_blocks *blocks)
 {
   if (blocks->jw_q) {
     double w_wide[COLUMNS];
     double wide[COLUMNS] = {0.0};
-    baum_i_spatial_gather(mechanism, &joint->span, w, w_wide);
+    baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
     baum_i_spatial_add_jw_q(second, w_wide, 1.0, wide);
-    put(joint, mechanism, factor, row, wide, blocks->jw_q);
+    put(joint, point, factor, row, wide, blocks->jw_q);
   }
   if (blocks->gamma_q) {
-    put(joint, mechanism, factor, row, second->gamma_q, blocks->gamma_q);
+    put(joint, point, factor, row, second->gamma_q, blocks->gamma_q);
   }
   if (blocks->gamma_v) {
-    put(joint, mechanism, factor, row, second->gamma_v, blocks->gamma_v);
+    put(joint, point, factor, row, second->gamma_v, blocks->gamma_v);
   }
 }
 

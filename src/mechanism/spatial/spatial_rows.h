@@ -26,10 +26,7 @@
 
 #include "mechanism/spatial/spatial.h"
 
-enum {
-  BAUM_I_SPATIAL_PAIR_COLUMNS = 2 * BAUM_I_SPATIAL_COLUMNS,
-  BAUM_I_SPATIAL_ROWS = 6, /* most that a joint has */
-};
+enum { BAUM_I_SPATIAL_ROWS = 6 }; /* most that a joint has */
 
 /* Parameters of a joint. Axes are x, y, z of the joint in axes of the body. */
 enum {
@@ -75,11 +72,11 @@ void baum_i_spatial_row_at(const baum_i_spatial_pair *pair, baum_i_spatial_row r
 
 /* Second derivatives over the twelve columns. */
 typedef struct baum_i_spatial_second {
-  double rate_q[BAUM_I_SPATIAL_PAIR_COLUMNS]; /* (J v)_q */
-  double gamma_q[BAUM_I_SPATIAL_PAIR_COLUMNS];
-  double gamma_v[BAUM_I_SPATIAL_PAIR_COLUMNS];
+  double rate_q[BAUM_I_PAIR_COLUMNS]; /* (J v)_q */
+  double gamma_q[BAUM_I_PAIR_COLUMNS];
+  double gamma_v[BAUM_I_PAIR_COLUMNS];
   /* (J e_i)_q by rows i: (J w)_q = w^T columns_q, (J^T l)_q = l columns_q. */
-  double columns_q[BAUM_I_SPATIAL_PAIR_COLUMNS * BAUM_I_SPATIAL_PAIR_COLUMNS];
+  double columns_q[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
 } baum_i_spatial_second;
 
 void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_row row,
@@ -91,7 +88,7 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
 
 /* Put (J w)_q, gamma_q and gamma_v of one row of a joint, times a factor, where they are wanted;
  * w (nv). */
-void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_mechanism *mechanism,
+void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_i_point *point,
                             const baum_i_spatial_second *second, int row, double factor,
                             const double *w, const baum_i_joint_blocks *blocks);
 

@@ -16,7 +16,7 @@
 #include "mechanism/general/spring_law.h"
 #include "mechanism/spatial/spatial_rows.h"
 
-enum { COLUMNS = BAUM_I_SPATIAL_PAIR_COLUMNS };
+enum { COLUMNS = BAUM_I_PAIR_COLUMNS };
 
 /* Parameters; both points come first. */
 enum { LAW = 6, PARAMETER_COUNT = LAW + BAUM_I_SPRING_NUMBERS };
@@ -111,7 +111,7 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
     for (int k = 0; k < COLUMNS; k++) {
       wide[k] = -t.value * s.h[k];
     }
-    baum_i_spatial_scatter(point->mechanism, &group->forces[i]->span, wide, out);
+    baum_i_columns_scatter_any(point->mechanism, &group->forces[i]->span, BAUM_I_SPACE, wide, out);
   }
   return BAUM_OK;
 }
@@ -154,10 +154,10 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   }
   const baum_mechanism *m = point->mechanism;
   if (blocks->force_q) {
-    baum_i_spatial_pack_square(m, &element->span, force_q, blocks->force_q + element->square);
+    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_q, blocks->force_q + element->square);
   }
   if (blocks->force_v) {
-    baum_i_spatial_pack_square(m, &element->span, force_v, blocks->force_v + element->square);
+    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_v, blocks->force_v + element->square);
   }
   return BAUM_OK;
 }
