@@ -14,6 +14,8 @@
 #include <baum/planar_joints.h>
 #include <baum/report.h>
 #include <baum/simulation.h>
+#include <baum/spatial.h>
+#include <baum/spatial_joints.h>
 #include <baum/spline.h>
 #include <baum/stabilization.h>
 #include <baum/status.h>

@@ -372,20 +372,23 @@ BAUM_API const double *baum_simulation_v(const baum_simulation *simulation);
  *  effort of a driver is its force [N] or torque [N m] on the coordinate it drives: times the
  *  coordinate's rate it is the power that the driver puts into the mechanism. */
 typedef enum baum_quantity {
-  BAUM_Q = 1,         /**< Positions (nq). */
-  BAUM_V = 2,         /**< Velocities (nv). */
-  BAUM_A = 3,         /**< Accelerations (nv). */
-  BAUM_LAMBDA = 4,    /**< Multipliers of `joint`, or of all (nc). */
-  BAUM_PHI = 5,       /**< Constraint violation of `joint`, or of all (nc). */
-  BAUM_PHI_RATE = 6,  /**< Its rate J v - nu, of `joint`, or of all (nc). */
-  BAUM_ENERGY = 7,    /**< Kinetic and potential energy [J] (2). */
-  BAUM_BODY_POSE = 8, /**< Planar body: x, y of `point` and angle (3); particle (2); else its q. */
-  BAUM_BODY_VELOCITY = 9,      /**< Likewise velocities. */
-  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3), see planar.h; of others, such as
+  BAUM_Q = 1,             /**< Positions (nq). */
+  BAUM_V = 2,             /**< Velocities (nv). */
+  BAUM_A = 3,             /**< Accelerations (nv). */
+  BAUM_LAMBDA = 4,        /**< Multipliers of `joint`, or of all (nc). */
+  BAUM_PHI = 5,           /**< Constraint violation of `joint`, or of all (nc). */
+  BAUM_PHI_RATE = 6,      /**< Its rate J v - nu, of `joint`, or of all (nc). */
+  BAUM_ENERGY = 7,        /**< Kinetic and potential energy [J] (2). */
+  BAUM_BODY_POSE = 8,     /**< Planar body: x, y of `point` and angle (3); spatial body: x, y, z and
+                           quaternion (7); else its q. */
+  BAUM_BODY_VELOCITY = 9, /**< Likewise velocities; of a spatial body those of `point` and the
+                                    angular velocity in ground axes (6). */
+  BAUM_JOINT_REACTION = 10,    /**< Force and moment on body_b (3, in space 6), see planar.h and
+                                    spatial.h; of others, such as
                                     user constraints, gears and couplings, -J^T lambda over the
                                     velocities of their bodies. */
   BAUM_JOINT_COORDINATE = 11,  /**< Coordinate and rate of a joint that has one (2). */
-  BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_POSE: x'', y'' and angular acceleration. */
+  BAUM_BODY_ACCELERATION = 12, /**< As BAUM_BODY_VELOCITY: their derivatives. */
   BAUM_DRIVE_EFFORT = 13,      /**< Effort of the driver `joint` (1). */
   BAUM_ENERGY_ACCOUNT = 14     /**< As in baum_energy_account [J] (12): kinetic, potential, loads,
                                     springs, dampers, user_forces, bodies, drivers, violation,

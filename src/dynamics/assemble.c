@@ -230,12 +230,29 @@ static baum_status assemble_positions(assembly *s)
       return status;
     }
   }
-  baum_status status = baum_i_position_stage(s->w, s->t, s->q);
-  if (status == BAUM_OK && !(worst_displacement(s, s->w->phi) <= CONSISTENT)) {
+  BAUM_I_TRY(baum_i_position_stage(s->w, s->t, s->q));
+  if (!(worst_displacement(s, s->w->phi) <= CONSISTENT)) {
     return fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
                              "left");
   }
-  return status;
+  return BAUM_OK;
+}
+
+/* Rows also hold where axes are opposite instead of parallel. */
+static baum_status check_sides(const assembly *s)
+{
+  const baum_mechanism *m = s->w->mechanism;
+  for (int k = 0; k < m->joint_count; k++) {
+    const baum_i_joint *joint = m->joints[k];
+    if (joint->type->is_reversed && joint->type->is_reversed(joint, &s->w->point)) {
+      char label[BAUM_I_LABEL_SIZE];
+      return baum_i_fail(BAUM_ERR_INCONSISTENT,
+                         "t = %.9g s: assembly leads to opposite axes in %s; give a design "
+                         "configuration in which they point the same way",
+                         s->t, baum_i_joint_label(m, k, label));
+    }
+  }
+  return BAUM_OK;
 }
 
 /* ---- velocities ---- */
@@ -331,6 +348,9 @@ baum_status baum_i_assemble(baum_workspace *workspace, double t, double *q, doub
   memcpy(s.q, q, nq * sizeof *q);
   baum_i_normalize(workspace->mechanism, s.q);
   baum_status status = assemble_positions(&s);
+  if (status == BAUM_OK) {
+    status = check_sides(&s);
+  }
   if (status == BAUM_OK && v) {
     memcpy(velocity, v, nv * sizeof *v);
     status = complete_velocities(&s, velocity, given);

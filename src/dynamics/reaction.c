@@ -5,10 +5,12 @@
  * P on body_b, which follows from the entry at the angle, the moment about the centre of mass C:
  * m_P = m_C - (P - C) x F.
  * A joint whose body_b is ground (no columns) reacts on body_a with the opposite:
- * F_b = -F_a, the moment about P likewise.
+ * F_b = -F_a, the moment about P likewise. In space the same with vectors; the entries at the
+ * rotations are the moment about C in body axes.
  */
 #include <string.h>
 
+#include "base/rotation.h"
 #include "dynamics/dynamics.h"
 #include "mechanism/planar/planar.h"
 
@@ -42,7 +44,7 @@ static void planar(const baum_workspace *w, const baum_i_joint *joint, const dou
   const baum_mechanism *m = w->mechanism;
   int a = joint->span.bodies[0];
   int b = joint->span.bodies[1];
-  double at[2];
+  double at[3];
   joint->type->place(joint, &w->point, at);
   if (b != 0) {
     int offset = a != 0 ? m->bodies[a]->nv : 0;
@@ -55,19 +57,64 @@ static void planar(const baum_workspace *w, const baum_i_joint *joint, const dou
   }
 }
 
+/* Force and moment about `at` of one side of a spatial joint. */
+static void about_point_in_space(const baum_i_spatial_frame *frame, const double side[6],
+                                 const double at[3], double sign, double out[6])
+{
+  double arm[3];
+  double shift[3];
+  baum_i_turn(frame->axes, side + 3, out + 3);
+  for (int i = 0; i < 3; i++) {
+    arm[i] = at[i] - frame->r[i];
+  }
+  baum_i_cross(arm, side, shift);
+  for (int i = 0; i < 3; i++) {
+    out[i] = sign * side[i];
+    out[3 + i] = sign * (out[3 + i] - shift[i]);
+  }
+}
+
+static void spatial(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,
+                    double out[6])
+{
+  const int *bodies = joint->span.bodies;
+  int side = bodies[1] != 0 ? 1 : 0;
+  double at[3];
+  double wide[BAUM_I_PAIR_COLUMNS];
+  double local[BAUM_I_PAIR_COLUMNS];
+  generalized(w, joint, lambda, local);
+  for (int i = 0; i < joint->span.nl; i++) {
+    w->work_v[joint->span.columns[i]] = local[i];
+  }
+  baum_i_columns_gather(&w->point, &joint->span, BAUM_I_SPACE, w->work_v, wide);
+  joint->type->place(joint, &w->point, at);
+  about_point_in_space(&w->point.spatial[bodies[side]], wide + (ptrdiff_t)BAUM_I_SPACE * side, at,
+                       side == 1 ? 1.0 : -1.0, out);
+}
+
+static int width_of(const baum_mechanism *m, const baum_i_joint *joint)
+{
+  const baum_i_joint *of = joint->type->driven ? joint->type->driven(m, joint->element.def) : joint;
+  return of->type->width;
+}
+
 int baum_i_reaction_width(const baum_mechanism *mechanism, int joint)
 {
   const baum_i_joint *j = mechanism->joints[joint];
-  return j->type->planar ? 3 : j->span.nl;
+  int width = width_of(mechanism, j);
+  return width > 0 ? width : j->span.nl;
 }
 
 void baum_i_reaction(const baum_workspace *w, int joint, const double *lambda, double *out)
 {
   const baum_i_joint *j = w->mechanism->joints[joint];
-  if (j->type->planar) {
+  int width = width_of(w->mechanism, j);
+  if (width == BAUM_I_PLANE) {
     double local[6];
     generalized(w, j, lambda, local);
     planar(w, j, local, out);
+  } else if (width == BAUM_I_SPACE) {
+    spatial(w, j, lambda, out);
   } else {
     generalized(w, j, lambda, out);
   }

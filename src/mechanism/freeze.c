@@ -157,7 +157,8 @@ static double design_size(const baum_mechanism *mechanism)
   baum_i_box b = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
   for (int i = 1; i <= mechanism->body_count; i++) {
     if (mechanism->bodies[i]->type->frame != BAUM_I_FRAME_NONE) {
-      baum_i_include_body(mechanism, i, &b);
+      const baum_i_spatial_frame f = baum_i_spatial_design_frame(mechanism, i);
+      baum_i_box_include(&b, f.r[0], f.r[1], f.r[2]);
     }
   }
   for (int i = 0; i < mechanism->joint_count; i++) {
@@ -170,7 +171,8 @@ static double design_size(const baum_mechanism *mechanism)
   if (isfinite(diagonal) && diagonal > 0.0) {
     return diagonal;
   }
-  double offset = hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* one particle: its distance from the origin */
+  double offset =
+    hypot(hypot(b.low[0], b.low[1]), b.low[2]); /* one particle: its distance from the origin */
   return isfinite(offset) && offset > 0.0 ? offset : 1.0;
 }
 

@@ -9,6 +9,8 @@
 #define BAUM_I_KINDS(KIND)            \
   KIND(body, planar_body)             \
   KIND(body, planar_particle)         \
+  KIND(body, spatial_body)            \
+  KIND(body, spatial_particle)        \
   KIND(body, coordinates)             \
   KIND(joint, planar_revolute)        \
   KIND(joint, planar_distance)        \
@@ -18,6 +20,16 @@
   KIND(joint, planar_rack_and_pinion) \
   KIND(joint, planar_gear)            \
   KIND(joint, planar_curve)           \
+  KIND(joint, spatial_spherical)      \
+  KIND(joint, spatial_revolute)       \
+  KIND(joint, spatial_universal)      \
+  KIND(joint, spatial_cylindrical)    \
+  KIND(joint, spatial_prismatic)      \
+  KIND(joint, spatial_planar)         \
+  KIND(joint, spatial_fixed)          \
+  KIND(joint, spatial_distance)       \
+  KIND(joint, spatial_point_on_line)  \
+  KIND(joint, spatial_point_on_plane) \
   KIND(joint, coupling)               \
   KIND(joint, driver)                 \
   KIND(joint, spline_driver)          \
@@ -25,6 +37,8 @@
   KIND(force, planar_spring)          \
   KIND(force, planar_torsion_spring)  \
   KIND(force, planar_load)            \
+  KIND(force, spatial_spring)         \
+  KIND(force, spatial_load)           \
   KIND(force, user_force)
 
 #define BAUM_I_DECLARE_DEFINITION(FAMILY, NAME) \

@@ -159,10 +159,10 @@ typedef struct baum_i_point {
   baum_i_frame *frames; /* (body_count + 1), ground first */
   const baum_i_frames_kernel *kernel;
   baum_i_spatial_frame *spatial; /* likewise; NULL where nothing is spatial */
-  const double *inputs; /* (input_count) present values; NULL while there are none */
-  double *scratch;      /* (mechanism->scratch_size) for gathering and differences */
-  bool retry;           /* set when the last failure may vanish with a smaller step */
-  bool asking;          /* within a function of the user, who may not ask anything of this point */
+  const double *inputs;          /* (input_count) present values; NULL while there are none */
+  double *scratch;               /* (mechanism->scratch_size) for gathering and differences */
+  bool retry;                    /* set when the last failure may vanish with a smaller step */
+  bool asking; /* within a function of the user, who may not ask anything of this point */
 } baum_i_point;
 
 /* Of a body as it is drawn, from its definition, at rest; valid before freeze. */
@@ -173,7 +173,16 @@ baum_i_frame baum_i_design_frame(const baum_mechanism *mechanism, int body);
 baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *point);
 void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
-/* Set the spatial frames; spatial/spatial_frames.c. */
+/* ---- spatial/spatial_frames.c ---- */
+
+/* Frame of a body at its q, and its v or NULL for rest; that of ground for kinds without a place. */
+baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
+                                             const double *v);
+
+/* Frame of a body in the design configuration, at rest. Valid before freeze. */
+baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int body);
+
+/* Set the spatial frames of a point. */
 void baum_i_point_set_spatial(baum_i_point *point);
 
 /* The two of baum_i_point_set(): where the mechanism is flat, or else. */
@@ -289,8 +298,6 @@ struct baum_i_body_type {
   /* One body: adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and
    * M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
-  /* Compare given derivatives with differences; NULL: nothing given. */
-  baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
 
 /* Columns of a body in the kernels of elements of the plane and of space. */
@@ -322,6 +329,8 @@ struct baum_i_joint_type {
   /* One row: the coordinate of that joint minus a function of time; NULL: no driver. Its width is
    * that of the joint. */
   const baum_i_joint *(*driven)(const baum_mechanism *mechanism, const void *def);
+  /* Value, rate and acceleration by the law of a driver, at the point's time; failures as in phi. */
+  baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
@@ -331,9 +340,11 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() where evaluate_one() does. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
+  baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
+                              const baum_i_rows *rows);
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -354,10 +365,13 @@ struct baum_i_joint_type {
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
                                const double *w, double lambda, baum_i_coordinate_blocks *out);
-  baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
   /* Relative error of derivatives by differences; NULL: none are taken. */
   double (*noise)(const void *def);
 };
+
+/* The `evaluate` of types that evaluate joint by joint. */
+baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
+                                 const baum_i_rows *rows);
 
 struct baum_i_force_type {
   baum_i_definition definition;
@@ -376,7 +390,6 @@ struct baum_i_force_type {
    * power_is_whole. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
-  baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
 
 /* ---- the mechanism ---- */

@@ -17,7 +17,7 @@ baum_i_frame_kind baum_i_frame_of(const baum_i_body *body)
 baum_i_frame baum_i_frame_at(baum_i_frame_kind kind, const double *q, const double *v)
 {
   baum_i_frame frame = {.c = 1.0};
-  if (kind == BAUM_I_FRAME_NONE || kind == BAUM_I_FRAME_GROUND) {
+  if (kind != BAUM_I_FRAME_PARTICLE && kind != BAUM_I_FRAME_BODY) {
     return frame;
   }
   frame.x = q[0];
@@ -58,8 +58,15 @@ baum_status baum_i_point_create(const baum_mechanism *mechanism, baum_i_point *p
   point->scratch = baum_i_alloc((size_t)mechanism->scratch_size, sizeof *point->scratch);
   point->normalized =
     mechanism->flat ? NULL : baum_i_alloc((size_t)mechanism->nq, sizeof *point->normalized);
-  if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized)) {
+  point->spatial = mechanism->spatial
+                     ? baum_i_alloc((size_t)mechanism->body_count + 1, sizeof *point->spatial)
+                     : NULL;
+  if (!point->frames || !point->scratch || (!mechanism->flat && !point->normalized) ||
+      (mechanism->spatial && !point->spatial)) {
     return baum_i_fail_memory();
+  }
+  if (point->spatial) {
+    point->spatial[0] = baum_i_spatial_frame_at(BAUM_I_FRAME_GROUND, NULL, NULL);
   }
   for (int i = 0; i <= mechanism->body_count; i++) {
     point->frames[i].c = 1.0;
@@ -72,6 +79,7 @@ void baum_i_point_release(baum_i_point *point)
   baum_i_free(point->frames);
   baum_i_free(point->scratch);
   baum_i_free(point->normalized);
+  baum_i_free(point->spatial);
 }
 
 void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, const double *v)
@@ -81,4 +89,7 @@ void baum_i_point_set_vector(baum_i_point *point, double t, const double *q, con
   point->v = v;
   point->retry = false;
   point->kernel->set(point->mechanism, q, v, point->frames);
+  if (point->spatial) {
+    baum_i_point_set_spatial(point);
+  }
 }

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/rotation.h"
 #include "base/sized.h"
 #include "base/text.h"
 #include "mechanism/definition.h"
@@ -75,15 +76,18 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
     return fail_channel(k, body == 0 ? "ground has no pose, velocity or acceleration"
                                      : "body is none or not of this mechanism");
   }
-  bool rigid = m->bodies[body]->type->frame == BAUM_I_FRAME_BODY;
+  baum_i_frame_kind kind = m->bodies[body]->type->frame;
+  bool rigid = kind == BAUM_I_FRAME_BODY || kind == BAUM_I_FRAME_SPATIAL_BODY;
   const double *p = c->point;
   if (!rigid && (p[0] != 0.0 || p[1] != 0.0 || p[2] != 0.0)) {
     return fail_channel(k, "point is given, but the body has no axes");
   }
-  if (!isfinite(p[0]) || !isfinite(p[1]) || p[2] != 0.0) {
-    (void)baum_i_fail(BAUM_ERR_ARGUMENT,
-                      "channel %d: point is (%g, %g, %g) m, must be finite and in the plane, z = 0",
-                      k, p[0], p[1], p[2]);
+  if (!isfinite(p[0]) || !isfinite(p[1]) || !isfinite(p[2]) ||
+      (kind == BAUM_I_FRAME_BODY && p[2] != 0.0)) {
+    (void)baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "channel %d: point is (%g, %g, %g) m, must be finite, and of a planar body z = 0", k, p[0],
+      p[1], p[2]);
     return -1;
   }
   return c->quantity == BAUM_BODY_POSE ? m->bodies[body]->nq : m->bodies[body]->nv;
@@ -277,11 +281,52 @@ static void put_acceleration(const baum_i_marker *marker, const double a[3], dou
   out[2] = a[2];
 }
 
+/* r'' = a + A (w' x s + w x (w x s)) */
+static void put_spatial_acceleration(const baum_i_spatial_frame *frame, const double s[3],
+                                     const double a[6], double out[6])
+{
+  double arm[3];
+  double first[3];
+  double second[3];
+  double third[3];
+  baum_i_turn(frame->axes, s, arm);
+  baum_i_turn(frame->axes, a + 3, out + 3);
+  baum_i_cross(out + 3, arm, first);
+  baum_i_cross(frame->w, arm, second);
+  baum_i_cross(frame->w, second, third);
+  for (int i = 0; i < 3; i++) {
+    out[i] = a[i] + first[i] + third[i];
+  }
+}
+
+static int put_spatial_body(const baum_workspace *w, const baum_i_body *body, const baum_channel *c,
+                            double *out)
+{
+  const baum_i_spatial_frame *frame = &w->point.spatial[body->element.index];
+  if (c->quantity == BAUM_BODY_ACCELERATION) {
+    put_spatial_acceleration(frame, c->point, w->a + body->v, out);
+    return 6;
+  }
+  bool pose = c->quantity == BAUM_BODY_POSE;
+  double arm[3];
+  double turned[3];
+  baum_i_turn(frame->axes, c->point, arm);
+  baum_i_cross(frame->w, arm, turned);
+  for (int i = 0; i < 3; i++) {
+    out[i] = pose ? frame->r[i] + arm[i] : frame->v[i] + turned[i];
+  }
+  memcpy(out + 3, pose ? w->point.q + body->q + 3 : frame->w, (pose ? 4 : 3) * sizeof *out);
+  return pose ? 7 : 6;
+}
+
 static int put_body(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
                     double *out)
 {
   int index = baum_i_body_index(w->mechanism, c->body);
   const baum_i_body *body = w->mechanism->bodies[index];
+  if (body->type->frame == BAUM_I_FRAME_SPATIAL_BODY) {
+    return put_spatial_body(w, body, c, out);
+  }
   if (body->type->frame != BAUM_I_FRAME_BODY) {
     int width = c->quantity == BAUM_BODY_POSE ? body->nq : body->nv;
     return put(part_of(w, state, c->quantity, body), width, out);

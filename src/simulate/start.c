@@ -22,7 +22,10 @@ static const double EXACT = 1e-9; /* of the scales */
 
 static bool is_angle(const baum_i_body *body, int coordinate)
 {
-  return body->type->frame == BAUM_I_FRAME_BODY && coordinate == body->v + 2;
+  int first = body->type->frame == BAUM_I_FRAME_BODY           ? 2
+              : body->type->frame == BAUM_I_FRAME_SPATIAL_BODY ? 3
+                                                               : body->nv;
+  return coordinate >= body->v + first;
 }
 
 /* User coordinates have units of their own. */

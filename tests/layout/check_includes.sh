@@ -62,11 +62,13 @@ find src include -name '*.[ch]' | sort | xargs awk '
       fail("\"" header "\": write the path from src, as in \"mechanism/mechanism.h\"")
       next
     }
-    if (layer == "mechanism" && part[3] ~ /^(general|planar)$/) {
+    if (layer == "mechanism" && part[3] ~ /^(general|planar|spatial)$/) {
       if (header == "mechanism/mechanism.h")
         fail("an element includes the whole mechanism; model.h and identify.h are for elements")
-      if (part[3] == "general" && header ~ /^mechanism\/planar\//)
-        fail("general must not include planar (\"" header "\")")
+      split("planar spatial", rooms, " ")
+      for (r in rooms)
+        if (part[3] != rooms[r] && header ~ ("^mechanism/" rooms[r] "/"))
+          fail(part[3] " must not include " rooms[r] " (\"" header "\")")
     }
     if (target[1] != layer && (" " below[layer] " ") !~ (" " target[1] " "))
       fail(layer " must not include " target[1] " (\"" header "\")")

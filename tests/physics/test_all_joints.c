@@ -327,7 +327,7 @@ static void close_balance(balance *b)
 }
 
 /* Force and moment at a place on one body; returns their power. */
-static double apply(balance *b, int index, const double at[2], const double f[3], double sign)
+static double apply(balance *b, int index, const double at[3], const double f[3], double sign)
 {
   const baum_i_frame *frame = &b->p.point.frames[index];
   const baum_i_body *body = b->p.mechanism->bodies[index];
@@ -348,8 +348,8 @@ static double take_off(balance *b, int index)
   double f[SIZE];
   check(
     baum_workspace_reaction(b->workspace, b->p.t, b->p.q, b->lambda, baum_i_joint_id(m, index), f));
-  if (joint->type->planar) {
-    double at[2];
+  if (joint->type->width == BAUM_I_PLANE) {
+    double at[3];
     joint->type->place(joint, &b->p.point, at);
     return apply(b, joint->span.bodies[1], at, f, 1.0) +
            apply(b, joint->span.bodies[0], at, f, -1.0);

@@ -14,7 +14,8 @@
 #include <cmocka.h>
 
 #include "assert_near.h"
-#include "mechanism/planar/planar.h"
+#include "mechanism/general/columns.h"
+#include "mechanism/manifold.h"
 
 static const double STEP = 1e-3;
 static const double TOLERANCE = 1e-8;
@@ -187,29 +188,18 @@ static baum_i_coordinate coordinate_at(const test_point *p)
   return c;
 }
 
-/* Six columns of the joint's bodies, left out where they have none, to nv. */
-static void spread_six(const test_point *p, const double six[6], double *full)
+/* The columns of the joint's bodies to nv, and back. */
+static void spread_wide(const test_point *p, const double *wide, double *full)
 {
+  const baum_i_joint *joint = p->mechanism->joints[0];
   memset(full, 0, (size_t)p->nv * sizeof *full);
-  const baum_i_span *span = &p->mechanism->joints[0]->span;
-  for (int k = 0; k < 2; k++) {
-    const baum_i_body *body = p->mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < body->nv; i++) {
-      full[body->v + i] = six[3 * k + i];
-    }
-  }
+  baum_i_columns_scatter_any(p->mechanism, &joint->span, joint->type->width, wide, full);
 }
 
-static void six_of(const test_point *p, const double *full, double six[6])
+static void wide_of(const test_point *p, const double *full, double wide[BAUM_I_PAIR_COLUMNS])
 {
-  memset(six, 0, 6 * sizeof *six);
-  const baum_i_span *span = &p->mechanism->joints[0]->span;
-  for (int k = 0; k < 2; k++) {
-    const baum_i_body *body = p->mechanism->bodies[span->bodies[k]];
-    for (int i = 0; i < body->nv; i++) {
-      six[3 * k + i] = full[body->v + i];
-    }
-  }
+  const baum_i_joint *joint = p->mechanism->joints[0];
+  baum_i_columns_gather(&p->point, &joint->span, joint->type->width, full, wide);
 }
 
 static void value_of(test_point *p, const directions *d, double *out)
@@ -233,7 +223,7 @@ static void coordinate_gamma_of(test_point *p, const directions *d, double *out)
 static void coordinate_gradient_of(test_point *p, const directions *d, double *out)
 {
   (void)d;
-  spread_six(p, coordinate_at(p).gradient, out);
+  spread_wide(p, coordinate_at(p).gradient, out);
 }
 
 /* ---- differences ---- */
@@ -243,8 +233,8 @@ static void evaluate_at(test_point *p, const test_point *from, double step,
                         const directions *d, double *out)
 {
   p->t = from->t + step * direction[0];
+  baum_i_move_from(p->mechanism, from->q, step, direction + 1, p->q);
   for (int i = 0; i < p->nv; i++) {
-    p->q[i] = from->q[i] + step * direction[1 + i];
     p->v[i] = from->v[i] + step * direction[1 + TEST_SIZE_MAX + i];
   }
   test_point_update(p);
@@ -383,23 +373,23 @@ void check_coordinate_derivatives(test_point *p)
   const directions d = some_directions();
   baum_i_coordinate c = coordinate_at(p);
   double full[MATRIX];
-  spread_six(p, c.gradient, full);
+  spread_wide(p, c.gradient, full);
   check_matrix(p, "coordinate_q", true, value_of, &d, 1, full);
   check_matrix(p, "rate_v", false, coordinate_rate_of, &d, 1, full);
   check_in_time(p, "coordinate rate", true, value_of, 1, 1.0, &c.rate);
   check_in_time(p, "coordinate gamma", true, coordinate_rate_of, 1, -1.0, &c.gamma);
 
-  double w[6];
+  double w[BAUM_I_PAIR_COLUMNS];
   baum_i_coordinate_blocks blocks;
-  six_of(p, d.w, w);
+  wide_of(p, d.w, w);
   joint->type->coordinate_linearize(joint, &p->point, w, 1.0, &blocks);
-  spread_six(p, blocks.gamma_q, full);
+  spread_wide(p, blocks.gamma_q, full);
   check_matrix(p, "coordinate gamma_q", true, coordinate_gamma_of, &d, 1, full);
-  spread_six(p, blocks.gamma_v, full);
+  spread_wide(p, blocks.gamma_v, full);
   check_matrix(p, "coordinate gamma_v", false, coordinate_gamma_of, &d, 1, full);
   memset(full, 0, sizeof full);
-  double packed[36];
-  baum_i_columns_pack_square(p->mechanism, &joint->span, blocks.jtl_q, packed);
+  double packed[BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS];
+  baum_i_columns_pack_square(p->mechanism, &joint->span, joint->type->width, blocks.jtl_q, packed);
   spread_square(p, &joint->span, packed, full);
   check_matrix(p, "coordinate_qq", true, coordinate_gradient_of, &d, p->nv, full);
 }

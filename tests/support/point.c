@@ -7,6 +7,8 @@
 
 #include <cmocka.h>
 
+#include "mechanism/manifold.h"
+
 void test_point_open(test_point *p, baum_mechanism *mechanism)
 {
   *p = (test_point){.mechanism = mechanism};
@@ -16,9 +18,9 @@ void test_point_open(test_point *p, baum_mechanism *mechanism)
   }
   p->nv = mechanism->nv;
   p->nc = mechanism->nc;
-  assert_true(p->nv <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
+  assert_true(mechanism->nq <= TEST_SIZE_MAX && p->nc <= TEST_SIZE_MAX);
   assert_int_equal(baum_i_point_create(mechanism, &p->point), BAUM_OK);
-  memcpy(p->q, mechanism->design_q, (size_t)p->nv * sizeof(double));
+  memcpy(p->q, mechanism->design_q, (size_t)mechanism->nq * sizeof(double));
   test_point_update(p);
 }
 
@@ -43,9 +45,12 @@ double test_uniform(uint64_t *seed, double low, double high)
 void test_point_random(test_point *p, uint64_t *seed)
 {
   p->t = test_uniform(seed, 0.0, 2.0);
-  for (int i = 0; i < p->nv; i++) {
+  for (int i = 0; i < p->mechanism->nq; i++) {
     p->q[i] = test_uniform(seed, -2.0, 2.0);
+  }
+  for (int i = 0; i < p->nv; i++) {
     p->v[i] = test_uniform(seed, -3.0, 3.0);
   }
+  baum_i_normalize(p->mechanism, p->q);
   test_point_update(p);
 }

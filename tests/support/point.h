@@ -7,7 +7,7 @@
 
 #include "mechanism/mechanism.h"
 
-enum { TEST_SIZE_MAX = 24 }; /* nv, nc */
+enum { TEST_SIZE_MAX = 28 }; /* nq, nc */
 
 typedef struct test_point {
   baum_mechanism *mechanism; /* owned */
@@ -26,7 +26,7 @@ void test_point_close(test_point *p);
 /* After a change of t, q or v. */
 void test_point_update(test_point *p);
 
-/* t in [0, 2], q within 2 of zero, v within 3. */
+/* t in [0, 2], q within 2 of zero and on the manifold, v within 3. */
 void test_point_random(test_point *p, uint64_t *seed);
 
 double test_uniform(uint64_t *seed, double low, double high);

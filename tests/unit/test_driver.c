@@ -154,8 +154,8 @@ static void its_place_is_that_of_the_joint(void **state)
   (void)state;
   test_point p;
   open_motor(&p, nothing, NULL, true);
-  double at[2];
-  double want[2];
+  double at[3];
+  double want[3];
   const baum_i_joint *slider = p.mechanism->joints[0];
   const baum_i_joint *motor = p.mechanism->joints[1];
   slider->type->place(slider, &p.point, want);

@@ -58,7 +58,7 @@ static void the_drawing_is_kept_and_a_given_angle_too(void **state)
     ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding of two rotations */
   }
   ASSERT_NEAR(phi[5], -1.1 - 0.4 - 0.5, 1e-15, 0.0);
-  double at[2];
+  double at[3];
   const baum_i_joint *joint = p.mechanism->joints[0];
   joint->type->place(joint, &p.point, at);
   ASSERT_NEAR(at[0], 0.3, 0.0, 1e-15);

@@ -167,7 +167,8 @@ static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
   def.point[1] = 0.5 + 2.0 * s + 3.0 * c;
   double points[4];
-  assert_int_equal(baum_i_planar_points(scene.mechanism, &def, "x", points), BAUM_OK);
+  assert_int_equal(baum_i_planar_points(scene.mechanism, &(baum_i_element){.def = &def}, points),
+                   BAUM_OK);
   ASSERT_NEAR(points[0], 2.0, 1e-15, 0.0);
   ASSERT_NEAR(points[1], 3.0, 1e-15, 0.0);
   ASSERT_NEAR(points[2], def.point[0], 0.0, 0.0);
@@ -187,7 +188,8 @@ static void a_particle_is_at_its_point_up_to_rounding(void **state)
   def.point[0] = 0.3;
   def.point[1] = 0.0;
   double points[4] = {1.0, 1.0, 1.0, 1.0};
-  assert_int_equal(baum_i_planar_points(scene.mechanism, &def, "x", points), BAUM_OK);
+  assert_int_equal(baum_i_planar_points(scene.mechanism, &(baum_i_element){.def = &def}, points),
+                   BAUM_OK);
   ASSERT_NEAR(points[2], 0.0, 0.0, 0.0);
   ASSERT_NEAR(points[3], 0.0, 0.0, 0.0);
   baum_mechanism_destroy(scene.mechanism);
@@ -268,7 +270,7 @@ static void packing_leaves_out_what_a_particle_does_not_have(void **state)
   baum_i_columns_pack(p.mechanism, span, 2, six, packed);
   const double rows[10] = {0, 1, 3, 4, 5, 6, 7, 9, 10, 11};
   assert_memory_equal(packed, rows, sizeof rows);
-  baum_i_columns_pack_square(p.mechanism, span, six, packed);
+  baum_i_columns_pack_square(p.mechanism, span, BAUM_I_PLANE, six, packed);
   const double square[25] = {0,  1,  3,  4,  5,  6,  7,  9,  10, 11, 18, 19, 21,
                              22, 23, 24, 25, 27, 28, 29, 30, 31, 33, 34, 35};
   assert_memory_equal(packed, square, sizeof square);
@@ -286,7 +288,7 @@ static void scattering_adds_what_gathering_takes(void **state)
     x[i] = 1.0 + i;
   }
   double six[6];
-  baum_i_columns_gather(&p.point, &joint->span, x, six);
+  baum_i_columns_gather(&p.point, &joint->span, BAUM_I_PLANE, x, six);
   /* Order of adding: link 3, ball 2, crank 3, bead 2. */
   const double want[6] = {4.0, 5.0, 0.0, 6.0, 7.0, 8.0};
   assert_memory_equal(six, want, sizeof six);

@@ -82,7 +82,7 @@ static void a_drawn_point_is_met_by_both_bodies(void **state)
   for (int i = 0; i < 4; i++) {
     ASSERT_NEAR(phi[i], 0.0, 0.0, 1e-15); /* rounding of two rotations */
   }
-  double at[2];
+  double at[3];
   const baum_i_joint *joint = p.mechanism->joints[0];
   joint->type->place(joint, &p.point, at);
   ASSERT_NEAR(at[0], 0.25, 0.0, 1e-15);

@@ -19,8 +19,8 @@ void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, i
   }
 }
 
-void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                                int width, const double *wide, double *x)
+void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                                const double *wide, double *x)
 {
   for (int k = 0; k < span->body_count; k++, wide += width) {
     const baum_i_body *body = mechanism->bodies[span->bodies[k]];
@@ -43,8 +43,8 @@ void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span 
   }
 }
 
-void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                                int width, const double *wide, double *packed)
+void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                                const double *wide, double *packed)
 {
   const ptrdiff_t size = (ptrdiff_t)span->body_count * width;
   for (int k = 0; k < span->body_count; k++, wide += width * size) {
@@ -53,5 +53,27 @@ void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_sp
       baum_i_columns_pack_any(mechanism, span, width, 1, wide + size * column(body, width, i),
                               packed);
     }
+  }
+}
+
+static void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint, int width,
+                      const double *wide, double *rows)
+{
+  if (rows) {
+    baum_i_columns_pack_any(mechanism, &joint->span, width, joint->rows, wide,
+                            rows + joint->jacobian);
+  }
+}
+
+void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                int width, const baum_i_joint_blocks *wide,
+                                const baum_i_joint_blocks *blocks)
+{
+  pack_rows(mechanism, joint, width, wide->jw_q, blocks->jw_q);
+  pack_rows(mechanism, joint, width, wide->gamma_q, blocks->gamma_q);
+  pack_rows(mechanism, joint, width, wide->gamma_v, blocks->gamma_v);
+  if (blocks->jtl_q) {
+    baum_i_columns_pack_square(mechanism, &joint->span, width, wide->jtl_q,
+                               blocks->jtl_q + joint->square);
   }
 }

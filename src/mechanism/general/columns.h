@@ -18,8 +18,8 @@ void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, i
                            const double *x, double *wide);
 
 /* Add numbers to the bodies' places in a vector over v. */
-void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
-                                int width, const double *wide, double *x);
+void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                                const double *wide, double *x);
 
 BAUM_I_INLINE void baum_i_columns_add_three(const double *three, double *x)
 {
@@ -79,7 +79,13 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
 }
 
 /* Such a square matrix to nl x nl. */
-void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
-                                int width, const double *wide, double *packed);
+void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
+                                const double *wide, double *packed);
+
+/* Second derivatives of a joint's rows over `width` columns of each body to where they are wanted. nu_q stays zero:
+ * no joint with such rows has one. */
+void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                int width, const baum_i_joint_blocks *wide,
+                                const baum_i_joint_blocks *blocks);
 
 #endif

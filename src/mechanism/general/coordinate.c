@@ -26,10 +26,14 @@ double baum_i_design_coordinate(const baum_mechanism *mechanism, const baum_i_jo
   int pair[2] = {0, 1};
   baum_i_frame frames[2] = {baum_i_design_frame(mechanism, joint->span.bodies[0]),
                             baum_i_design_frame(mechanism, joint->span.bodies[1])};
+  baum_i_spatial_frame spatial[2] = {baum_i_spatial_design_frame(mechanism, joint->span.bodies[0]),
+                                     baum_i_spatial_design_frame(mechanism, joint->span.bodies[1])};
   baum_i_joint alone = *joint;
   alone.span.bodies = pair;
-  baum_i_point point = {
-    .mechanism = mechanism, .parameters = mechanism->parameters, .frames = frames};
+  baum_i_point point = {.mechanism = mechanism,
+                        .parameters = mechanism->parameters,
+                        .frames = frames,
+                        .spatial = spatial};
   baum_i_coordinate c;
   joint->type->coordinate(&alone, &point, &c);
   return c.value;

@@ -97,10 +97,10 @@ void baum_i_axis_row_linearize(const baum_i_planar_pair *pair, const double dire
 {
   baum_i_coordinate_blocks row;
   baum_i_axis_linearize(pair, direction, w, lambda, &row);
-  memcpy(out->jw_q, row.jw_q, sizeof row.jw_q);
-  memcpy(out->jtl_q, row.jtl_q, sizeof row.jtl_q);
-  memcpy(out->gamma_q, row.gamma_q, sizeof row.gamma_q);
-  memcpy(out->gamma_v, row.gamma_v, sizeof row.gamma_v);
+  memcpy(out->jw_q, row.jw_q, BAUM_I_PLANAR_COLUMNS * sizeof *row.jw_q);
+  memcpy(out->jtl_q, row.jtl_q, BAUM_I_PLANAR_COLUMNS * BAUM_I_PLANAR_COLUMNS * sizeof *row.jtl_q);
+  memcpy(out->gamma_q, row.gamma_q, BAUM_I_PLANAR_COLUMNS * sizeof *row.gamma_q);
+  memcpy(out->gamma_v, row.gamma_v, BAUM_I_PLANAR_COLUMNS * sizeof *row.gamma_v);
 }
 
 /* ---- members of types ---- */

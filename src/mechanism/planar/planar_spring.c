@@ -200,17 +200,20 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
     double v[6];
     baum_i_planar_velocities(&point->frames[span->bodies[0]], &point->frames[span->bodies[1]], v);
     set_force_q(&s, &t, v, six);
-    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six, blocks->force_q + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six,
+                               blocks->force_q + element->square);
   }
   if (blocks->force_v) {
     set_force_v(&s, &t, six);
-    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six, blocks->force_v + element->square);
+    baum_i_columns_pack_square(point->mechanism, span, BAUM_I_PLANE, six,
+                               blocks->force_v + element->square);
   }
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_force *element = given;
   spring s = spring_at(element, point);
   baum_i_spring_law law = law_of(element, point);
   return s.length == 0.0
@@ -223,14 +226,14 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_planar_spring_def),
                  .fields = fields,
                  .check = baum_i_planar_check_apart,
-                 .parameter_count = PARAMETER_COUNT},
+                 .parameter_count = PARAMETER_COUNT,
+                 .check_derivatives = check_derivatives},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, planar_spring, type)

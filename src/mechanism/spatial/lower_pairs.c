@@ -73,9 +73,7 @@ static void normalize(double x[3])
 static baum_status lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 double *parameters)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  return baum_i_spatial_points(mechanism, joint->element.def,
-                               baum_i_label(&joint->element, label), parameters);
+  return baum_i_spatial_points(mechanism, &joint->element, parameters);
 }
 
 /* An axis in ground axes where the joint is given by `point`, else in those of its body, becomes

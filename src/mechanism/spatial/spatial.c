@@ -140,15 +140,14 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: point is (%g, %g, %g) m, must be at the particle %s, whose design "
                      "position is (%g, %g, %g) m",
-                     label, point[0], point[1], point[2],
-                     baum_i_label(&body->element, text), frame.r[0], frame.r[1],
-                     frame.r[2]);
+                     label, point[0], point[1], point[2], baum_i_label(&body->element, text),
+                     frame.r[0], frame.r[1], frame.r[2]);
 }
 
-baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const void *def,
-                                  const char *label, double s[6])
+baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_element *element,
+                                  double s[6])
 {
-  const baum_i_spatial_head *head = def;
+  const baum_i_spatial_head *head = element->def;
   if (!baum_i_spatial_is_given(head->point)) {
     memcpy(s, head->point_a, sizeof head->point_a);
     memcpy(s + 3, head->point_b, sizeof head->point_b);
@@ -156,6 +155,8 @@ baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const void *d
   }
   int a = baum_i_body_index(mechanism, head->body_a);
   int b = baum_i_body_index(mechanism, head->body_b);
+  char label[BAUM_I_LABEL_SIZE];
+  (void)baum_i_label(element, label);
   BAUM_I_TRY(place_on(mechanism, a, head->point, label, s));
   return place_on(mechanism, b, head->point, label, s + 3);
 }

@@ -12,15 +12,6 @@
 #include "base/rotation.h"
 #include "mechanism/general/columns.h"
 
-/* ---- frames ---- */
-
-/* Frame of a body at its q, and its v or NULL for rest; that of ground for kinds without a place. */
-baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
-                                             const double *v);
-
-/* Frame of a body in the design configuration, at rest. Valid before freeze. */
-baum_i_spatial_frame baum_i_spatial_design_frame(const baum_mechanism *mechanism, int body);
-
 /* ---- definitions ---- */
 
 /* The fields that every joint and spring begins with. */
@@ -50,10 +41,10 @@ baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_b
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
-/* Points of a checked head on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point` away
+/* Points of a checked element on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point` away
  * from it: BAUM_ERR_ARGUMENT. */
-baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const void *def,
-                                  const char *label, double s[6]);
+baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_element *element,
+                                  double s[6]);
 
 /* Include the points of a joint's definition; the `extent` of types. */
 void baum_i_spatial_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,

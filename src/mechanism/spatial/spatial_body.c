@@ -88,9 +88,10 @@ static baum_status check_inertia(const baum_spatial_body_def *def, const char *l
   matrix_of(def->inertia, matrix);
   principal(matrix, m);
   if (!(m[0] > SMALLEST_MOMENT * m[2])) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "%s: inertia has the principal moments %g, %g and %g kg m^2, all must be > 0",
-                       label, m[0], m[1], m[2]);
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: inertia has the principal moments %g, %g and %g kg m^2, all must be > 0", label, m[0],
+      m[1], m[2]);
   }
   if (!(m[2] - m[1] <= m[0] + ROUNDING * m[2])) {
     return baum_i_fail(BAUM_ERR_ARGUMENT,

@@ -32,24 +32,23 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
                          double *parameters)
 {
   const baum_spatial_distance_def *def = joint->element.def;
-  char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_label(&joint->element, label);
-  BAUM_I_TRY(baum_i_spatial_points(mechanism, def, label, parameters));
+  BAUM_I_TRY(baum_i_spatial_points(mechanism, &joint->element, parameters));
   parameters[LENGTH] = isnan(def->length)
                          ? baum_i_spatial_design_length(mechanism, &joint->span, parameters)
                          : def->length;
-  return parameters[LENGTH] > 0.0
-           ? BAUM_OK
-           : baum_i_fail(
-               BAUM_ERR_ARGUMENT,
-               "%s: length is not given and is 0 m in the design configuration, must be > 0",
-               label);
+  if (!(parameters[LENGTH] > 0.0)) {
+    char label[BAUM_I_LABEL_SIZE];
+    return baum_i_fail(
+      BAUM_ERR_ARGUMENT,
+      "%s: length is not given and is 0 m in the design configuration, must be > 0",
+      baum_i_label(&joint->element, label));
+  }
+  return BAUM_OK;
 }
 
 /* ---- evaluation ---- */
 
-static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
-                         const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
   const double *numbers = point->parameters + joint->element.parameter;
   const baum_i_spatial_pair pair = baum_i_spatial_pair_at(&joint->span, numbers, false, point);
@@ -67,15 +66,7 @@ static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
       square.gradient[i] *= 0.5 / length;
     }
     baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, square.gradient,
-                        out->jacobian + joint->jacobian);
-  }
-}
-
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    evaluate_one(group->joints[i], point, out);
+                            out->jacobian + joint->jacobian);
   }
   return BAUM_OK;
 }
@@ -85,18 +76,8 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
 {
   const double *numbers = point->parameters + joint->element.parameter;
   const baum_i_spatial_pair pair = baum_i_spatial_pair_at(&joint->span, numbers, false, point);
-  double scale = 0.5 / numbers[LENGTH];
-  baum_i_spatial_second second;
-  baum_i_spatial_second_of(&pair, SQUARE, &second);
-  baum_i_spatial_put_row(joint, point, &second, 0, scale, w, blocks);
-  if (blocks->jtl_q) {
-    double factor = lambda ? scale * lambda[joint->row] : 0.0;
-    for (int i = 0; i < BAUM_I_PAIR_COLUMNS * BAUM_I_PAIR_COLUMNS; i++) {
-      second.columns_q[i] *= factor;
-    }
-    baum_i_columns_pack_square(point->mechanism, &joint->span, BAUM_I_SPACE, second.columns_q,
-                               blocks->jtl_q + joint->square);
-  }
+  baum_i_spatial_linearize_rows(joint, point, &pair, &SQUARE, 0.5 / numbers[LENGTH], w, lambda,
+                                blocks);
   return BAUM_OK;
 }
 
@@ -118,7 +99,8 @@ static const baum_i_joint_type type = {
   .row_count = 1,
   .lower = lower,
   .extent = baum_i_spatial_extent,
-  .evaluate = evaluate,
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .linearize = linearize,
   .place = place,
 };

@@ -19,8 +19,8 @@ static baum_i_spatial_pair pair_at(const baum_i_joint *joint, const baum_i_point
 
 /* ---- rows ---- */
 
-static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
-                         const baum_i_rows *out)
+baum_status baum_i_spatial_evaluate(const baum_i_joint *joint, baum_i_point *point,
+                                    const baum_i_rows *out)
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);
   for (int i = 0; i < joint->rows; i++) {
@@ -34,16 +34,8 @@ static void evaluate_one(const baum_i_joint *joint, const baum_i_point *point,
     }
     if (out->jacobian) {
       baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, row.gradient,
-                          out->jacobian + joint->jacobian + (ptrdiff_t)i * joint->span.nl);
+                              out->jacobian + joint->jacobian + (ptrdiff_t)i * joint->span.nl);
     }
-  }
-}
-
-baum_status baum_i_spatial_evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                                    const baum_i_rows *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    evaluate_one(group->joints[i], point, out);
   }
   return BAUM_OK;
 }
@@ -53,18 +45,7 @@ baum_status baum_i_spatial_linearize(const baum_i_joint *joint, baum_i_point *po
                                      const baum_i_joint_blocks *blocks)
 {
   const baum_i_spatial_pair pair = pair_at(joint, point);
-  double square[COLUMNS * COLUMNS] = {0.0};
-  for (int i = 0; i < joint->rows; i++) {
-    baum_i_spatial_second second;
-    baum_i_spatial_second_of(&pair, type_of(joint)->rows[i], &second);
-    baum_i_spatial_put_row(joint, point, &second, i, 1.0, w, blocks);
-    for (int k = 0; lambda && k < COLUMNS * COLUMNS; k++) {
-      square[k] += lambda[joint->row + i] * second.columns_q[k];
-    }
-  }
-  if (blocks->jtl_q) {
-    baum_i_columns_pack_square(point->mechanism, &joint->span, BAUM_I_SPACE, square, blocks->jtl_q + joint->square);
-  }
+  baum_i_spatial_linearize_rows(joint, point, &pair, type_of(joint)->rows, 1.0, w, lambda, blocks);
   return BAUM_OK;
 }
 

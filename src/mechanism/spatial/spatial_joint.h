@@ -33,7 +33,7 @@ typedef struct baum_i_spatial_axis_head {
 
 /* ---- members of the type struct ---- */
 
-baum_status baum_i_spatial_evaluate(const baum_i_joint_group *group, baum_i_point *point,
+baum_status baum_i_spatial_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                     const baum_i_rows *out);
 baum_status baum_i_spatial_linearize(const baum_i_joint *joint, baum_i_point *point,
                                      const double *w, const double *lambda,
@@ -46,15 +46,15 @@ void baum_i_spatial_coordinate_linearize(const baum_i_joint *joint, const baum_i
                                          const double *w, double lambda,
                                          baum_i_coordinate_blocks *out);
 
-#define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS)                                  \
-  .definition = {.kind = (TITLE),                                                              \
-                 .size = sizeof(baum_##NAME##_def),                                            \
-                 .fields = NAME##_fields,                                                      \
-                 .check = (CHECK),                                                             \
-                 .parameter_count = BAUM_I_SPATIAL_NUMBERS},                                   \
+#define BAUM_I_SPATIAL_JOINT(NAME, TITLE, CHECK, LOWER, ROWS)                        \
+  .definition = {.kind = (TITLE),                                                    \
+                 .size = sizeof(baum_##NAME##_def),                                  \
+                 .fields = NAME##_fields,                                            \
+                 .check = (CHECK),                                                   \
+                 .parameter_count = BAUM_I_SPATIAL_NUMBERS},                         \
   .width = BAUM_I_SPACE, .scleronomic = true, .row_count = (ROWS), .lower = (LOWER), \
-  .extent = baum_i_spatial_extent, .evaluate = baum_i_spatial_evaluate,                        \
-  .linearize = baum_i_spatial_linearize, .place = baum_i_spatial_place,                        \
-  .is_reversed = baum_i_spatial_is_reversed
+  .extent = baum_i_spatial_extent, .evaluate = baum_i_evaluate_each,                 \
+  .evaluate_one = baum_i_spatial_evaluate, .linearize = baum_i_spatial_linearize,    \
+  .place = baum_i_spatial_place, .is_reversed = baum_i_spatial_is_reversed
 
 #endif

@@ -141,8 +141,8 @@ static baum_status power(const baum_i_force *element, baum_i_point *point,
   }
   baum_i_turn_back(l.frame->axes, l.frame->w, w);
   baum_i_cross(l.point, l.force[1], moment);
-  sum[BAUM_I_POWER_LOADS] += baum_i_dot3(l.force[0], l.frame->v) + baum_i_dot3(moment, w) +
-                             baum_i_dot3(l.moment[1], w);
+  sum[BAUM_I_POWER_LOADS] +=
+    baum_i_dot3(l.force[0], l.frame->v) + baum_i_dot3(moment, w) + baum_i_dot3(l.moment[1], w);
   return BAUM_OK;
 }
 
@@ -190,6 +190,7 @@ static const baum_i_force_type type = {
                  .fields = fields,
                  .check = check,
                  .parameter_count = PARAMETER_COUNT},
+  .spatial = true,
   .lower = lower,
   .force = force,
   .potential = potential,

@@ -201,34 +201,32 @@ void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *
   }
 }
 
-static void put(const baum_i_joint *joint, const baum_i_point *point, double factor, int row,
-                const double *wide, double *blocks)
+void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
+                                   const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
+                                   double factor, const double *w, const double *lambda,
+                                   const baum_i_joint_blocks *blocks)
 {
-  double scaled[COLUMNS];
-  for (int i = 0; i < COLUMNS; i++) {
-    scaled[i] = factor * wide[i];
+  double w_wide[COLUMNS];
+  double jw_q[BAUM_I_SPATIAL_ROWS * COLUMNS] = {0.0};
+  double gamma_q[BAUM_I_SPATIAL_ROWS * COLUMNS];
+  double gamma_v[BAUM_I_SPATIAL_ROWS * COLUMNS];
+  double jtl_q[COLUMNS * COLUMNS] = {0.0};
+  baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
+  for (int i = 0; i < joint->rows; i++) {
+    baum_i_spatial_second second;
+    baum_i_spatial_second_of(pair, rows[i], &second);
+    baum_i_spatial_add_jw_q(&second, w_wide, factor, jw_q + (ptrdiff_t)COLUMNS * i);
+    for (int k = 0; k < COLUMNS; k++) {
+      gamma_q[COLUMNS * i + k] = factor * second.gamma_q[k];
+      gamma_v[COLUMNS * i + k] = factor * second.gamma_v[k];
+    }
+    double multiplier = lambda ? factor * lambda[joint->row + i] : 0.0;
+    for (int k = 0; k < COLUMNS * COLUMNS; k++) {
+      jtl_q[k] += multiplier * second.columns_q[k];
+    }
   }
-  baum_i_columns_pack_any(point->mechanism, &joint->span, BAUM_I_SPACE, 1, scaled,
-                          blocks + joint->jacobian + (ptrdiff_t)row * joint->span.nl);
-}
-
-void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_i_point *point,
-                            const baum_i_spatial_second *second, int row, double factor,
-                            const double *w, const baum_i_joint_blocks *blocks)
-{
-  if (blocks->jw_q) {
-    double w_wide[COLUMNS];
-    double wide[COLUMNS] = {0.0};
-    baum_i_columns_gather(point, &joint->span, BAUM_I_SPACE, w, w_wide);
-    baum_i_spatial_add_jw_q(second, w_wide, 1.0, wide);
-    put(joint, point, factor, row, wide, blocks->jw_q);
-  }
-  if (blocks->gamma_q) {
-    put(joint, point, factor, row, second->gamma_q, blocks->gamma_q);
-  }
-  if (blocks->gamma_v) {
-    put(joint, point, factor, row, second->gamma_v, blocks->gamma_v);
-  }
+  const baum_i_joint_blocks wide = {jw_q, jtl_q, gamma_q, gamma_v, NULL};
+  baum_i_columns_pack_blocks(point->mechanism, joint, BAUM_I_SPACE, &wide, blocks);
 }
 
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3])

@@ -86,11 +86,11 @@ void baum_i_spatial_second_of(const baum_i_spatial_pair *pair, baum_i_spatial_ro
 void baum_i_spatial_add_jw_q(const baum_i_spatial_second *second, const double *w, double factor,
                              double *out);
 
-/* Put (J w)_q, gamma_q and gamma_v of one row of a joint, times a factor, where they are wanted;
- * w (nv). */
-void baum_i_spatial_put_row(const baum_i_joint *joint, const baum_i_point *point,
-                            const baum_i_spatial_second *second, int row, double factor,
-                            const double *w, const baum_i_joint_blocks *blocks);
+/* The `linearize` of a joint whose rows are factor times these. */
+void baum_i_spatial_linearize_rows(const baum_i_joint *joint, const baum_i_point *point,
+                                   const baum_i_spatial_pair *pair, const baum_i_spatial_row *rows,
+                                   double factor, const double *w, const double *lambda,
+                                   const baum_i_joint_blocks *blocks);
 
 /* body_b's point in ground axes. */
 void baum_i_spatial_place_of(const baum_i_spatial_pair *pair, double at[3]);

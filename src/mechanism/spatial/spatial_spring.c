@@ -51,9 +51,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
                          double *parameters)
 {
   const baum_spatial_spring_def *def = force->element.def;
-  char label[BAUM_I_LABEL_SIZE];
-  BAUM_I_TRY(baum_i_spatial_points(mechanism, def, baum_i_label(&force->element, label),
-                                   parameters));
+  BAUM_I_TRY(baum_i_spatial_points(mechanism, &force->element, parameters));
   double *numbers = parameters + LAW;
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
   numbers[BAUM_I_DAMPING] = def->damping;
@@ -154,15 +152,17 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   }
   const baum_mechanism *m = point->mechanism;
   if (blocks->force_q) {
-    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_q, blocks->force_q + element->square);
+    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_q,
+                               blocks->force_q + element->square);
   }
   if (blocks->force_v) {
-    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_v, blocks->force_v + element->square);
+    baum_i_columns_pack_square(m, &element->span, BAUM_I_SPACE, force_v,
+                               blocks->force_v + element->square);
   }
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
   const spring s = spring_at(element, point);
   return s.length == 0.0
@@ -175,14 +175,16 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_spatial_spring_def),
                  .fields = fields,
                  .check = check,
-                 .parameter_count = PARAMETER_COUNT},
+                 .parameter_count = PARAMETER_COUNT,
+                 .check_derivatives = check_derivatives},
+  .spatial = true,
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
+
 };
 
 BAUM_I_DEFINE(force, spatial_spring, type)

@@ -1,0 +1,303 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Every derivative of every spatial element between bodies of all kinds, against differences along
+ * the configuration manifold. */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "check.h"
+#include "derivatives.h"
+
+#include <baum/baum.h>
+
+enum { BODIES = 6, STATES = 4 };
+
+/* Ground, two spatial bodies, a spatial particle, a planar body and a planar particle. */
+typedef struct scene {
+  baum_mechanism *mechanism;
+  baum_body_id bodies[BODIES];
+} scene;
+
+static bool is_particle(int body)
+{
+  return body == 3 || body == 5;
+}
+
+static baum_body_id add_body(baum_mechanism *m, double x, double inertia)
+{
+  baum_body_id id;
+  baum_spatial_body_def def = baum_spatial_body_def_default();
+  const double tensor[6] = {inertia, 1.4, 1.1, 0.1, -0.2, 0.05};
+  memcpy(def.inertia, tensor, sizeof tensor);
+  def.mass = 2.0;
+  def.position[0] = x;
+  def.position[2] = 0.4;
+  def.orientation[0] = 0.8;
+  def.orientation[2] = 0.6;
+  check(baum_mechanism_add_spatial_body(m, &def, &id));
+  return id;
+}
+
+static scene make(void)
+{
+  scene s = {.bodies = {BAUM_GROUND}};
+  check(baum_mechanism_create(&s.mechanism));
+  s.bodies[1] = add_body(s.mechanism, 0.3, 1.0);
+  s.bodies[2] = add_body(s.mechanism, -0.7, 1.3);
+  baum_spatial_particle_def ball = baum_spatial_particle_def_default();
+  ball.position[1] = 1.0;
+  check(baum_mechanism_add_spatial_particle(s.mechanism, &ball, &s.bodies[3]));
+  baum_planar_body_def link = baum_planar_body_def_default();
+  link.angle = 0.3;
+  check(baum_mechanism_add_planar_body(s.mechanism, &link, &s.bodies[4]));
+  baum_planar_particle_def bead = baum_planar_particle_def_default();
+  bead.position[0] = -1.0;
+  check(baum_mechanism_add_planar_particle(s.mechanism, &bead, &s.bodies[5]));
+  return s;
+}
+
+/* ---- what is added between two bodies ---- */
+
+#define BETWEEN(S, DEF, A, B)                                             \
+  do {                                                                    \
+    static const double at[2][3] = {{0.3, -0.2, 0.5}, {-0.1, 0.4, 0.25}}; \
+    memset((DEF).point_a, 0, sizeof(DEF).point_a);                        \
+    memset((DEF).point_b, 0, sizeof(DEF).point_b);                        \
+    (DEF).body_a = (S)->bodies[A];                                        \
+    (DEF).body_b = (S)->bodies[B];                                        \
+    if (!is_particle(A)) {                                                \
+      memcpy((DEF).point_a, at[0], sizeof at[0]);                         \
+    }                                                                     \
+    if (!is_particle(B)) {                                                \
+      memcpy((DEF).point_b, at[1], sizeof at[1]);                         \
+    }                                                                     \
+  } while (0)
+
+#define ADD_POINTS(NAME)                                                 \
+  static void add_##NAME(scene *s, int a, int b)                         \
+  {                                                                      \
+    baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default(); \
+    BETWEEN(s, def, a, b);                                               \
+    check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
+  }
+
+#define ADD_AXIS(NAME)                                                   \
+  static void add_##NAME(scene *s, int a, int b)                         \
+  {                                                                      \
+    static const double axis[3] = {0.3, -1.0, 0.7};                      \
+    baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default(); \
+    BETWEEN(s, def, a, b);                                               \
+    memcpy(def.axis, axis, sizeof axis);                                 \
+    check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
+  }
+
+#define ADD_AXES(NAME)                                                   \
+  static void add_##NAME(scene *s, int a, int b)                         \
+  {                                                                      \
+    static const double axis[3] = {0.3, -1.0, 0.7};                      \
+    static const double axis_b[3] = {-0.2, 0.5, 0.9};                    \
+    baum_spatial_##NAME##_def def = baum_spatial_##NAME##_def_default(); \
+    BETWEEN(s, def, a, b);                                               \
+    memcpy(def.axis, axis, sizeof axis);                                 \
+    memcpy(def.axis_b, axis_b, sizeof axis_b);                           \
+    check(baum_mechanism_add_spatial_##NAME(s->mechanism, &def, NULL));  \
+  }
+
+ADD_POINTS(spherical)
+ADD_AXES(revolute)
+ADD_AXES(universal)
+ADD_AXES(cylindrical)
+ADD_AXES(prismatic)
+ADD_AXES(planar)
+ADD_POINTS(fixed)
+ADD_POINTS(distance)
+ADD_AXIS(point_on_line)
+ADD_AXIS(point_on_plane)
+
+static void add_spring(scene *s, int a, int b)
+{
+  baum_spatial_spring_def def = baum_spatial_spring_def_default();
+  BETWEEN(s, def, a, b);
+  def.stiffness = 3.0;
+  def.damping = 0.7;
+  def.free_length = 0.4;
+  check(baum_mechanism_add_spatial_spring(s->mechanism, &def, NULL));
+}
+
+static void add_load_in(scene *s, int body, bool follows_body)
+{
+  static const double vectors[3][3] = {{0.2, 0.1, -0.3}, {1.0, -2.0, 0.5}, {0.3, 0.8, -0.6}};
+  baum_spatial_load_def def = baum_spatial_load_def_default();
+  def.body = s->bodies[body];
+  if (!is_particle(body)) {
+    memcpy(def.point, vectors[0], sizeof def.point);
+    memcpy(def.moment, vectors[2], sizeof def.moment);
+    def.follows_body = follows_body;
+  }
+  memcpy(def.force, vectors[1], sizeof def.force);
+  check(baum_mechanism_add_spatial_load(s->mechanism, &def, NULL));
+}
+
+static void add_load(scene *s, int a, int b)
+{
+  (void)b;
+  if (a != 0) {
+    add_load_in(s, a, false);
+    add_load_in(s, a, true);
+  }
+}
+
+typedef struct element {
+  const char *name;
+  void (*add)(scene *s, int a, int b);
+  bool particle_a, particle_b; /* may be */
+  bool coordinate;
+  bool force;
+} element;
+
+static const element elements[] = {
+  {"spherical", add_spherical, true, true, false, false},
+  {"revolute", add_revolute, false, false, true, false},
+  {"universal", add_universal, false, false, false, false},
+  {"cylindrical", add_cylindrical, false, false, true, false},
+  {"prismatic", add_prismatic, false, false, true, false},
+  {"planar", add_planar, false, false, false, false},
+  {"fixed", add_fixed, false, false, false, false},
+  {"distance", add_distance, true, true, false, false},
+  {"point on line", add_point_on_line, false, true, true, false},
+  {"point on plane", add_point_on_plane, false, true, false, false},
+  {"spring", add_spring, true, true, false, true},
+  {"load", add_load, true, true, false, true},
+};
+
+/* ---- checks ---- */
+
+static void check_bodies(test_point *p)
+{
+  double force_v[TEST_SIZE_MAX * TEST_SIZE_MAX] = {0.0};
+  double force_q[TEST_SIZE_MAX * TEST_SIZE_MAX] = {0.0};
+  double ma_q[TEST_SIZE_MAX * TEST_SIZE_MAX] = {0.0};
+  double a[TEST_SIZE_MAX] = {0.0};
+  const baum_i_body_blocks blocks = {.ma_q = ma_q, .force_q = force_q, .force_v = force_v};
+  check(baum_i_mechanism_linearize_bodies(&p->point, a, &blocks));
+  for (int k = 1; k <= 2; k++) {
+    const baum_i_body *body = p->mechanism->bodies[k];
+    for (int j = 0; j < 6; j++) {
+      static const double step = 1e-3; /* the moment is quadratic: no truncation */
+      double f[2][TEST_SIZE_MAX];
+      for (int side = 0; side < 2; side++) {
+        double v = p->v[body->v + j];
+        p->v[body->v + j] = v + (side == 0 ? -step : step);
+        test_point_update(p);
+        check(baum_i_mechanism_force(&p->point, f[side]));
+        p->v[body->v + j] = v;
+      }
+      test_point_update(p);
+      for (int i = 0; i < 6; i++) {
+        double slope = (f[1][body->v + i] - f[0][body->v + i]) / (2.0 * step);
+        assert_true(fabs(force_v[body->mass + 6 * i + j] - slope) <= 1e-9 * (1.0 + fabs(slope)));
+      }
+    }
+  }
+}
+
+static void check_pair(const element *e, int a, int b)
+{
+  scene s = make();
+  e->add(&s, a, b);
+  if (!e->force) {
+    e->add(&s, 1, 0);
+  }
+  test_point p;
+  test_point_open(&p, s.mechanism);
+  uint64_t seed = 11;
+  for (int i = 0; i < STATES; i++) {
+    test_point_random(&p, &seed);
+    if (e->force) {
+      check_force_derivatives(&p);
+    } else {
+      check_joint_derivatives(&p);
+    }
+    if (e->coordinate) {
+      check_coordinate_derivatives(&p);
+    }
+  }
+  test_point_close(&p);
+}
+
+static void derivatives_agree_with_differences(void **state)
+{
+  (void)state;
+  for (size_t k = 0; k < sizeof elements / sizeof *elements; k++) {
+    for (int a = 0; a < BODIES; a++) {
+      for (int b = 0; b < BODIES; b++) {
+        const element *e = &elements[k];
+        bool fine =
+          a != b && (e->particle_a || !is_particle(a)) && (e->particle_b || !is_particle(b));
+        if (fine && (a == 1 || b == 1 || a == 4 || b == 4)) {
+          check_pair(e, a, b);
+        }
+      }
+    }
+  }
+}
+
+static void gyroscopic_moments_agree_with_differences(void **state)
+{
+  (void)state;
+  scene s = make();
+  test_point p;
+  test_point_open(&p, s.mechanism);
+  uint64_t seed = 5;
+  for (int i = 0; i < STATES; i++) {
+    test_point_random(&p, &seed);
+    check_bodies(&p);
+  }
+  test_point_close(&p);
+}
+
+/* N, move and difference belong together. */
+static void the_manifold_is_consistent(void **state)
+{
+  (void)state;
+  scene s = make();
+  test_point p;
+  test_point_open(&p, s.mechanism);
+  uint64_t seed = 3;
+  const baum_i_body *body = s.mechanism->bodies[1];
+  for (int i = 0; i < STATES; i++) {
+    static const double h = 1e-4;
+    double rate[7];
+    double q[2][7];
+    double dx[6];
+    test_point_random(&p, &seed);
+    body->manifold->rate(body, p.q + body->q, p.v + body->v, rate);
+    for (int side = 0; side < 2; side++) {
+      memcpy(q[side], p.q + body->q, sizeof q[side]);
+      body->manifold->move(body, side == 0 ? -h : h, p.v + body->v, q[side]);
+    }
+    body->manifold->difference(body, p.q + body->q, q[1], dx);
+    for (int k = 0; k < 7; k++) {
+      assert_true(fabs((q[1][k] - q[0][k]) / (2.0 * h) - rate[k]) < 1e-6);
+    }
+    for (int k = 0; k < 6; k++) {
+      assert_true(fabs(dx[k] - h * p.v[body->v + k]) < 1e-15 * 8.0);
+    }
+  }
+  test_point_close(&p);
+}
+
+int main(void)
+{
+  const struct CMUnitTest tests[] = {
+    cmocka_unit_test(derivatives_agree_with_differences),
+    cmocka_unit_test(gyroscopic_moments_agree_with_differences),
+    cmocka_unit_test(the_manifold_is_consistent),
+  };
+  return cmocka_run_group_tests(tests, NULL, NULL);
+}
