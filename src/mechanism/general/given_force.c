@@ -55,6 +55,18 @@ baum_status baum_i_given_force_potential(const baum_i_given_force *given, const 
   return BAUM_OK;
 }
 
+baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
+                                     double *sum)
+{
+  baum_i_local here = *at;
+  double *value = baum_i_take(&here, at->nl);
+  BAUM_I_TRY(baum_i_given_force_at(given, &here, value));
+  for (int j = 0; j < at->nl; j++) {
+    *sum += value[j] * at->v[j];
+  }
+  return BAUM_OK;
+}
+
 static baum_status check_block(const baum_i_given_force *given, const baum_i_local *at,
                                baum_i_variable variable)
 {

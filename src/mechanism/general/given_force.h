@@ -34,9 +34,11 @@ baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_
 baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
                                      baum_i_variable variable, double *out);
 
-/* Adds to *sum. */
+/* Add to *sum. */
 baum_status baum_i_given_force_potential(const baum_i_given_force *given, const baum_i_local *at,
                                          double *sum);
+baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
+                                     double *sum);
 
 /* Compare the derivatives that are given with differences; the `check` of types. */
 baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);
