@@ -97,7 +97,7 @@ static void say_most_joined(const baum_mechanism *m, baum_report *report)
 {
   if (report->most_joints > 0) {
     char label[BAUM_I_LABEL_SIZE];
-    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, "body", label);
+    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, label);
     say(report, "; %s has most joints, %d", label, report->most_joints);
   }
 }

@@ -25,6 +25,7 @@
 
 /* What all elements have; first member of each. */
 typedef struct baum_i_element {
+  const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
   void *def;     /* own copy; its name points to `name` or is NULL */
   char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */

@@ -114,12 +114,7 @@ static const baum_coordinates_def *def_of(const baum_i_body *body)
 static baum_i_user_function function(const baum_i_body *body, const char *name, int row_count,
                                      int cols)
 {
-  return (baum_i_user_function){.element = &body->element,
-                                .family = "body",
-                                .name = name,
-                                .rows = row_count,
-                                .cols = cols,
-                                .user = def_of(body)->user};
+  return (baum_i_user_function){&body->element, name, row_count, cols, def_of(body)->user};
 }
 
 static baum_status mass_at(const baum_i_body *body, const baum_i_local *at, double *out)
@@ -130,7 +125,7 @@ static baum_status mass_at(const baum_i_body *body, const baum_i_local *at, doub
 
 static baum_i_given_force given_force(const baum_i_body *body)
 {
-  return BAUM_I_GIVEN_FORCE(&body->element, "body", def_of(body));
+  return BAUM_I_GIVEN_FORCE(&body->element, def_of(body));
 }
 
 /* ---- evaluation ---- */
@@ -274,7 +269,7 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
         return baum_i_fail(BAUM_ERR_ARGUMENT,
                            "%s: mass()[%d][%d] is %.9g but mass()[%d][%d] is %.9g; must be "
                            "symmetric",
-                           baum_i_label(&body->element, "body", label), i, j, a, j, i, b);
+                           baum_i_label(&body->element, label), i, j, a, j, i, b);
       }
     }
   }

@@ -9,12 +9,7 @@ static const char *const names[2] = {
 static baum_i_user_function function(const baum_i_given_force *given, const char *name, int rows,
                                      int cols)
 {
-  return (baum_i_user_function){.element = given->element,
-                                .family = given->family,
-                                .name = name,
-                                .rows = rows,
-                                .cols = cols,
-                                .user = given->user};
+  return (baum_i_user_function){given->element, name, rows, cols, given->user};
 }
 
 baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,

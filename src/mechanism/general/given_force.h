@@ -9,7 +9,6 @@
 
 typedef struct baum_i_given_force {
   const baum_i_element *element;
-  const char *family;
   baum_force_fn *force;
   baum_force_fn *by[2]; /* derivatives by q and by v, as baum_i_variable; or NULL */
   baum_q_fn *potential; /* or NULL */
@@ -18,9 +17,8 @@ typedef struct baum_i_given_force {
 } baum_i_given_force;
 
 /* Of a definition that has members of these names. */
-#define BAUM_I_GIVEN_FORCE(ELEMENT, FAMILY, DEF)                           \
+#define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
-                        .family = (FAMILY),                                \
                         .force = (DEF)->force,                             \
                         .by = {(DEF)->force_q, (DEF)->force_v},            \
                         .potential = (DEF)->potential,                     \

@@ -26,7 +26,7 @@ static bool depends_on_velocity(const void *def)
 static baum_i_given_force given(const baum_i_force *element)
 {
   const baum_user_force_def *def = element->element.def;
-  return BAUM_I_GIVEN_FORCE(&element->element, "force", def);
+  return BAUM_I_GIVEN_FORCE(&element->element, def);
 }
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)

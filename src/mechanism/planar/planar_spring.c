@@ -45,9 +45,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
                          double *parameters)
 {
   const baum_planar_spring_def *def = force->element.def;
-  char label[BAUM_I_LABEL_SIZE];
-  BAUM_I_TRY(baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label),
-                                  parameters));
+  BAUM_I_TRY(baum_i_planar_points(mechanism, &force->element, parameters));
   double *numbers = parameters + LAW;
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
   numbers[BAUM_I_DAMPING] = def->damping;
