@@ -160,12 +160,6 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  return baum_i_driver_evaluate(group, point, motion, out);
-}
-
 static const baum_i_joint_type type = {
   .definition = {.kind = "spline driver",
                  .size = sizeof(baum_spline_driver_def),
@@ -177,9 +171,10 @@ static const baum_i_joint_type type = {
   .planar = true,
   .scleronomic = false,
   .drives = true,
+  .motion = motion,
   .replace_law = baum_i_driver_replace_law,
   .row_count = 1,
-  .evaluate = evaluate,
+  .evaluate = baum_i_driver_evaluate,
   .linearize = baum_i_driver_linearize,
   .place = baum_i_driver_place,
 };

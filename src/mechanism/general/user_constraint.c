@@ -458,8 +458,9 @@ static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at
   return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, &ray, &here);
 }
 
-static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_joint *joint = given;
   baum_i_local at = baum_i_gather(point, &joint->span);
   baum_i_local here = at;
   double *value = baum_i_take(&here, joint->rows);
@@ -472,11 +473,11 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
 static const baum_i_joint_type type = {
   .definition = {.kind = "user constraint",
                  .size = sizeof(baum_user_constraint_def),
-                 .fields = fields},
+                 .fields = fields,
+                 .check_derivatives = check_derivatives},
   .rows = rows,
   .evaluate = evaluate,
   .linearize = linearize,
-  .check = check_derivatives,
   .noise = noise,
 };
 
