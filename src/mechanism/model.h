@@ -306,9 +306,11 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() where evaluate_one() does. */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
+  baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
+                              const baum_i_rows *rows);
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);

@@ -20,6 +20,7 @@
 #include "mechanism/general/columns.h"
 #include "mechanism/general/composed_row.h"
 #include "mechanism/general/coordinate.h"
+#include "mechanism/mechanism.h"
 
 /* Parameters. */
 enum { RATIO, OFFSET, PARAMETER_COUNT };
@@ -160,14 +161,11 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   return BAUM_OK;
 }
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    state s;
-    BAUM_I_TRY(state_at(group->joints[i], point, &s));
-    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-  }
+  state s;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -253,7 +251,8 @@ static const baum_i_joint_type type = {
   .scleronomic = true,
   .row_count = 1,
   .lower = lower,
-  .evaluate = evaluate,
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .linearize = linearize,
 };
 

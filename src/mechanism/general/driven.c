@@ -73,8 +73,8 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
-static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
-                                const baum_i_rows *out)
+baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
+                                   const baum_i_rows *out)
 {
   double s[3] = {0.0};
   if (out->phi || out->nu || out->gamma) {
@@ -95,15 +95,6 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
   }
   if (out->gamma) {
     out->gamma[joint->row] = c.gamma + s[2];
-  }
-  return BAUM_OK;
-}
-
-baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                                   const baum_i_rows *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    BAUM_I_TRY(evaluate_one(group->joints[i], point, out));
   }
   return BAUM_OK;
 }

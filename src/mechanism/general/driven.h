@@ -13,7 +13,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 #define BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 
-#include "mechanism/identify.h"
+#include "mechanism/mechanism.h"
 
 /* The fields that the definition of every driver begins with. */
 typedef struct baum_i_driver_head {
@@ -41,7 +41,12 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- members of the type struct ---- */
 
-baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
+#define BAUM_I_DRIVER_MEMBERS(MOTION)                                                           \
+  .planar = true, .drives = true, .motion = (MOTION), .replace_law = baum_i_driver_replace_law, \
+  .row_count = 1, .evaluate = baum_i_evaluate_each, .evaluate_one = baum_i_driver_evaluate,     \
+  .linearize = baum_i_driver_linearize, .place = baum_i_driver_place
+
+baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
                                    const baum_i_rows *out);
 
 /* Check of the joint alone. */

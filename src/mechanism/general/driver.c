@@ -90,16 +90,8 @@ static const baum_i_joint_type type = {
                  .check = baum_i_driver_check,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS,
                  .check_derivatives = check_derivatives},
-  .planar = true,
-  .scleronomic = false,
-  .drives = true,
-  .motion = law,
-  .replace_law = baum_i_driver_replace_law,
-  .row_count = 1,
+  BAUM_I_DRIVER_MEMBERS(law),
   .lower = lower,
-  .evaluate = baum_i_driver_evaluate,
-  .linearize = baum_i_driver_linearize,
-  .place = baum_i_driver_place,
 };
 
 BAUM_I_DEFINE(joint, driver, type)

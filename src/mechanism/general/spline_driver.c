@@ -168,15 +168,7 @@ static const baum_i_joint_type type = {
                  .own = own,
                  .release = release,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
-  .planar = true,
-  .scleronomic = false,
-  .drives = true,
-  .motion = motion,
-  .replace_law = baum_i_driver_replace_law,
-  .row_count = 1,
-  .evaluate = baum_i_driver_evaluate,
-  .linearize = baum_i_driver_linearize,
-  .place = baum_i_driver_place,
+  BAUM_I_DRIVER_MEMBERS(motion),
 };
 
 BAUM_I_DEFINE(joint, spline_driver, type)

@@ -14,6 +14,7 @@
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
 #include "mechanism/general/composed_row.h"
+#include "mechanism/mechanism.h"
 #include "mechanism/planar/axis_row.h"
 
 /* Of the curve function. */
@@ -92,14 +93,11 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   return BAUM_OK;
 }
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    state s;
-    BAUM_I_TRY(state_at(group->joints[i], point, &s));
-    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-  }
+  state s;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -175,6 +173,8 @@ static const baum_i_joint_type type = {
                                           baum_i_planar_check_axis, 0),
                  .check_derivatives = check_derivatives},
   BAUM_I_PLANAR_MEMBERS(1),
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .lower = baum_i_planar_lower_points,
   .linearize = linearize,
 };

@@ -186,9 +186,10 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)
 #define BAUM_I_PLANAR_MEMBERS(ROWS)                                                         \
   .planar = true, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
-  .evaluate = evaluate, .place = baum_i_planar_place
-#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS) \
-  .definition = {BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)}, BAUM_I_PLANAR_MEMBERS(ROWS)
+  .place = baum_i_planar_place
+#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                 \
+  .definition = {BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)}, .evaluate = evaluate, \
+  BAUM_I_PLANAR_MEMBERS(ROWS)
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
 
