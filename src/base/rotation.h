@@ -19,6 +19,14 @@ static inline void baum_i_cross(const double a[3], const double b[3], double out
   out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+/* y += h x */
+static inline void baum_i_add_scaled3(double h, const double x[3], double y[3])
+{
+  for (int i = 0; i < 3; i++) {
+    y[i] += h * x[i];
+  }
+}
+
 /* out = A s */
 static inline void baum_i_turn(const double axes[9], const double s[3], double out[3])
 {

@@ -206,6 +206,20 @@ static void check_bodies(test_point *p)
   }
 }
 
+/* Off its constraints an angle may be that of a short vector, which no difference follows. */
+static bool is_smooth(const test_point *p)
+{
+  const baum_i_joint *joint = p->mechanism->joints[0];
+  baum_i_coordinate c;
+  joint->type->coordinate(joint, &p->point, &c);
+  for (int i = 0; i < BAUM_I_PAIR_COLUMNS; i++) {
+    if (fabs(c.gradient[i]) > 1.5) {
+      return !joint->type->is_angle;
+    }
+  }
+  return true;
+}
+
 static void check_pair(const element *e, int a, int b)
 {
   scene s = make();
@@ -223,7 +237,7 @@ static void check_pair(const element *e, int a, int b)
     } else {
       check_joint_derivatives(&p);
     }
-    if (e->coordinate) {
+    if (e->coordinate && is_smooth(&p)) {
       check_coordinate_derivatives(&p);
     }
   }

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rigid body in space: q = (r, p), the centre of mass in ground axes and a unit quaternion;
- * v = (r', w), w the angular velocity in body axes.
+/* Bodies in space: particles, q = r and v = r', and rigid bodies, q = (r, p), the centre of mass in
+ * ground axes and a unit quaternion, and v = (r', w), w the angular velocity in body axes.
  *
  *   p' = p o (0, w) / 2
- *   M  = diag(m E, I), constant
- *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I
+ *   M  = diag(m E, I), constant; of a particle m E
+ *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r
  *
  * A displacement (dr, dth) moves p to p o exp(dth), dth in body axes. The difference of two p is the
  * logarithm of p^-1 o p'.
@@ -16,10 +16,9 @@
 #include "base/message.h"
 #include "base/rotation.h"
 #include "mechanism/definition.h"
-#include "mechanism/general/gravity.h"
 
-/* Parameters; the mass is where gravity.c looks for it, the inertia a 3 x 3 matrix. */
-enum { MASS = BAUM_I_GRAVITY_MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
+/* Parameters; the inertia, of rigid bodies alone, is a 3 x 3 matrix. */
+enum { MASS, INERTIA, PARAMETER_COUNT = INERTIA + 9 };
 
 /* Of a quaternion that was typed in. */
 static const double NEAR_UNIT = 1e-6;
@@ -28,7 +27,7 @@ static const double NEAR_UNIT = 1e-6;
 static const double SMALLEST_MOMENT = 1e-12;
 static const double ROUNDING = 1e-9;
 
-static const baum_i_def_field fields[] = {
+static const baum_i_def_field body_fields[] = {
   BAUM_I_NUMBERS(baum_spatial_body_def, mass, POSITIVE, "kg", 1.0),
   BAUM_I_NUMBERS(baum_spatial_body_def, inertia, FINITE, "kg m^2", 1.0, 1.0, 1.0),
   BAUM_I_NUMBERS(baum_spatial_body_def, position, FINITE, "m", 0.0),
@@ -202,7 +201,7 @@ static const baum_i_manifold *manifold(const void *def)
 
 /* ---- evaluation ---- */
 
-static baum_status mass(const baum_i_body_group *group, baum_i_point *point, double *out)
+static baum_status mass_of_bodies(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
@@ -225,6 +224,27 @@ static bool depends_on_velocity(const void *given)
   return x[0] != x[1] || x[1] != x[2] || x[3] != 0.0 || x[4] != 0.0 || x[5] != 0.0;
 }
 
+static double mass_of(const baum_i_body *body, const baum_i_point *point)
+{
+  return point->parameters[body->element.parameter + MASS];
+}
+
+static baum_status force_of_gravity(const baum_i_body_group *group, baum_i_point *point,
+                                    double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_body *body = group->bodies[i];
+    baum_i_add_scaled3(mass_of(body, point), point->mechanism->gravity, out + body->v);
+  }
+  return BAUM_OK;
+}
+
+static baum_status potential(const baum_i_body *body, baum_i_point *point, double *sum)
+{
+  *sum -= mass_of(body, point) * baum_i_dot3(point->mechanism->gravity, point->q + body->q);
+  return BAUM_OK;
+}
+
 static baum_status force(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; point->v && i < group->count; i++) {
@@ -238,7 +258,7 @@ static baum_status force(const baum_i_body_group *group, baum_i_point *point, do
       out[body->v + 3 + k] += moment[k];
     }
   }
-  return baum_i_gravity_force(group, point, out);
+  return force_of_gravity(group, point, out);
 }
 
 /* Column j is (I e_j) x w + (I w) x e_j. */
@@ -268,10 +288,10 @@ static baum_status linearize(const baum_i_body *body, baum_i_point *point, const
   return BAUM_OK;
 }
 
-static const baum_i_body_type type = {
+static const baum_i_body_type body_type = {
   .definition = {.kind = "spatial body",
                  .size = sizeof(baum_spatial_body_def),
-                 .fields = fields,
+                 .fields = body_fields,
                  .check = check,
                  .parameter_count = PARAMETER_COUNT},
   .frame = BAUM_I_FRAME_SPATIAL_BODY,
@@ -284,10 +304,75 @@ static const baum_i_body_type type = {
   .design = design,
   .scale = scale,
   .position_scale = position_scale,
-  .mass = mass,
+  .mass = mass_of_bodies,
   .force = force,
-  .potential = baum_i_gravity_potential,
+  .potential = potential,
   .linearize = linearize,
 };
 
-BAUM_I_DEFINE(body, spatial_body, type)
+BAUM_I_DEFINE(body, spatial_body, body_type)
+
+/* ---- particles ---- */
+
+static const baum_i_def_field particle_fields[] = {
+  BAUM_I_NUMBERS(baum_spatial_particle_def, mass, POSITIVE, "kg", 1.0),
+  BAUM_I_NUMBERS(baum_spatial_particle_def, position, FINITE, "m", 0.0),
+  BAUM_I_OPTIONAL(baum_spatial_particle_def, velocity, FREE, "m/s"),
+  BAUM_I_FIELD(baum_spatial_particle_def, held, START_FLAG),
+  {0},
+};
+
+static void lower_particle(const baum_i_body *body, double *parameters)
+{
+  const baum_spatial_particle_def *def = body->element.def;
+  parameters[MASS] = def->mass;
+}
+
+static void design_particle(const void *given, double *q, double *v, bool *held)
+{
+  const baum_spatial_particle_def *def = given;
+  memcpy(q, def->position, sizeof def->position);
+  memcpy(v, def->velocity, sizeof def->velocity);
+  *held = def->held;
+}
+
+static void scale_particle(const void *def, double length, double *out)
+{
+  (void)def;
+  for (int i = 0; i < 3; i++) {
+    out[i] = length;
+  }
+}
+
+static baum_status mass_of_particles(const baum_i_body_group *group, baum_i_point *point, double *out)
+{
+  for (int i = 0; i < group->count; i++) {
+    const baum_i_body *body = group->bodies[i];
+    double *block = out + body->mass;
+    memset(block, 0, 9 * sizeof *block);
+    for (int k = 0; k < 9; k += 4) {
+      block[k] = mass_of(body, point);
+    }
+  }
+  return BAUM_OK;
+}
+
+static const baum_i_body_type particle_type = {
+  .definition = {.kind = "spatial particle",
+                 .size = sizeof(baum_spatial_particle_def),
+                 .fields = particle_fields,
+                 .parameter_count = 1},
+  .frame = BAUM_I_FRAME_SPATIAL_PARTICLE,
+  .scleronomic = true,
+  .constant_force = true,
+  .nq = 3,
+  .nv = 3,
+  .lower = lower_particle,
+  .design = design_particle,
+  .scale = scale_particle,
+  .mass = mass_of_particles,
+  .force = force_of_gravity,
+  .potential = potential,
+};
+
+BAUM_I_DEFINE(body, spatial_particle, particle_type)
