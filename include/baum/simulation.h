@@ -405,13 +405,13 @@ typedef enum baum_quantity {
   BAUM_PHI = 5,      /**< Constraint violation of `joint`, or of all (nc). */
   BAUM_PHI_RATE = 6, /**< Its derivative J v - nu, of `joint`, or of all (nc). */
   BAUM_ENERGY = 7,   /**< Kinetic and potential energy [J] (2). */
-  /** Planar body: x, y of `point`, angle (3); spatial body: x, y, z of `point`, quaternion (7); else
-   *  its q. */
+  /** Planar body: x, y of `point`, angle (3). Spatial body: x, y, z of `point`, quaternion (7).
+   *  Other bodies: their q. */
   BAUM_BODY_POSE = 8,
-  /** The velocities of BAUM_BODY_POSE; of a spatial body the angular velocity in ground axes (6). */
+  /** The velocities of BAUM_BODY_POSE. Spatial body: the angular velocity in ground axes (6). */
   BAUM_BODY_VELOCITY = 9,
-  /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. User constraints, gears, couplings: -J^T lambda
-   *  on the velocities of their bodies. */
+  /** Force and moment on body_b (3, in space 6), see planar.h and spatial.h. User constraints,
+   *  gears, couplings: -J^T lambda on the velocities of their bodies. */
   BAUM_JOINT_REACTION = 10,
   /** Coordinate of a joint that has one, and joint velocity (2). */
   BAUM_JOINT_COORDINATE = 11,

@@ -2,10 +2,10 @@
 /** @file
  *  Bodies and forces in space.
  *
- *  Axes are right-handed. A spatial body has seven positions, its centre of mass r in ground axes
- *  and a unit quaternion p (Hamilton's convention, w first), which turns body axes into ground axes;
- *  and six velocities, r' in ground axes and the angular velocity in body axes. A particle has three
- *  of each.
+ *  Axes are right-handed. A spatial body has seven positions: its centre of mass r in ground axes,
+ *  and a unit quaternion p (Hamilton's convention, w first) that turns body axes into ground axes.
+ *  It has six velocities: r' in ground axes and the angular velocity in body axes. A particle has
+ *  three of each.
  *
  *  Placing: as in planar.h, by `point` in ground axes, or by `point_a` and `point_b` in the axes of
  *  the bodies. Planar bodies and particles may take part in spatial joints and springs; they stay
@@ -124,8 +124,8 @@ typedef struct baum_spatial_spring_def {
   double free_length;  /**< [m] >= 0. Default: NaN, that of the design configuration. */
   baum_spring_fn *law; /**< Tension [N] instead of the three numbers above. Default: NULL. */
   void *user;          /**< For law. Default: NULL. */
-  bool
-    depends_on_velocity; /**< false where law does not read the rate; rattle needs that. Default: true. */
+  /** false: law does not read the rate, which rattle requires. Default: true. */
+  bool depends_on_velocity;
 } baum_spatial_spring_def;
 
 /** See "Definitions" in mechanism.h. */

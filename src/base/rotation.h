@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Vectors of three, rotation matrices A (by rows) and unit quaternions p in Hamilton's convention, w
- * first. Both turn body axes into ground axes: x = A s. Results never share memory with arguments.
+/* Vectors of three, rotation matrices A (by rows) and unit quaternions p in Hamilton's convention,
+ * w first. Both turn body axes into ground axes: x = A s. Results must not share memory with
+ * arguments.
  */
 #ifndef BAUM_I_BASE_ROTATION_H
 #define BAUM_I_BASE_ROTATION_H

@@ -175,7 +175,8 @@ void baum_i_point_release(baum_i_point *point); /* a zeroed one is fine */
 
 /* ---- spatial/spatial_frames.c ---- */
 
-/* Frame of a body at its q, and its v or NULL for rest; that of ground for kinds without a place. */
+/* Frame of a body at its q, and its v or NULL for rest. Kinds without a place have that of
+ * ground. */
 baum_i_spatial_frame baum_i_spatial_frame_at(baum_i_frame_kind kind, const double *q,
                                              const double *v);
 
@@ -329,7 +330,7 @@ struct baum_i_joint_type {
   /* One row: the coordinate of that joint minus a function of time; NULL: no driver. Its width is
    * that of the joint. */
   const baum_i_joint *(*driven)(const baum_mechanism *mechanism, const void *def);
-  /* Value, rate and acceleration by the law of a driver, at the point's time; failures as in phi. */
+  /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
@@ -340,7 +341,7 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() where evaluate_one() does. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() calls evaluate_one(). */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,

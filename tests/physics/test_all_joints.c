@@ -348,7 +348,7 @@ static double take_off(balance *b, int index)
   double f[SIZE];
   check(
     baum_workspace_reaction(b->workspace, b->p.t, b->p.q, b->lambda, baum_i_joint_id(m, index), f));
-  if (joint->type->width == BAUM_I_PLANE) {
+  if (joint->type->place) {
     double at[3];
     joint->type->place(joint, &b->p.point, at);
     return apply(b, joint->span.bodies[1], at, f, 1.0) +

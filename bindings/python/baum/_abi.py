@@ -800,6 +800,195 @@ class baum_report_form(enum.IntEnum):
     BAUM_REPORT_PAGE = 3
 
 
+class baum_spatial_body_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("mass", c_double),
+        ("inertia", c_double * 6),
+        ("position", c_double * 3),
+        ("orientation", c_double * 4),
+        ("velocity", c_double * 3),
+        ("angular_velocity", c_double * 3),
+        ("held", c_bool),
+    ]
+
+
+class baum_spatial_particle_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("mass", c_double),
+        ("position", c_double * 3),
+        ("velocity", c_double * 3),
+        ("held", c_bool),
+    ]
+
+
+class baum_spatial_spring_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("stiffness", c_double),
+        ("damping", c_double),
+        ("free_length", c_double),
+        ("law", baum_spring_fn),
+        ("user", c_void_p),
+        ("depends_on_velocity", c_bool),
+    ]
+
+
+class baum_spatial_load_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body", baum_body_id),
+        ("point", c_double * 3),
+        ("force", c_double * 3),
+        ("moment", c_double * 3),
+        ("follows_body", c_bool),
+        ("input", baum_input_id),
+    ]
+
+
+class baum_spatial_spherical_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+    ]
+
+
+class baum_spatial_revolute_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+    ]
+
+
+class baum_spatial_universal_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+    ]
+
+
+class baum_spatial_cylindrical_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+    ]
+
+
+class baum_spatial_prismatic_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+    ]
+
+
+class baum_spatial_planar_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+        ("axis_b", c_double * 3),
+    ]
+
+
+class baum_spatial_fixed_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+    ]
+
+
+class baum_spatial_distance_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("length", c_double),
+    ]
+
+
+class baum_spatial_point_on_line_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+    ]
+
+
+class baum_spatial_point_on_plane_def(Structure):
+    _fields_ = [
+        ("struct_size", c_size_t),
+        ("name", c_char_p),
+        ("body_a", baum_body_id),
+        ("body_b", baum_body_id),
+        ("point", c_double * 3),
+        ("point_a", c_double * 3),
+        ("point_b", c_double * 3),
+        ("axis", c_double * 3),
+    ]
+
+
 class baum_spline_driver_def(Structure):
     _fields_ = [
         ("struct_size", c_size_t),
@@ -1258,6 +1447,150 @@ PROTOTYPES = {
     ]),
     "baum_study_write": (c_int, [c_void_p, c_int, c_char_p, c_char_p]),
     "baum_study_print": (c_int, [c_void_p, c_int, c_char_p, c_char_p, c_size_t, POINTER(c_size_t)]),
+    "baum_spatial_body_def_init": (None, [POINTER(baum_spatial_body_def), c_size_t]),
+    "baum_mechanism_add_spatial_body": (c_int, [
+        c_void_p, POINTER(baum_spatial_body_def), POINTER(baum_body_id),
+    ]),
+    "baum_mechanism_get_spatial_body": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_spatial_body_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_body": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_spatial_body_def),
+    ]),
+    "baum_spatial_particle_def_init": (None, [POINTER(baum_spatial_particle_def), c_size_t]),
+    "baum_mechanism_add_spatial_particle": (c_int, [
+        c_void_p, POINTER(baum_spatial_particle_def), POINTER(baum_body_id),
+    ]),
+    "baum_mechanism_get_spatial_particle": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_spatial_particle_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_particle": (c_int, [
+        c_void_p, baum_body_id, POINTER(baum_spatial_particle_def),
+    ]),
+    "baum_spatial_spring_def_init": (None, [POINTER(baum_spatial_spring_def), c_size_t]),
+    "baum_mechanism_add_spatial_spring": (c_int, [
+        c_void_p, POINTER(baum_spatial_spring_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_spatial_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_spring_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_spring": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_spring_def),
+    ]),
+    "baum_spatial_load_def_init": (None, [POINTER(baum_spatial_load_def), c_size_t]),
+    "baum_mechanism_add_spatial_load": (c_int, [
+        c_void_p, POINTER(baum_spatial_load_def), POINTER(baum_force_id),
+    ]),
+    "baum_mechanism_get_spatial_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_load_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_load": (c_int, [
+        c_void_p, baum_force_id, POINTER(baum_spatial_load_def),
+    ]),
+    "baum_spatial_spherical_def_init": (None, [POINTER(baum_spatial_spherical_def), c_size_t]),
+    "baum_mechanism_add_spatial_spherical": (c_int, [
+        c_void_p, POINTER(baum_spatial_spherical_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_spherical": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_spherical_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_spherical": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_spherical_def),
+    ]),
+    "baum_spatial_revolute_def_init": (None, [POINTER(baum_spatial_revolute_def), c_size_t]),
+    "baum_mechanism_add_spatial_revolute": (c_int, [
+        c_void_p, POINTER(baum_spatial_revolute_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_revolute": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_revolute_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_revolute": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_revolute_def),
+    ]),
+    "baum_spatial_universal_def_init": (None, [POINTER(baum_spatial_universal_def), c_size_t]),
+    "baum_mechanism_add_spatial_universal": (c_int, [
+        c_void_p, POINTER(baum_spatial_universal_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_universal": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_universal_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_universal": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_universal_def),
+    ]),
+    "baum_spatial_cylindrical_def_init": (None, [POINTER(baum_spatial_cylindrical_def), c_size_t]),
+    "baum_mechanism_add_spatial_cylindrical": (c_int, [
+        c_void_p, POINTER(baum_spatial_cylindrical_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_cylindrical": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_cylindrical_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_cylindrical": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_cylindrical_def),
+    ]),
+    "baum_spatial_prismatic_def_init": (None, [POINTER(baum_spatial_prismatic_def), c_size_t]),
+    "baum_mechanism_add_spatial_prismatic": (c_int, [
+        c_void_p, POINTER(baum_spatial_prismatic_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_prismatic": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_prismatic_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_prismatic": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_prismatic_def),
+    ]),
+    "baum_spatial_planar_def_init": (None, [POINTER(baum_spatial_planar_def), c_size_t]),
+    "baum_mechanism_add_spatial_planar": (c_int, [
+        c_void_p, POINTER(baum_spatial_planar_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_planar": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_planar_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_planar": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_planar_def),
+    ]),
+    "baum_spatial_fixed_def_init": (None, [POINTER(baum_spatial_fixed_def), c_size_t]),
+    "baum_mechanism_add_spatial_fixed": (c_int, [
+        c_void_p, POINTER(baum_spatial_fixed_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_fixed": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_fixed_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_fixed": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_fixed_def),
+    ]),
+    "baum_spatial_distance_def_init": (None, [POINTER(baum_spatial_distance_def), c_size_t]),
+    "baum_mechanism_add_spatial_distance": (c_int, [
+        c_void_p, POINTER(baum_spatial_distance_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_distance": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_distance_def),
+    ]),
+    "baum_spatial_point_on_line_def_init": (None, [
+        POINTER(baum_spatial_point_on_line_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_point_on_line": (c_int, [
+        c_void_p, POINTER(baum_spatial_point_on_line_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_point_on_line": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_point_on_line": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_line_def),
+    ]),
+    "baum_spatial_point_on_plane_def_init": (None, [
+        POINTER(baum_spatial_point_on_plane_def), c_size_t,
+    ]),
+    "baum_mechanism_add_spatial_point_on_plane": (c_int, [
+        c_void_p, POINTER(baum_spatial_point_on_plane_def), POINTER(baum_joint_id),
+    ]),
+    "baum_mechanism_get_spatial_point_on_plane": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def), c_size_t,
+    ]),
+    "baum_mechanism_set_spatial_point_on_plane": (c_int, [
+        c_void_p, baum_joint_id, POINTER(baum_spatial_point_on_plane_def),
+    ]),
     "baum_spline_driver_def_init": (None, [POINTER(baum_spline_driver_def), c_size_t]),
     "baum_mechanism_add_spline_driver": (c_int, [
         c_void_p, POINTER(baum_spline_driver_def), POINTER(baum_joint_id),
@@ -1315,6 +1648,20 @@ DEFAULTS = {
     baum_planar_curve_def: "baum_planar_curve_def_init",
     baum_study_options: "baum_study_options_init",
     baum_study_grid: "baum_study_grid_init",
+    baum_spatial_body_def: "baum_spatial_body_def_init",
+    baum_spatial_particle_def: "baum_spatial_particle_def_init",
+    baum_spatial_spring_def: "baum_spatial_spring_def_init",
+    baum_spatial_load_def: "baum_spatial_load_def_init",
+    baum_spatial_spherical_def: "baum_spatial_spherical_def_init",
+    baum_spatial_revolute_def: "baum_spatial_revolute_def_init",
+    baum_spatial_universal_def: "baum_spatial_universal_def_init",
+    baum_spatial_cylindrical_def: "baum_spatial_cylindrical_def_init",
+    baum_spatial_prismatic_def: "baum_spatial_prismatic_def_init",
+    baum_spatial_planar_def: "baum_spatial_planar_def_init",
+    baum_spatial_fixed_def: "baum_spatial_fixed_def_init",
+    baum_spatial_distance_def: "baum_spatial_distance_def_init",
+    baum_spatial_point_on_line_def: "baum_spatial_point_on_line_def_init",
+    baum_spatial_point_on_plane_def: "baum_spatial_point_on_plane_def_init",
     baum_spline_driver_def: "baum_spline_driver_def_init",
 }
 
@@ -1360,6 +1707,20 @@ STRUCTS = [
     baum_study_entry,
     baum_study_reference,
     baum_study_method,
+    baum_spatial_body_def,
+    baum_spatial_particle_def,
+    baum_spatial_spring_def,
+    baum_spatial_load_def,
+    baum_spatial_spherical_def,
+    baum_spatial_revolute_def,
+    baum_spatial_universal_def,
+    baum_spatial_cylindrical_def,
+    baum_spatial_prismatic_def,
+    baum_spatial_planar_def,
+    baum_spatial_fixed_def,
+    baum_spatial_distance_def,
+    baum_spatial_point_on_line_def,
+    baum_spatial_point_on_plane_def,
     baum_spline_driver_def,
     baum_catalog_entry,
     baum_catalog_parameter,

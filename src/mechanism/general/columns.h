@@ -82,8 +82,8 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span, int width,
                                 const double *wide, double *packed);
 
-/* Second derivatives of a joint's rows over `width` columns of each body to where they are wanted. nu_q stays zero:
- * no joint with such rows has one. */
+/* Second derivatives of a joint's rows over `width` columns of each body to where they are wanted.
+ * nu_q stays zero: no joint with such rows has one. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 int width, const baum_i_joint_blocks *wide,
                                 const baum_i_joint_blocks *blocks);

@@ -41,8 +41,8 @@ baum_status baum_i_spatial_check_turning(const baum_mechanism *mechanism, baum_b
 baum_status baum_i_spatial_check_head(const baum_mechanism *mechanism, const void *def,
                                       const char *label, bool has_length);
 
-/* Points of a checked element on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point` away
- * from it: BAUM_ERR_ARGUMENT. */
+/* Points of a checked element on both bodies: s[0..2] on a, s[3..5] on b. A particle with `point`
+ * away from it: BAUM_ERR_ARGUMENT. */
 baum_status baum_i_spatial_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                   double s[6]);
 

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies in space: particles, q = r and v = r', and rigid bodies, q = (r, p), the centre of mass in
- * ground axes and a unit quaternion, and v = (r', w), w the angular velocity in body axes.
+/* Bodies in space: particles, q = r and v = r', and rigid bodies, q = (r, p), the centre of mass
+ * in ground axes and a unit quaternion, and v = (r', w), w the angular velocity in body axes.
  *
  *   p' = p o (0, w) / 2
  *   M  = diag(m E, I), constant; of a particle m E
  *   g  = (m gravity, -w x (I w)),   g_w = [I w]x - [w]x I;   V = -m gravity . r
  *
- * A displacement (dr, dth) moves p to p o exp(dth), dth in body axes. The difference of two p is the
- * logarithm of p^-1 o p'.
+ * A displacement (dr, dth) moves p to p o exp(dth), dth in body axes. The difference of two p is
+ * the logarithm of p^-1 o p'.
  */
 #include <string.h>
 
@@ -201,7 +201,7 @@ static const baum_i_manifold *manifold(const void *def)
 
 /* ---- evaluation ---- */
 
-static baum_status mass_of_bodies(const baum_i_body_group *group, baum_i_point *point, double *out)
+static baum_status body_masses(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
@@ -304,7 +304,7 @@ static const baum_i_body_type body_type = {
   .design = design,
   .scale = scale,
   .position_scale = position_scale,
-  .mass = mass_of_bodies,
+  .mass = body_masses,
   .force = force,
   .potential = potential,
   .linearize = linearize,
@@ -344,7 +344,7 @@ static void scale_particle(const void *def, double length, double *out)
   }
 }
 
-static baum_status mass_of_particles(const baum_i_body_group *group, baum_i_point *point, double *out)
+static baum_status particle_masses(const baum_i_body_group *group, baum_i_point *point, double *out)
 {
   for (int i = 0; i < group->count; i++) {
     const baum_i_body *body = group->bodies[i];
@@ -370,7 +370,7 @@ static const baum_i_body_type particle_type = {
   .lower = lower_particle,
   .design = design_particle,
   .scale = scale_particle,
-  .mass = mass_of_particles,
+  .mass = particle_masses,
   .force = force_of_gravity,
   .potential = potential,
 };
