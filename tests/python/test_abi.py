@@ -29,12 +29,9 @@ def enums():
 
 class Abi(unittest.TestCase):
     def test_generating_it_again_changes_nothing(self):
-        made = generator().generate(ROOT / "include")
-        self.assertEqual(
-            made,
-            Path(_abi.__file__).read_text(encoding="utf-8"),
-            "run bindings/python/tools/generate_abi.py",
-        )
+        for name, made in generator().generate(ROOT / "include").items():
+            text = Path(_abi.__file__).with_name(name).read_text(encoding="utf-8")
+            self.assertEqual(made, text, "run bindings/python/tools/generate_abi.py")
 
     def test_the_generator_refuses_what_it_does_not_know(self):
         tool = generator()
