@@ -25,14 +25,10 @@
 
 #if BAUM_HAVE_SUNDIALS
 
-#include "integrate/ida.h"
-
 #include <math.h>
 #include <string.h>
 
 #include <ida/ida.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include "integrate/ida_newton.h"
 #include "integrate/sundials_driver.h"
@@ -43,8 +39,7 @@ typedef struct ida_run {
   baum_i_sundials sundials;
   N_Vector dy;            /* at the end of the last step */
   N_Vector tested;        /* 1 where the error test looks, else 0 */
-  SUNMatrix dense;        /* of differences */
-  SUNLinearSolver solver; /* what IDA calls: dense, or a front before klu */
+  SUNLinearSolver solver; /* what IDA calls: a front before klu */
   baum_i_sundials_klu klu;
   double linearized; /* [1/s] c of the present matrix */
   baum_i_ida_newton newton;
@@ -128,14 +123,10 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
 
 static baum_residual residual_of(baum_formulation formulation)
 {
-  switch (formulation) {
+  switch ((int)formulation) {
   case BAUM_FORMULATION_GGL: return BAUM_RESIDUAL_GGL;
   case BAUM_FORMULATION_INDEX2: return BAUM_RESIDUAL_INDEX2;
   case BAUM_FORMULATION_INDEX3: return BAUM_RESIDUAL_INDEX3;
-  case BAUM_FORMULATION_BAUMGARTE:
-  case BAUM_FORMULATION_UNSTABILIZED:
-  case BAUM_FORMULATION_PROJECTION:
-  case BAUM_FORMULATION_DEFAULT:
   default: return BAUM_RESIDUAL_INDEX1;
   }
 }
@@ -154,19 +145,13 @@ static double tightest(const ida_run *run, const baum_i_problem *problem)
 }
 
 /* Largest violation as a displacement, over the scale; of velocities, times 1/T. */
-static double violation_of(ida_run *run, const baum_i_problem *problem)
+static double violation_of(const ida_run *run, const baum_i_problem *problem)
 {
-  const baum_workspace *w = problem->workspace;
-  double *displacement = N_VGetArrayPointer(run->newton.displacement);
-  double positions = run->dae.index == BAUM_RESIDUAL_INDEX2 ? 0.0 : 1.0;
-  double largest = 0.0;
-  baum_i_row_displacements(w, displacement);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    double phi = positions * fabs(w->phi[i]) / displacement[i];
-    double rate = fabs(w->phi_rate[i]) / (displacement[i] * problem->rate);
-    largest = fmax(largest, fmax(phi, rate));
-  }
-  return largest;
+  int row = -1;
+  bool index2 = run->dae.index == BAUM_RESIDUAL_INDEX2;
+  double rate = baum_i_row_sizes(problem->workspace, problem->workspace->phi_rate, &row);
+  double phi = index2 ? 0.0 : baum_i_row_sizes(problem->workspace, problem->workspace->phi, &row);
+  return fmax(phi, rate / problem->rate);
 }
 
 /* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first
@@ -247,13 +232,6 @@ static baum_status open_run(baum_i_sundials *sundials)
   run->dae.index = residual_of(sundials->problem->formulation);
   run->newton.index = run->dae.index;
   run->newton.sundials = sundials;
-  return BAUM_OK;
-}
-
-static baum_status open_with_klu(baum_i_sundials *sundials)
-{
-  ida_run *run = (ida_run *)sundials;
-  BAUM_I_TRY(open_run(sundials));
   return baum_i_sundials_klu_open(&run->klu, sundials, run->dae.index);
 }
 
@@ -306,19 +284,6 @@ static int attach_klu(baum_i_sundials *sundials)
   return attached ? attach_newton(run) : IDA_MEM_FAIL;
 }
 
-static int attach_dense(baum_i_sundials *sundials)
-{
-  ida_run *run = (ida_run *)sundials;
-  sunindextype n = N_VGetLength(sundials->y);
-  run->dense = SUNDenseMatrix(n, n, sundials->context);
-  if (run->dense) {
-    run->solver = SUNLinSol_Dense(sundials->y, run->dense, sundials->context);
-  }
-  bool attached =
-    run->solver && IDASetLinearSolver(sundials->memory, run->solver, run->dense) == IDALS_SUCCESS;
-  return attached ? attach_newton(run) : IDA_MEM_FAIL;
-}
-
 static int step(baum_i_sundials *sundials, double target, double *tau)
 {
   N_Vector dy = ((ida_run *)sundials)->dy;
@@ -330,14 +295,12 @@ static void close_run(baum_i_sundials *sundials)
   ida_run *run = (ida_run *)sundials;
   baum_i_ida_newton_close(&run->newton);
   (void)SUNLinSolFree(run->solver);
-  SUNMatDestroy(run->dense);
   baum_i_sundials_klu_close(&run->klu);
 }
 
 static const baum_i_sundials_package PACKAGE = {
   .kind = BAUM_I_SUNDIALS_IDA,
   BAUM_I_SUNDIALS_CALLS(IDA),
-  .run_size = sizeof(ida_run),
   .size = size_of,
   .complete_start = complete_start,
   .create = create_memory,
@@ -351,30 +314,9 @@ static const baum_i_sundials_package PACKAGE = {
 static const baum_i_sundials_method METHOD = {
   .name = "ida",
   .package = &PACKAGE,
-  .open = open_with_klu,
+  .open = open_run,
   .attach = attach_klu,
 };
-
-/* ---- for tests ---- */
-
-baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
-                                               const baum_i_state *start, void **out)
-{
-  static const baum_i_sundials_method DIFFERENCES = {
-    .name = "ida",
-    .package = &PACKAGE,
-    .open = open_run,
-    .attach = attach_dense,
-  };
-  return baum_i_sundials_create(&DIFFERENCES, problem, start, out);
-}
-
-const double *baum_i_ida_multipliers(const void *run)
-{
-  const baum_i_sundials *sundials = run;
-  const baum_mechanism *mechanism = sundials->problem->workspace->mechanism;
-  return N_VGetArrayPointer(sundials->y) + mechanism->nq + mechanism->nv;
-}
 
 #endif
 
@@ -391,6 +333,7 @@ static const baum_integrator IDA = {
   .solves_residuals = true,
 #if BAUM_HAVE_SUNDIALS
   .table = &METHOD,
+  .memory = sizeof(ida_run),
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };

@@ -28,6 +28,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/text.h"
 
 /* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
@@ -76,15 +77,42 @@ bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulatio
 
 const char *baum_formulation_name(baum_formulation formulation)
 {
-  switch (formulation) {
-  case BAUM_FORMULATION_DEFAULT: return "default";
-  case BAUM_FORMULATION_UNSTABILIZED: return "unstabilized";
-  case BAUM_FORMULATION_BAUMGARTE: return "baumgarte";
-  case BAUM_FORMULATION_PROJECTION: return "projection";
-  case BAUM_FORMULATION_INDEX2: return "index2";
-  case BAUM_FORMULATION_GGL: return "ggl";
-  case BAUM_FORMULATION_INDEX3: return "index3";
-  default: return NULL;
+  static const char *const NAMES[] = {
+    [BAUM_FORMULATION_DEFAULT] = "default",     [BAUM_FORMULATION_UNSTABILIZED] = "unstabilized",
+    [BAUM_FORMULATION_BAUMGARTE] = "baumgarte", [BAUM_FORMULATION_PROJECTION] = "projection",
+    [BAUM_FORMULATION_INDEX2] = "index2",       [BAUM_FORMULATION_GGL] = "ggl",
+    [BAUM_FORMULATION_INDEX3] = "index3",
+  };
+  size_t k = (size_t)formulation;
+  return k < sizeof NAMES / sizeof *NAMES ? NAMES[k] : NULL;
+}
+
+/* ---- memory of a run ---- */
+
+baum_status baum_i_integrator_create(const baum_integrator *integrator,
+                                     const baum_i_problem *problem, const baum_i_state *start,
+                                     void **out)
+{
+  *out = NULL;
+  if (!integrator->open) {
+    return BAUM_OK;
+  }
+  void *self = baum_i_alloc(1, integrator->memory);
+  BAUM_I_TRY(baum_i_check_memory(self));
+  baum_status status = integrator->open(self, integrator->table, problem, start);
+  if (status != BAUM_OK) {
+    baum_i_integrator_destroy(integrator, self);
+    return status;
+  }
+  *out = self;
+  return BAUM_OK;
+}
+
+void baum_i_integrator_destroy(const baum_integrator *integrator, void *self)
+{
+  if (self) {
+    integrator->close(self);
+    baum_i_free(self);
   }
 }
 
@@ -162,4 +190,17 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
     double tolerance = problem->rtol * mechanism->scale[i];
     tolerance_v[i] = problem->tolerance_v * (tolerance * rate + problem->atol);
   }
+}
+
+double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row)
+{
+  int nc = workspace->mechanism->nc;
+  double *size = workspace->work_c;
+  double largest = 0.0;
+  baum_i_row_displacements(workspace, size);
+  for (int i = 0; i < nc; i++) {
+    size[i] = fabs(rows[i]) / size[i];
+  }
+  *row = baum_i_largest(size, nc, &largest);
+  return largest;
 }

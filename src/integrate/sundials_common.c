@@ -60,29 +60,20 @@ static int create_context(baum_i_sundials *sundials)
 
 enum { PREFIX = 1 };
 
-/* A vector of SUNDIALS' own making goes its own ways. */
-static N_Vector let_go(N_Vector vector)
-{
-  if (vector) {
-    vector->ops->nvclone = N_VClone_Serial;
-    vector->ops->nvcloneempty = N_VCloneEmpty_Serial;
-    vector->ops->nvdestroy = N_VDestroy_Serial;
-  }
-  return vector;
-}
-
 static N_Vector clone(N_Vector like)
 {
   baum_i_sundials *sundials;
   memcpy(&sundials, N_VGetArrayPointer(like) - PREFIX, sizeof(void *));
   N_Vector vector = baum_i_sundials_vector(sundials);
-  return vector ? vector : let_go(N_VClone_Serial(like));
-}
-
-/* For differences of IDA: a shell around numbers that are not ours. */
-static N_Vector clone_empty(N_Vector like)
-{
-  return let_go(N_VCloneEmpty_Serial(like));
+  if (vector) {
+    return vector;
+  }
+  vector = N_VClone_Serial(like);
+  if (vector) { /* of SUNDIALS' own making */
+    vector->ops->nvclone = N_VClone_Serial;
+    vector->ops->nvdestroy = N_VDestroy_Serial;
+  }
+  return vector;
 }
 
 static void keep(N_Vector vector)
@@ -94,9 +85,7 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
 {
   size_t stride = (size_t)n + PREFIX;
   sundials->numbers = baum_i_alloc(BAUM_I_SUNDIALS_VECTORS * stride, sizeof(double));
-  if (!sundials->numbers) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(sundials->numbers));
   for (size_t k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
     double *numbers = sundials->numbers + k * stride + PREFIX;
     memcpy(numbers - PREFIX, &sundials, sizeof(void *));
@@ -105,7 +94,6 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
       return baum_i_fail_memory();
     }
     vector->ops->nvclone = clone;
-    vector->ops->nvcloneempty = clone_empty;
     vector->ops->nvdestroy = keep;
     sundials->vectors[k] = vector;
   }
@@ -140,13 +128,6 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 
 /* ---- evaluations ---- */
 
-/* The flag `retry` says something after these two failures only. */
-static bool may_retry(const baum_i_sundials *sundials, baum_status status)
-{
-  return (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) &&
-         sundials->problem->workspace->point.retry;
-}
-
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {
@@ -155,7 +136,9 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
-  sundials->stopped = !may_retry(sundials, status);
+  /* The flag `retry` says something after these two failures only. */
+  bool may_retry = status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
+  sundials->stopped = !(may_retry && sundials->problem->workspace->point.retry);
   return sundials->stopped ? -1 : 1;
 }
 

@@ -16,8 +16,6 @@
 #include <cvode/cvode.h>
 #include <ida/ida.h>
 
-#include "base/alloc.h"
-
 /* ---- messages ---- */
 
 /* Flags by package, 0 where it has none; what they mean, and advice. */
@@ -96,17 +94,6 @@ static baum_status fail_in_step(const baum_i_sundials *run, int flag)
   double step = 0.0;
   (void)run->method->package->get_step(run->memory, &step);
   return fail(run, flag, step);
-}
-
-baum_status baum_i_sundials_explain_flag(baum_i_sundials_kind kind, int flag)
-{
-  const baum_i_sundials_package package = {.kind = kind};
-  const baum_i_sundials_method method = {
-    .name = kind == BAUM_I_SUNDIALS_IDA ? "ida" : "cvode",
-    .package = &package,
-  };
-  const baum_i_sundials run = {.method = &method};
-  return fail(&run, flag, 1e-3);
 }
 
 /* ---- start and restart ---- */
@@ -194,18 +181,13 @@ static void give_stop(baum_i_sundials *run)
   }
 }
 
-/* First steps may be lost in the rounding of a late t as long as that is fine beside the motion. */
-static bool has_moved(const baum_i_sundials *run, double before, double after)
-{
-  double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
-  bool shows = run->origin + after != run->t;
-  return shows || (after != before && rounding <= 1e-4);
-}
-
 /* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  if (has_moved(run, before, after)) {
+  /* First steps may be lost in the rounding of a late t as long as that is fine beside the
+   * motion. */
+  double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
+  if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;
   }
   if (run->evaluation != BAUM_OK) {
@@ -294,31 +276,23 @@ static int start_sundials(baum_i_sundials *run)
     return package->kind == BAUM_I_SUNDIALS_IDA ? IDA_MEM_FAIL : CV_MEM_FAIL;
   }
   int flag = package->set_complain ? package->set_complain(run->memory, complain, run) : 0;
-  if (flag == 0) {
-    flag = package->set_user(run->memory, run);
-  }
-  if (flag == 0) {
-    flag = package->init(run);
-  }
-  if (flag == 0) {
-    flag = package->set_weigh(run->memory, package->weigh);
-  }
-  if (flag == 0) {
-    flag = run->method->attach(run);
-  }
-  if (flag == 0 && isfinite(max_step)) {
-    flag = package->set_max_step(run->memory, max_step);
-  }
+  flag = flag ? flag : package->set_user(run->memory, run);
+  flag = flag ? flag : package->init(run);
+  flag = flag ? flag : package->set_weigh(run->memory, package->weigh);
+  flag = flag ? flag : run->method->attach(run);
+  flag = flag || isinf(max_step) ? flag : package->set_max_step(run->memory, max_step);
   return flag;
 }
 
-static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
-                          const baum_i_state *start)
+baum_status baum_i_sundials_open_run(void *self, const void *table, const baum_i_problem *problem,
+                                     const baum_i_state *start)
 {
+  baum_i_sundials *run = self;
+  run->method = table;
+  run->problem = problem;
   BAUM_I_TRY(baum_i_sundials_open(run, run->method->package->size(problem)));
   run->y = baum_i_sundials_vector(run);
   run->inside = baum_i_sundials_vector(run);
-  run->problem = problem;
   if (run->method->open) {
     BAUM_I_TRY(run->method->open(run));
   }
@@ -328,34 +302,12 @@ static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
   return flag == 0 ? BAUM_OK : fail(run, flag, 0.0);
 }
 
-baum_status baum_i_sundials_create(const void *method, const baum_i_problem *problem,
-                                   const baum_i_state *start, void **out)
-{
-  *out = NULL;
-  const baum_i_sundials_method *of = method;
-  baum_i_sundials *run = baum_i_alloc(1, of->package->run_size);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
-  run->method = of;
-  baum_status status = set_up(run, problem, start);
-  if (status != BAUM_OK) {
-    baum_i_sundials_destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
-}
-
-void baum_i_sundials_destroy(void *self)
+void baum_i_sundials_close_run(void *self)
 {
   baum_i_sundials *run = self;
-  if (run) {
-    run->method->package->destroy(&run->memory);
-    run->method->package->close(run);
-    baum_i_sundials_close(run);
-    baum_i_free(run);
-  }
+  run->method->package->destroy(&run->memory);
+  run->method->package->close(run);
+  baum_i_sundials_close(run);
 }
 
 #endif

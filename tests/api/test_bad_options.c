@@ -66,7 +66,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   }
   o = good_options();
   check_refused(NULL, &o, BAUM_ERR_ARGUMENT, "baum_simulation_create: the mechanism is NULL");
-  check_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options are NULL");
+  check_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options is NULL");
   ASSERT_SAYS(baum_simulation_create(parts.mechanism, &o, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   baum_mechanism *copy = NULL;
   assert_int_equal(baum_mechanism_copy(parts.mechanism, &copy), BAUM_OK);
@@ -89,10 +89,10 @@ static const bad_option bad_options[] = {
   {false, OPTION(step), 0.0, "step is 0 s, must be finite and > 0"},
   {false, OPTION(step), -1e-3, "step is -0.001 s, must be finite and > 0"},
   {false, OPTION(step), (double)INFINITY, "step is inf s, must be finite and > 0"},
-  {false, OPTION(step), (double)NAN, "step is not given|euler has a fixed step"},
+  {false, OPTION(step), (double)NAN, "step is not given|euler needs it"},
   {false, OPTION(rtol), 1e-6, "rtol is 1e-06, but euler has a fixed step"},
   {false, OPTION(atol), 1e-9, "atol is 1e-09, but euler has a fixed step"},
-  {false, OPTION(max_step), 0.1, "max_step is 0.1, but euler has a fixed step"},
+  {false, OPTION(max_step), 0.1, "max_step is 0.1 s, but euler has a fixed step"},
   {false, OPTION(tolerance_q), 2.0, "tolerance_q is 2, but euler takes no tolerance here"},
   {false, OPTION(tolerance_v), (double)NAN, "tolerance_v is nan, but euler takes no tolerance"},
   {true, OPTION(max_step), 0.0, "max_step is 0 s, must be > 0"},
