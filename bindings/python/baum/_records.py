@@ -15,14 +15,14 @@ class Mobility(NamedTuple):
     """What a mechanism can do at its assembled initial configuration.
 
     degrees_of_freedom: [-] nv - rank of J at nearby configurations; -1: cannot be assembled.
-    redundant_rows: [-] rows that depend on others at every nearby pose.
+    redundant_rows: [-] rows that depend on others at every nearby configuration.
     conflicting_rows: [-] rows that cannot be met together with the others.
     free_bodies: [-] bodies without a joint.
-    near_singular: The start configuration has fewer independent rows than its neighbours, or
-        comes within 1e-5 of that, relative to the scales.
+    near_singular: The initial configuration has fewer independent rows than its neighbours, or
+        is within 1e-5 of one that has, relative to the scales.
     worst_phi: [m or rad] largest |Phi| after assembly.
     worst_joint: Joint of worst_phi.
-    text: The same in messages, by name.
+    text: The same as a message that names the elements.
     """
 
     degrees_of_freedom: int
@@ -40,24 +40,24 @@ class Report(NamedTuple):
 
     bodies: [-] without ground.
     joints: [-] with drivers and user constraints.
-    forces: [-] gravity not among them.
+    forces: [-] without gravity.
     velocities: [-] nv.
     rows: [-] nc.
     degrees_of_freedom: [-] nv - rank of J; -1: not known, see mobility().
-    redundant_rows: [-] left out of every solution.
-    constant_rows: [-] without time derivatives, for they are not of time.
-    islands: [-] of bodies that joints hold together, fixed ones left out.
-    fixed_bodies: [-] welded to ground: solved for where multipliers are wanted.
-    constant_mass: Masses are constant: inverted once.
-    constant_force: So are all forces.
-    blocks: Solved by blocks ("block"); else by KLU.
+    redundant_rows: [-] rows omitted from every solution.
+    constant_rows: [-] rows that do not depend on time.
+    islands: [-] groups of bodies connected by joints, without fixed bodies.
+    fixed_bodies: [-] bodies welded to ground; solved for only if multipliers are wanted.
+    constant_mass: All masses are constant and inverted once.
+    constant_force: All forces are constant.
+    blocks: Solved by blocks ("block"), otherwise by KLU.
     nodes: [-] pairs of rows; 0 for KLU.
-    couplings: [-] of nodes when these are eliminated; 0 for KLU.
-    fill: [-] couplings that no body makes, but elimination; 0 for KLU.
+    couplings: [-] between nodes during elimination; 0 for KLU.
+    fill: [-] couplings that elimination adds; 0 for KLU.
     most_couplings: [-] of one node; 0 for KLU.
     most_joints: [-] of one body that is not fixed.
-    most_joined: That body; none when there are no joints.
-    text: The same in lines, by name, with the reasons.
+    most_joined: That body; none if there are no joints.
+    text: The same as lines of text that name elements and reasons.
     """
 
     bodies: int
@@ -90,8 +90,8 @@ class Counters(NamedTuple):
     rejected: [-] steps that failed an error test or an iteration.
     short_steps: [-] shorter steps of a fixed-step method to a target off its grid.
     evaluations: [-] of (7) or of the residual.
-    factorizations: [-] refactorizations of the matrix in (7) and of IDA's or CVODE's.
-    full_factorizations: [-] of these those that chose new pivots and may allocate.
+    factorizations: [-] refactorizations of the matrix in (7), and of those of IDA and CVODE.
+    full_factorizations: [-] of these, those that chose new pivots and may allocate.
     nonlinear_iterations: [-] of CVODE, IDA, kinematics.
     restarts: [-] of a multistep method.
     near_singular: [-] evaluations in which the matrix was close to singular.
@@ -101,27 +101,29 @@ class Counters(NamedTuple):
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps.
     max_phi_joint: Joint of max_phi.
     max_phi_rate_joint: Joint of max_phi_rate.
-    predicted_phi: [m or rad] (alpha/beta^2) h largest |gamma_i|; NaN: not predicted.
-    predicted_phi_rate: [m/s or rad/s] (h/2) largest |gamma_i|; NaN likewise.
-    energy_change: [J] kinetic, potential since start; of drivers, inputs, dampers too.
-    start_change: [-] largest displacement of the last assembly, of the scale.
+    predicted_phi: [m or rad] (alpha/beta^2) h max |gamma_i|, for both Eulers with stable gains
+        of at least 0.1/h; NaN: not predicted.
+    predicted_phi_rate: [m/s or rad/s] (h/2) max |gamma_i|; NaN likewise.
+    energy_change: [J] change of kinetic and potential energy since the start, including the
+        work of drivers, inputs and dampers.
+    start_change: [-] largest displacement of the last assembly, relative to the scales.
     alpha: [1/s] in use.
     beta: [1/s] in use.
-    spectral_radius: [-] what a step of the gains in use leaves of a violation in the long run;
-        NaN without "baumgarte" or where steps vary.
-    damping: [1/s] effective, -ln(spectral_radius) / h: alpha where gains are small and alpha =
-        beta; infinite for a dead-beat pair, negative where violations grow; NaN likewise.
-    near_singular_intervals: [-] crossings near singular configurations, see near_singular.
-    branch_warnings: [-] of these those behind which the motion is on another branch, or may be.
-    forced_steps: [-] of rk8 and dp5, taken over a singular configuration whatever their error
-        estimate.
-    energy_residual: [J] of the energy account at present: gained or lost by the method itself;
+    spectral_radius: [-] factor by which a step multiplies a violation in the long run; NaN
+        without "baumgarte" and with variable steps.
+    damping: [1/s] effective, -ln(spectral_radius) / h: alpha for small gains with alpha = beta;
+        infinite for dead-beat gains, negative if violations grow; NaN likewise.
+    near_singular_intervals: [-] see near_singular.
+    branch_warnings: [-] of these, those after which the motion is or may be on another branch.
+    forced_steps: [-] steps of rk8 and dp5 across a singular configuration, taken regardless of
+        their error estimate.
+    energy_residual: [J] of the energy account: energy that the method itself has added so far;
         NaN without the option energy_account.
     doubts: [-] kinds of warnings that doubt the motion.
-    error_estimate: [-] largest estimated error of the positions since the start, relative to
-        the characteristic length and to radians; 0 while the local errors of fixed steps are
-        negligible. NaN: not known, as with variable steps without the option error_check, or
-        where the estimate would cost more than the run.
+    error_estimate: [-] largest estimated global error of the positions since the start,
+        relative to the characteristic length and to radians. 0 while the local errors of fixed
+        steps are negligible. NaN if unknown: with variable steps without the option
+        error_check, or if the estimate would cost more than the run.
     """
 
     steps: int
@@ -159,20 +161,20 @@ class EnergyAccount(NamedTuple):
     """Where the energy of a run has come from.
 
     kinetic: [J] v^T M v / 2 at present.
-    potential: [J] of gravity, linear springs, constant loads and as users say.
-    start: [J] kinetic and potential at the start.
-    loads: [J] of loads with an input or a torque, or that follow their body.
-    springs: [J] of springs with a law of the user.
+    potential: [J] of gravity, linear springs, constant loads and user potentials.
+    start: [J] kinetic plus potential at the start.
+    loads: [J] of loads with an input or a torque, and of those that follow their body.
+    springs: [J] of springs with a user law.
     dampers: [J] of the damping of linear springs.
     user_forces: [J] of user forces, without the change of their potential.
-    bodies: [J] of the forces of user coordinates, without the change of their potential, and
-        v^T M' v / 2 of theirs: 0 where these are Lagrange's.
+    bodies: [J] of the forces of user coordinates, without the change of their potential, plus
+        v^T M' v / 2 of theirs; 0 if the force has the velocity terms of Lagrange's equations.
     drivers: [J] -nu^T lambda: of drivers and other rows that depend on time.
-    violation: [J] -Phi'^T lambda: of rows whose Phi' is not 0.
+    violation: [J] -Phi'^T lambda: of rows with Phi' not 0.
     projection: [J] changes of kinetic and potential energy by projections.
-    gains: [J] what the gains have done, a part of drivers and violation: not to be added.
-    residual: [J] kinetic + potential - start - all works but gains.
-    evaluations: [-] of (5) and (7) for the account, which counters leave out.
+    gains: [J] work of the gains; a part of drivers and violation, do not add it.
+    residual: [J] kinetic + potential - start - all works except gains.
+    evaluations: [-] of (5) and (7) for the account; the counters exclude them.
     """
 
     kinetic: float
@@ -196,14 +198,14 @@ class NearSingular(NamedTuple):
     or "unknown". The joint is a handle or None, and a name after unpickling.
 
     begin: [s] last step before it.
-    end: [s] first step behind it.
-    t: [s] of the smallest pivot, between steps too.
-    pivot: [-] smallest of the motion, of the usual one; also between steps.
-    jump: [-] change of the velocity against the smooth continuation of the motion before, of
-        its size; NaN: not known.
-    jump_error: [-] estimated error of jump; NaN likewise.
-    branch: What has become of the motion.
-    joint: With the smallest pivot; none where it is not known.
+    end: [s] first step after it.
+    t: [s] time of the smallest pivot, also between steps.
+    pivot: [-] smallest pivot, relative to the usual one; also between steps.
+    jump: [-] difference of the velocity from the smooth continuation of the earlier motion,
+        relative to its size; NaN: unknown.
+    jump_error: [-] estimated error of jump; NaN: unknown.
+    branch: How the motion continues.
+    joint: With the smallest pivot; none if unknown.
     """
 
     begin: float
@@ -220,45 +222,45 @@ class StudyEntry(NamedTuple):
     """What a setting costs and how accurate it is; NaN: not known.
 
     name: Such as "rk8 projection, rtol 1e-06".
-    message: Why it is refused or failed, else its first warning, else "".
+    message: Why it is refused or failed, or its first warning, or "".
     integrator: Of the options.
-    formulation: The one it stands for, not "default".
+    formulation: The actual one, never "default".
     gains: Of the options.
-    step: [s] NaN: it goes by rtol.
-    rtol: [-] NaN: it goes by step.
-    method: See methods.
+    step: [s] NaN for entries with rtol.
+    rtol: [-] NaN for entries with a step.
+    method: [-] see methods.
     state: done, refused, failed, timed_out or waiting
     status: of its run
-    at_floor: error is the uncertainty of the reference, as good as it gets
-    untrusted: the reference is not to be trusted, so errors are not either
+    at_floor: error is at the uncertainty of the reference
+    untrusted: the reference is not trusted, so the errors are not either
     off: another motion: error_q above 0.1, or a branch warning
     unstable: its gains do not damp with this step
-    alpha: [1/s] of the gains that the run used, whatever their rule; 0: none
-    beta: [1/s] likewise
-    error: [-] what the study calls error, see error
+    alpha: [1/s] of the gains in use; 0: none
+    beta: [1/s] of the gains in use; 0: none
+    error: [-] as defined by error
     error_final: [-] error at the last sample
-    error_half: [-] error over the first half of the samples: how errors grow
-    error_q: [-] of positions, by the scales
+    error_half: [-] error over the first half of the samples
+    error_q: [-] of positions, relative to the scales
     error_q_final: [-] of positions at the last sample
-    error_v: [-] of velocities, by the scales and the largest scaled velocity
+    error_v: [-] of velocities, relative to scales and largest velocity
     error_v_final: [-] of velocities at the last sample
     error_lambda: [-] of multipliers, times the displacement of their rows
     error_lambda_final: [-] of multipliers at the last sample
     energy_error: [J] drift of energy against the reference
     energy_error_final: [J] drift of energy at the last sample
     error_estimate: [-] as in counters
-    error_validated: [-] over twice the span and from starts nearby; see below
+    error_validated: [-] over twice the span and from perturbed starts
     max_phi: [m or rad] largest constraint violation |Phi| over all steps
     max_phi_rate: [m/s or rad/s] largest |Phi'| over all steps
-    violation_work: [J] work of constraint forces, see energy_account
-    projection_work: [J] energy that projections have changed, likewise
-    gains_work: [J] work of the stabilization, likewise
-    work: [evaluations] the same on every machine: "work"
-    cpu: [s] least CPU time of a run from its making to its end, without samples
-    cpu_spread: [s] second least CPU time less the least
+    violation_work: [J] work of violated constraints, see energy_account
+    projection_work: [J] change of energy by projections
+    gains_work: [J] work of the gains, see energy_account
+    work: [evaluations] see "work"; the same on every machine
+    cpu: [s] least CPU time of a run with its creation, without samples
+    cpu_spread: [s] second least CPU time minus the least
     repeats: [-] runs for the CPU time
-    evaluations: [-] right-hand sides or residuals, without those of samples
-    factorizations: [-] of matrices, likewise
+    evaluations: [-] right-hand sides or residuals, without samples
+    factorizations: [-] of matrices, without samples
     nonlinear_iterations: [-] of implicit methods
     steps: [-] accepted
     rejected: [-] steps that were repeated
@@ -326,14 +328,14 @@ class StudyMethod(NamedTuple):
     integrator: Of its entries.
     formulation: Of its entries.
     gains: Of its entries.
-    fixed_step: Of steps rather than tolerances.
-    entries: [-] it has.
-    usable: [-] of these those that are done and not `off`.
-    least_error: [-] that it reaches; NaN when none is usable.
-    slope: [-] d log error / d log step or rtol where errors fall; NaN: not known.
-    work_per_digit: [-] factor on work for one more digit; NaN likewise.
-    cpu_per_digit: [-] factor on CPU time for one more digit; NaN likewise.
-    growth: [-] error_validated over error of its entries, on geometric average; NaN: none was
+    fixed_step: Entries differ in step, not in rtol.
+    entries: [-] number of entries.
+    usable: [-] of these, those that are done and not `off`.
+    least_error: [-] the smallest error of its entries; NaN if none is usable.
+    slope: [-] d log error / d log step or rtol where errors fall; NaN: unknown.
+    work_per_digit: [-] factor on work for one more digit; NaN: unknown.
+    cpu_per_digit: [-] factor on CPU time for one more digit; NaN: unknown.
+    growth: [-] geometric mean of error_validated / error over its entries; NaN if none was
         validated to the end.
     """
 
@@ -354,16 +356,17 @@ class StudyMethod(NamedTuple):
 class StudyReference(NamedTuple):
     """How far the reference of a study can be trusted.
 
-    origin: Whose.
-    trusted: Own: its runs agree to three digits or more and met no singular configuration.
-    digits: [-] trusted digits, -log10(uncertainty); NaN before it is made.
+    origin: Where it comes from.
+    trusted: False if the study's own reference runs agree to fewer than three digits or met a
+        singular configuration.
+    digits: [-] trusted digits, -log10(uncertainty); NaN before it is computed.
     uncertainty: [-] of error.
     uncertainty_q: [-] of error_q.
     uncertainty_v: [-] of error_v.
     uncertainty_lambda: [-] of error_lambda.
     uncertainty_energy: [J] of energy_error.
     samples: [-] number of samples.
-    text: Who agrees with whom to how many digits, or why it is not to be trusted.
+    text: Which runs agree to how many digits, or why it is not trusted.
     """
 
     origin: str
@@ -383,10 +386,10 @@ class CatalogParameter(NamedTuple):
 
     name: Such as "eccentricity".
     unit: Such as "kg m^2"; "-" for a pure number.
-    meaning: In words.
-    value: [unit] default.
+    meaning: What it is.
+    value: [unit] the default.
     positive: Must be > 0.
-    whole: Must be a whole number.
+    whole: Must be an integer.
     """
 
     name: str
@@ -401,19 +404,19 @@ class CatalogEntry(NamedTuple):
     """A mechanism of the catalogue.
 
     name: Such as "slider_crank".
-    title: In words.
+    title: Name for people.
     source: Where its data come from.
-    provenance: How its reference was made and checked; "" without one.
+    provenance: How its reference was made and checked; "" without reference.
     note: What to know before running it; may be "".
     parameter_count: [-] see baum.catalog.parameter_at().
-    sample_count: [-] of the reference, that of the start among them; 0: none.
-    start_time: [s]
-    end_time: [s] of the reference, and of the problem as it is posed.
-    digits_q: [-] of positions of the reference that can be trusted, relative to max(1, |q|);
-        NaN without one.
-    digits_v: [-] likewise of velocities.
-    exact: The reference is formulas.
-    smooth: Stays away from singular configurations with the default parameters.
+    sample_count: [-] of the reference, including the start; 0: no reference.
+    start_time: [s] of the reference and of the problem.
+    end_time: [s] of the reference and of the problem.
+    digits_q: [-] trusted digits of positions of the reference, relative to max(1, |q|); NaN
+        without reference.
+    digits_v: [-] the same for velocities.
+    exact: The reference consists of formulas.
+    smooth: With default parameters it stays away from singular configurations.
     parameters: Its parameters by name.
     """
 
@@ -436,14 +439,14 @@ class CatalogEntry(NamedTuple):
 class CatalogError(NamedTuple):
     """How far a run is from the reference of the catalogue.
 
-    q: [-] largest of positions over all times; NaN where a state is not finite.
-    v: [-] largest of velocities, likewise; NaN also when they were not given.
+    q: [-] largest of positions over all times; NaN if a state is not finite.
+    v: [-] largest of velocities; NaN likewise, and if they were not given.
     q_final: [-] of positions at the last time.
     v_final: [-] of velocities at the last time.
     q_time: [s] of the largest error of positions.
     v_time: [s] of the largest error of velocities.
     q_floor: [-] what the trusted digits mean for positions.
-    v_floor: [-] likewise for velocities.
+    v_floor: [-] the same for velocities.
     """
 
     q: float

@@ -177,9 +177,13 @@ def split(text):
 def field_comments(text, struct):
     """What a header says of the fields of a struct, by name."""
     body = re.search(rf"typedef struct {struct} \{{(.*?)\n\}} {struct};", text, flags=re.S)[1]
-    said = dict(re.findall(r"(\w+)(?:\[\w+\])*;\s*/\*\*<(.*?)\*/", body, flags=re.S))
-    for name in re.findall(r"(\w+_LIST)\(BAUM_X\)", body):
-        lines = re.search(rf"#define {name}\(X\)(.*?)\n\n", text, flags=re.S)[1]
+    body = re.sub(r"\n\s*\*(?!/)", "\n", body)
+    name = r"(\w+)(?:\[\w+\])*;"
+    said = dict(re.findall(name + r"\s*/\*\*<(.*?)\*/", body, flags=re.S))
+    before = re.findall(r"/\*\*(?!<)((?:(?!\*/).)*)\*/[^;#/]*?" + name, body, flags=re.S)
+    said.update((field, comment) for comment, field in before)
+    for entries in re.findall(r"(\w+_LIST)\(BAUM_X\)", body):
+        lines = re.search(rf"#define {entries}\(X\)(.*?)\n\n", text, flags=re.S)[1]
         for line in re.findall(r'X\(((?:[^()"]|"[^"]*")*)\)', lines):
             _, field, _, unit, meaning = next(csv.reader([line], skipinitialspace=True))
             said[field] = f"[{'-' if unit == '1' else unit}] {meaning}" if unit else meaning
