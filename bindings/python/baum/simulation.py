@@ -8,9 +8,20 @@ import functools
 import inspect
 import math
 import time
-from typing import TYPE_CHECKING, Any, Callable, Iterable, Mapping, Sequence, TypeVar, Union
+from typing import (
+    TYPE_CHECKING,
+    Any,
+    Callable,
+    Iterable,
+    Mapping,
+    Sequence,
+    TypeVar,
+    Union,
+    overload,
+)
 
 import numpy as np
+from numpy.typing import NDArray
 
 from . import _abi, _calls
 from ._lib import default, lib, text
@@ -562,7 +573,13 @@ class Simulation(_calls.Closing):
         place = function(self._owner.address)
         return np.array((ctypes.c_double * size).from_address(place))
 
-    def get(self, *channels: ChannelLike) -> Any:
+    @overload
+    def get(self, channel: ChannelLike, /) -> Array: ...
+    @overload
+    def get(
+        self, one: ChannelLike, two: ChannelLike, /, *more: ChannelLike
+    ) -> tuple[Array, ...]: ...
+    def get(self, *channels: ChannelLike) -> Array | tuple[Array, ...]:
         """Channels at the present state: an array (columns) for one channel, a tuple of arrays for
         several. Raises KeyError for a channel that does not exist."""
         found = [self.mechanism.channel(channel) for channel in channels]
@@ -579,7 +596,7 @@ class Simulation(_calls.Closing):
         return self._layouts[key]
 
     @property
-    def unique_multipliers(self) -> Any:
+    def unique_multipliers(self) -> NDArray[np.bool_]:
         """Which multipliers are unique at the present state: one bool per constraint row (nc)."""
         unique = (ctypes.c_bool * self.mechanism.sizes.nc)()
         self._call(lib.baum_simulation_unique_multipliers, unique)

@@ -236,6 +236,8 @@ class Study(_calls.Closing):
     def _set_error(self, error: ChannelLike | Sequence[ChannelLike], unit: Scalar) -> None:
         given = [error] if isinstance(error, (str, Channel)) else error
         structs = [self.mechanism.channel(channel).struct for channel in given]
+        if not structs:
+            raise ValueError("error: one channel or several are wanted, not none")
         channels = (_abi.baum_channel * len(structs))(*structs)
         self._owner.call(lib.baum_study_set_error, channels, len(structs), number(unit, "unit"))
 
