@@ -34,7 +34,8 @@ stage_types() {
   settings=bindings/python/pyproject.toml
   "$venv/bin/ruff" format --quiet --check --diff --config $settings bindings/python examples
   "$venv/bin/ruff" check --quiet --config $settings bindings/python examples
-  "$venv/bin/mypy" --strict --config-file $settings bindings/python/baum examples/*.py
+  "$venv/bin/mypy" --strict --config-file $settings bindings/python/baum examples/*.py \
+    tests/python/hints.py
   "$venv/bin/pyright" --project $settings --pythonpath "$venv/bin/python"
 }
 
