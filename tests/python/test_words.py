@@ -31,6 +31,10 @@ class Table(unittest.TestCase):
         ):
             self.assertEqual(in_python(text), said)
 
+    def test_all_integrators_are_known(self):
+        for name in baum.integrators():
+            self.assertEqual(in_python(f"use baum_{name}()"), f'use "{name}"')
+
     def test_names_of_the_user_are_kept(self):
         text = 'body "baum_rk4": mass of "NULL" and "row_count"'
         self.assertEqual(in_python(text), text)

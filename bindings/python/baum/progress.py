@@ -14,8 +14,8 @@ BAR = 20  # characters
 
 
 def stream() -> TextIO | None:
-    """Where somebody watches: standard output of a notebook, standard error of a terminal; or
-    None."""
+    """Where progress is shown: standard output of a notebook, standard error of a terminal; None
+    elsewhere."""
     ipython: Any = sys.modules.get("IPython")
     shell = ipython and ipython.get_ipython()
     if shell is not None and hasattr(shell, "kernel"):
