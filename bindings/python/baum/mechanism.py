@@ -38,6 +38,7 @@ class Sizes(NamedTuple):
 
 
 class Mobility(_records.Mobility):
+    __doc__ = f"{_records.Mobility.__doc__}"
     __slots__ = ()
 
     def __str__(self) -> str:
@@ -45,6 +46,7 @@ class Mobility(_records.Mobility):
 
 
 class Report(_records.Report):
+    __doc__ = f"{_records.Report.__doc__}"
     __slots__ = ()
 
     def __str__(self) -> str:
