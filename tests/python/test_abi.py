@@ -44,6 +44,11 @@ class Abi(unittest.TestCase):
             with self.assertRaisesRegex(SystemExit, "not understood"):
                 tool.translate(declaration, tool.Writer())
 
+    def test_a_result_without_a_comment_is_refused(self):
+        text = "typedef struct baum_mobility {\n  int32_t rows; /* of J */\n} baum_mobility;"
+        with self.assertRaisesRegex(SystemExit, "no comment on rows of baum_mobility"):
+            generator().record(text, "baum_mobility", [("rows", "c_int32")])
+
     @unittest.skipUnless(CC, "no C compiler")
     def test_sizes_offsets_and_values_are_those_of_c(self):
         lines = []

@@ -230,8 +230,9 @@ class Simulation(_calls.Closing):
     error_check: estimate the error of the motion by a second integration
         (counters.error_estimate), and warn if it is large. Fixed steps are checked in any case
         where the error may matter.
-    progress: True shows a bar in a terminal or a notebook. A function progress(t) is called every
-        progress_interval seconds of wall time, and cancels the run if it returns a true value.
+    progress: True shows a bar in a terminal or a notebook, except for step(), whose end is unknown.
+        A function progress(t) is called every progress_interval seconds of wall time, and cancels
+        the run if it returns a true value.
 
     Warnings of the run become Python warnings: subclasses of baum.Warning, and of
     baum.DoubtWarning if the motion may be wrong.

@@ -187,14 +187,11 @@ def field_comments(text, struct):
         for line in re.findall(r'X\(((?:[^()"]|"[^"]*")*)\)', lines):
             _, field, _, unit, meaning = next(csv.reader([line], skipinitialspace=True))
             said[field] = f"[{'-' if unit == '1' else unit}] {meaning}" if unit else meaning
-    return {
-        name: " ".join(in_python(" ".join(comment.split())).split())
-        for name, comment in said.items()
-    }
+    return {field: in_python(" ".join(comment.split())) for field, comment in said.items()}
 
 
 def record(text, struct, fields):
-    """A struct as a class of named tuples; its size is left out."""
+    """A struct as a class of named tuples, without its size."""
     comments = field_comments(text, struct)
     types = {
         field: WORDS.get(field) or PYTHON[re.match(r"[a-z_0-9]+", spelled)[0]]
@@ -202,6 +199,9 @@ def record(text, struct, fields):
     }
     for field, kind, comment in ADDED.get(struct, ()):
         types[field], comments[field] = kind, comment
+    missing = types.keys() - comments.keys()
+    if missing:
+        raise SystemExit(f"not understood: no comment on {', '.join(sorted(missing))} of {struct}")
     name = "".join(word.capitalize() for word in struct.split("_")[1:])
     said = textwrap.wrap(f'"""{RECORDS[struct]}', WIDTH - 4)
     lines = [f"\n\nclass {name}(NamedTuple):", *(f"    {line}" for line in said), ""]
