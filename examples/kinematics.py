@@ -1,15 +1,16 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A shaper's quick-return motion by kinematics: its motor leaves no freedom, so that every configuration
-follows from the constraints alone, and the torque of the motor from the accelerations.
+"""A shaper's quick-return motion by kinematics. Its motor leaves no degree of freedom, so every
+configuration follows from the constraints alone, and the motor torque from the accelerations.
 
 A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps
 level. With the crank at angle p the ram is at x = H R cos(p) / (D + R sin(p)).
 """
+
 import sys
 
-import numpy as np
-
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 R, D, H = 0.1, 0.25, 0.6  # [m] crank, its shaft and the ram above the pivot of the rocker
@@ -27,8 +28,8 @@ COLUMNS = {
 }
 
 
-def shaper():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
+def shaper() -> baum.Mechanism:
+    """Three bodies in a rough design configuration with the crank at angle 0, for assembly."""
     m = baum.Mechanism()
     crank = m.planar_body("crank", mass=3, inertia=0.02, position=(0, D))
     rocker = m.planar_body("rocker", mass=4, inertia=0.1, position=(0.1, 0.3), angle=1.2)
@@ -43,7 +44,7 @@ def shaper():
     return m.freeze()
 
 
-def ram_at(t):
+def ram_at(t: Array) -> Array:
     """x [m], x' and x'' of the ram, from the closed form."""
     sine, cosine = np.sin(OMEGA * t), np.cos(OMEGA * t)
     height = D + R * sine
@@ -53,13 +54,14 @@ def ram_at(t):
     return np.stack([x, v, a])
 
 
-def turning_times():
+def turning_times() -> Array:
     """When the ram turns round [s]: sin(p) = -R / D; in between it goes back."""
     more = np.arcsin(R / D)
-    return np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    return times
 
 
-def main():
+def main() -> int:
     report = Report("kinematics")
     m = shaper()
     times = np.linspace(0, 2 * np.pi / OMEGA, SAMPLES + 1)
