@@ -28,9 +28,6 @@ void baum_i_free_inputs(baum_mechanism *mechanism);
 /* ---- evaluation of the whole: runs over all groups; arrays as in the types above ---- */
 
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows);
-/* The `evaluate` of types that evaluate joint by joint. */
-baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
-                                 const baum_i_rows *rows);
 /* One of them, all of it set. */
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi);           /* (nc) */
 baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian); /* (jacobian_size) */

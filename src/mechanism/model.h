@@ -295,7 +295,7 @@ struct baum_i_joint_type {
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
   bool drives;      /* one row: the coordinate of another joint minus a function of time */
-  /* Value, rate and acceleration by the law of a driver, at the point's time; failures as in phi. */
+  /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
   baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
@@ -306,7 +306,7 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() where evaluate_one() does. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() calls evaluate_one(). */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
   baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
@@ -332,6 +332,10 @@ struct baum_i_joint_type {
   /* Relative error of derivatives by differences; NULL: none are taken. */
   double (*noise)(const void *def);
 };
+
+/* The `evaluate` of types that evaluate joint by joint. */
+baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
+                                 const baum_i_rows *rows);
 
 struct baum_i_force_type {
   baum_i_definition definition;

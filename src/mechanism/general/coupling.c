@@ -20,7 +20,6 @@
 #include "mechanism/general/columns.h"
 #include "mechanism/general/composed_row.h"
 #include "mechanism/general/coordinate.h"
-#include "mechanism/mechanism.h"
 
 /* Parameters. */
 enum { RATIO, OFFSET, PARAMETER_COUNT };

@@ -13,7 +13,7 @@
 #ifndef BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 #define BAUM_I_MECHANISM_GENERAL_DRIVEN_H
 
-#include "mechanism/mechanism.h"
+#include "mechanism/identify.h"
 
 /* The fields that the definition of every driver begins with. */
 typedef struct baum_i_driver_head {

@@ -26,7 +26,6 @@
 #include "mechanism/general/check.h"
 #include "mechanism/general/difference.h"
 #include "mechanism/general/user_function.h"
-#include "mechanism/mechanism.h"
 
 static const baum_i_def_field fields[] = {
   BAUM_I_ARRAY(baum_user_constraint_def, bodies, BODIES, FINITE, body_count, body_count),

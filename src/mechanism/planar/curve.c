@@ -14,7 +14,6 @@
 #include "mechanism/definition.h"
 #include "mechanism/general/check.h"
 #include "mechanism/general/composed_row.h"
-#include "mechanism/mechanism.h"
 #include "mechanism/planar/axis_row.h"
 
 /* Of the curve function. */

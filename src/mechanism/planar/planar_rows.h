@@ -179,7 +179,7 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
     return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
   }
 
-/* What definitions, and the members of types, of joints of two bodies share; their points come before
+/* What definitions, and members of types, of joints of two bodies share; their points come before
  * OWN numbers. */
 #define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)                                 \
   .kind = (TITLE), .size = sizeof(baum_##NAME##_def), .fields = fields, .check = (CHECK), \
