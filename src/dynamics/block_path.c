@@ -144,6 +144,23 @@ static baum_status arrange_joints(const baum_workspace *w, bool for_motion, baum
   return status;
 }
 
+static baum_status list_omitted_rows(const baum_workspace *w, baum_i_block_path *path)
+{
+  path->omitted = baum_i_alloc((size_t)w->mechanism->nc, sizeof *path->omitted);
+  if (!path->omitted) {
+    return BAUM_ERR_MEMORY;
+  }
+  for (int i = 0; i < w->mechanism->nc && w->rows.count > 0; i++) {
+    if (w->rows.omitted[i]) {
+      const baum_i_joint *joint = w->mechanism->joints[baum_i_row_joint(w->mechanism, i)];
+      int nl = joint->span.nl;
+      path->omitted[path->omitted_count++] =
+        (baum_i_omitted_row){i, joint->jacobian + (i - joint->row) * nl, nl, joint->span.columns};
+    }
+  }
+  return BAUM_OK;
+}
+
 static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
 {
   const baum_mechanism *m = w->mechanism;
@@ -233,6 +250,7 @@ static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict
 {
   BAUM_I_TRY(make_block(w, for_motion, verdict, path));
   BAUM_I_TRY(arrange_joints(w, for_motion, path));
+  BAUM_I_TRY(list_omitted_rows(w, path));
   BAUM_I_TRY(prepare_masses(w, verdict, path));
   BAUM_I_TRY(prepare_forces(w, path));
   path->uneven = is_uneven(path);
@@ -274,6 +292,7 @@ void baum_i_block_path_destroy(baum_i_block_path *path)
   baum_i_free(path->points);
   baum_i_free(path->groups);
   baum_i_free(path->joints);
+  baum_i_free(path->omitted);
   baum_i_free(path->constant_force);
   baum_i_free(path);
 }
@@ -339,19 +358,16 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
-/* Phi' = J v - nu (3) of rows that are left out, which no node sets. */
-static void set_dropped_rates(baum_workspace *w, const double *v)
+/* Phi' = J v - nu (3) of the omitted rows. */
+static void set_omitted_rates(baum_workspace *w, const baum_i_block_path *path, const double *v)
 {
-  const baum_mechanism *m = w->mechanism;
-  for (int i = 0; v && w->rows.count > 0 && i < m->nc; i++) {
-    if (w->rows.omitted[i]) {
-      const baum_i_joint *joint = m->joints[baum_i_row_joint(m, i)];
-      const double *value = w->jacobian + joint->jacobian + (i - joint->row) * joint->span.nl;
-      w->phi_rate[i] = -w->nu[i];
-      for (int c = 0; c < joint->span.nl; c++) {
-        w->phi_rate[i] += value[c] * v[joint->span.columns[c]];
-      }
+  for (int i = 0; v && i < path->omitted_count; i++) {
+    const baum_i_omitted_row *omitted = &path->omitted[i];
+    double rate = -w->nu[omitted->row];
+    for (int c = 0; c < omitted->count; c++) {
+      rate += w->jacobian[omitted->value + c] * v[omitted->columns[c]];
     }
+    w->phi_rate[omitted->row] = rate;
   }
 }
 
@@ -406,7 +422,7 @@ static void set_nodes(baum_workspace *w, const baum_i_block_path *path, const do
                                   .phi_rate = w->phi_rate};
   path->pins_kernel->set(path->block, &pins);
   path->sides_kernel->set(path->block, &rows);
-  set_dropped_rates(w, v);
+  set_omitted_rates(w, path, v);
 }
 
 /* Pivots that are not bad let every refinement gain six digits at least. What weak ones lose a
@@ -468,13 +484,6 @@ static baum_status solve(baum_workspace *w, baum_i_block_path *path, bool last)
   return status;
 }
 
-static void clear_omitted(baum_workspace *w)
-{
-  for (int i = 0; w->rows.count > 0 && i < w->mechanism->nc; i++) {
-    w->lambda[i] = w->rows.omitted[i] ? 0.0 : w->lambda[i];
-  }
-}
-
 /* All that the block wants to know of a state. */
 static baum_status set(baum_workspace *w, const baum_i_block_path *path, double t, const double *q,
                        const double *v, const baum_i_right_side *right)
@@ -511,6 +520,8 @@ baum_status baum_i_block_path_solve(baum_workspace *w, baum_i_block_path *path, 
   /* Positions are projected by several solutions, velocities by one. */
   BAUM_I_TRY(solve(w, path, v && !right->force));
   bool finite = path->kernel->read_motion(path->block, w->a);
-  clear_omitted(w);
+  for (int i = 0; i < path->omitted_count; i++) {
+    w->lambda[path->omitted[i].row] = 0.0;
+  }
   return finite ? BAUM_OK : BAUM_ERR_SINGULAR;
 }

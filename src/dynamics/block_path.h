@@ -12,6 +12,14 @@
 #include "dynamics/pins.h"
 #include "linear/block.h"
 
+/* A row that is omitted: no node of the block sets its rate or multiplier. */
+typedef struct baum_i_omitted_row {
+  int row;
+  int value;          /* where its values begin in J */
+  int count;          /* of them */
+  const int *columns; /* (count) */
+} baum_i_omitted_row;
+
 struct baum_i_block_path {
   baum_i_block *block;
   const baum_i_block_kernel *kernel;
@@ -21,6 +29,8 @@ struct baum_i_block_path {
   int group_count;             /* joints that are not pins of the block */
   baum_i_joint_group *groups;  /* (group_count) */
   const baum_i_joint **joints; /* behind the groups */
+  int omitted_count;
+  baum_i_omitted_row *omitted; /* (omitted_count) */
   double *constant_force;      /* (nv) of the bodies whose force depends on nothing */
   bool force_is_constant;      /* and there is no other */
   bool mass_is_constant;
