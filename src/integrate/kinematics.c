@@ -157,29 +157,26 @@ static double shortest_step(const baum_i_problem *problem, double t)
 
 static const char *label_of(const baum_mechanism *m, int joint, char text[BAUM_I_LABEL_SIZE])
 {
-  memcpy(text, "no joint", sizeof "no joint");
-  return joint >= 0 ? baum_i_joint_label(m, joint, text) : text;
+  return joint >= 0 ? baum_i_joint_label(m, joint, text) : baum_i_row_label(m, -1, text);
 }
 
 static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i_impasse *at)
 {
   char driver[BAUM_I_LABEL_SIZE];
   char resister[BAUM_I_LABEL_SIZE];
-  (void)label_of(m, at->driver, driver);
-  (void)label_of(m, at->resister, resister);
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
       "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than "
       "the other constraints allow, the first of them %s; beyond this time no pose "
       "fulfils them all",
-      t, driver, resister);
+      t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: kinematics: the configuration is singular here and the motion may go on in "
     "more than one way, which shows most in %s; what is driven does not tell which",
-    t, resister);
+    t, label_of(m, at->resister, resister));
 }
 
 /* No step was short enough. */
@@ -206,7 +203,7 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
       BAUM_ERR_CONVERGENCE,
       "t = %.9g s: kinematics: a row of %s that was left out as redundant does not "
       "follow from the others any longer",
-      t, label_of(m, baum_i_row_joint(m, verdict->row), label));
+      t, baum_i_row_label(m, verdict->row, label));
   }
   return baum_i_fail(BAUM_ERR_CONVERGENCE,
                      "t = %.9g s: kinematics: no pose is found close by, however small the step "

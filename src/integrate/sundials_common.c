@@ -85,9 +85,7 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
 {
   size_t stride = (size_t)n + PREFIX;
   sundials->numbers = baum_i_alloc(BAUM_I_SUNDIALS_VECTORS * stride, sizeof(double));
-  if (!sundials->numbers) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(sundials->numbers));
   for (size_t k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
     double *numbers = sundials->numbers + k * stride + PREFIX;
     memcpy(numbers - PREFIX, &sundials, sizeof(void *));

@@ -106,16 +106,9 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 static double violation_at(baum_simulation *run, const baum_i_knot *at)
 {
   baum_workspace *w = run->workspace;
-  double largest = 0.0;
-  if (baum_i_position_stage(w, at->t, at->q) != BAUM_OK) {
-    return (double)INFINITY;
-  }
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    largest = fmax(largest, fabs(w->phi[i]) / distance[i]);
-  }
-  return largest;
+  int row = -1;
+  baum_status status = baum_i_position_stage(w, at->t, at->q);
+  return status == BAUM_OK ? baum_i_row_sizes(w, w->phi, &row) : (double)INFINITY;
 }
 
 /* Largest difference of two positions, over the scales. */

@@ -12,11 +12,6 @@
 /* Of the largest time that the method reckons with: stages must not round to b. */
 static const double ROUNDINGS = 16.0;
 
-static double end_of_last_step(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
-}
-
 /* How far before a break at b its earlier side is. */
 static double gap(const baum_simulation *run, double b)
 {
@@ -69,7 +64,7 @@ baum_i_break baum_i_run_next_break(const baum_simulation *run)
 {
   const breaks of_mechanism = {time_of_mechanism, run->workspace->mechanism->break_count};
   const breaks of_inputs = {time_of_jump, run->schedule.count};
-  double from = end_of_last_step(run);
+  double from = baum_i_run_last_end(run);
   double a = next_of(run, of_mechanism, from);
   double b = next_of(run, of_inputs, from);
   double found = run->problem.direction > 0.0 ? fmin(a, b) : fmax(a, b);
@@ -80,6 +75,6 @@ baum_i_break baum_i_run_next_break(const baum_simulation *run)
 
 bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next)
 {
-  double left = run->problem.direction * (next.near - end_of_last_step(run));
+  double left = run->problem.direction * (next.near - baum_i_run_last_end(run));
   return isfinite(next.near) && left <= gap(run, next.near);
 }

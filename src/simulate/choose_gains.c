@@ -75,10 +75,9 @@ static baum_status check_factor(const baum_simulation *run, int row)
     return BAUM_OK;
   }
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: row_gains[%d], of %s, is %g, must be finite and > 0", row,
-                     label, f);
+                     baum_i_row_label(m, row, label), f);
 }
 
 static baum_status copy_row_gains(baum_simulation *run)
@@ -91,10 +90,7 @@ static baum_status copy_row_gains(baum_simulation *run)
                        (int)o->row_gain_count, nc);
   }
   for (int i = 0; i < nc; i++) {
-    baum_status status = check_factor(run, i);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(check_factor(run, i));
   }
   run->row_gains = baum_i_copy(o->row_gains, (size_t)nc, sizeof *run->row_gains);
   if (!run->row_gains && nc > 0) {
@@ -118,11 +114,9 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 /* Says which row a refusal is about. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
-  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label,
-                     baum_message());
+  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row],
+                     baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
 }
 
 /* Every factor that differs from that of the row before. */

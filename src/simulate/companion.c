@@ -88,9 +88,7 @@ static baum_status make_memory(baum_i_companion *c)
   enum { STATES = sizeof states / sizeof states[0] };
   size_t size = (size_t)m->nq + (size_t)m->nv;
   double *next = baum_i_alloc(STATES * size + baum_i_local_error_size(m), sizeof *next);
-  if (!next) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(next));
   for (int k = 0; k < STATES; k++, next += size) {
     *states[k] = (baum_i_state){.q = next, .v = next + m->nq};
   }
@@ -98,15 +96,10 @@ static baum_status make_memory(baum_i_companion *c)
   return BAUM_OK;
 }
 
-static bool has_fixed_step(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem);
-}
-
 bool baum_i_companion_is_wanted(const baum_simulation *run)
 {
   bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
-  bool wanted = run->options.error_check || has_fixed_step(run) || loose;
+  bool wanted = run->options.error_check || baum_i_run_has_fixed_step(run) || loose;
   return wanted && !run->integrator->without_freedom;
 }
 
@@ -115,14 +108,15 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
   c->problem = run->problem;
   c->problem.workspace = c->workspace;
   c->problem.distrusts_projection = true;
-  if (run->options.error_check && !has_fixed_step(run)) {
+  if (run->options.error_check && !baum_i_run_has_fixed_step(run)) {
     c->method = run->integrator;
     c->problem.rtol =
       fmax(TIGHTER_OF_CHECK * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
     c->problem.atol = TIGHTER_OF_CHECK * run->problem.atol;
     return;
   }
-  double tolerance = has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
+  double tolerance =
+    baum_i_run_has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
   c->method = baum_rk8();
   c->problem.formulation = BAUM_FORMULATION_PROJECTION;
   c->problem.step = (double)NAN;
@@ -136,9 +130,7 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
 baum_status baum_i_companion_create(baum_simulation *run)
 {
   baum_i_companion *c = baum_i_alloc(1, sizeof *c);
-  if (!c) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(c));
   run->companion = c;
   BAUM_I_TRY(baum_i_run_make_workspace(run, &c->workspace));
   BAUM_I_TRY(make_memory(c));
@@ -163,7 +155,7 @@ static void warn_of_error(baum_simulation *run, double t)
 {
   double error = run->counters.error_estimate;
   char advice[64] = "take a smaller rtol";
-  if (has_fixed_step(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     double advised = run->options.step * pow(FINE / error, 1.0 / run->integrator->order);
     baum_i_print(advice, sizeof advice, "take a step below %.1g s", advised);
   }
@@ -225,15 +217,9 @@ static bool is_too_costly(const baum_simulation *run)
 static void use_present_equations(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
-  c->problem.direction = run->problem.direction;
-  c->problem.alpha = run->problem.alpha; /* which restoring may change */
-  c->problem.beta = run->problem.beta;
-  c->problem.rate = run->problem.rate;
+  baum_i_run_share_equations(run, &c->problem);
   c->problem.stop = baum_i_run_next_break(run).near;
   c->problem.stops = isfinite(c->problem.stop);
-  c->workspace->point.parameters = run->workspace->point.parameters;
-  c->workspace->point.inputs = run->workspace->point.inputs;
-  c->workspace->row_gains = run->workspace->row_gains;
 }
 
 /* By steps until it is at t or past it. */
@@ -308,7 +294,8 @@ static bool is_coarse(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double rate = fmax(run->problem.rate, baum_i_scaled_size(m, run->state.v));
-  return has_fixed_step(run) && pow(run->options.step * rate, run->integrator->order) > COARSE;
+  return baum_i_run_has_fixed_step(run) &&
+         pow(run->options.step * rate, run->integrator->order) > COARSE;
 }
 
 void baum_i_companion_begin(baum_simulation *run)
@@ -319,7 +306,7 @@ void baum_i_companion_begin(baum_simulation *run)
     c->sum = 0.0;
     c->unseen = 0;
     c->doing = WAITS;
-    run->counters.error_estimate = has_fixed_step(run) ? 0.0 : (double)NAN;
+    run->counters.error_estimate = baum_i_run_has_fixed_step(run) ? 0.0 : (double)NAN;
     if (run->options.error_check || is_coarse(run)) {
       set_out(run, &run->state);
     }
@@ -330,7 +317,7 @@ void baum_i_companion_begin(baum_simulation *run)
 static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
-  if (!has_fixed_step(run)) {
+  if (!baum_i_run_has_fixed_step(run)) {
     return run->counters.near_singular_intervals > 0;
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;

@@ -47,9 +47,7 @@ baum_status baum_i_crossings_create(baum_simulation *run)
   const baum_mechanism *m = run->workspace->mechanism;
   size_t numbers = (size_t)(m->nq + m->nv) * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 4);
   baum_i_crossings *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
-  if (!p) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(p));
   double *next = (double *)(p + 1);
   p->present.joint = -1;
   place_knots(m, p->recent, BAUM_I_RECENT, &next);

@@ -40,11 +40,6 @@ static bool is_before(const baum_simulation *run, double a, double b)
   return run->problem.direction * (b - a) > 0.0;
 }
 
-static bool is_fixed(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem);
-}
-
 /* ---- states inside the step ---- */
 
 /* The cubic of the ends of a fixed step; exact as far as it begins like the motion. */
@@ -77,7 +72,7 @@ static baum_status find_state_by_step(baum_simulation *run, double t)
 /* The state that outputs see at t, into the trial state. */
 static baum_status find_state(baum_simulation *run, double t)
 {
-  if (is_fixed(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     return find_state_by_step(run, t);
   }
   if (t == run->ahead.t) {
@@ -92,7 +87,7 @@ static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
   look->t = t;
-  if (is_fixed(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     follow_cubic(run, t, look);
     return BAUM_OK;
   }
@@ -350,7 +345,7 @@ static void keep_values(baum_i_events *events, double t)
 /* Is the state at t to be had for nothing? */
 static bool is_end(const baum_simulation *run, double t)
 {
-  return is_fixed(run) ? t == run->trial.t : t == run->ahead.t;
+  return baum_i_run_has_fixed_step(run) ? t == run->trial.t : t == run->ahead.t;
 }
 
 /* From events->t to t, without looks between. */
@@ -376,7 +371,7 @@ static baum_status search_until(baum_simulation *run, double t, bool exact)
 baum_status baum_i_events_watch(baum_simulation *run, double to)
 {
   baum_i_events *events = run->events;
-  bool fixed = is_fixed(run);
+  bool fixed = baum_i_run_has_fixed_step(run);
   double from = fixed ? run->state.t : events->from;
   double end = fixed ? to : run->ahead.t;
   if (fixed) {

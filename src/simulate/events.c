@@ -67,9 +67,7 @@ static baum_status create_events(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   baum_i_events *events = baum_i_alloc(1, sizeof *events);
-  if (!events) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(events));
   events->memory = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *events->memory);
   if (!events->memory) {
     baum_i_events_destroy(events);
@@ -101,14 +99,10 @@ static baum_status make_room(baum_i_events *events, const baum_event_def *def)
   assert(events);
   size_t count = (size_t)events->count + 1;
   baum_i_event *list = baum_i_grow(events->list, count, sizeof *list);
-  if (!list) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(list));
   events->list = list;
   baum_i_event_mark *marks = baum_i_grow(events->marks, count, sizeof *marks);
-  if (!marks) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(marks));
   events->marks = marks;
   baum_i_event *event = &list[count - 1];
   *event = (baum_i_event){.def = *def, .joint = -1, .found = (double)NAN};
@@ -254,17 +248,15 @@ static void drop_if_empty(baum_simulation *run)
 static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
 {
   const char *call = "baum_simulation_add_event";
-  if (!run || !def) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
-                       run ? "the definition is" : "the simulation is");
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
   if (!baum_i_is_struct_size(def->struct_size, sizeof *def)) {
     return baum_i_fail(BAUM_ERR_STRUCT,
                        "%s: struct_size of the definition is %zu, must be %zu, or that of an older "
                        "version; start from baum_event_def_default()",
                        call, def->struct_size, sizeof *def);
   }
-  return baum_i_run_may_be_changed(run, call);
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,

@@ -37,16 +37,13 @@ static void observe_singular(baum_simulation *run, double t)
   }
   if (run->near_singular_seen == 0) {
     int row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
-    char label[BAUM_I_LABEL_SIZE] = "no joint";
-    if (row >= 0) {
-      (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
-    }
+    char label[BAUM_I_LABEL_SIZE];
     baum_i_run_warn(
       run, BAUM_WARNING_ILL_CONDITIONED, t,
       row >= 0 ? baum_i_row_joint(w->mechanism, row) : BAUM_I_NO_JOINT,
       "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
       "%s",
-      t, label);
+      t, baum_i_row_label(w->mechanism, row, label));
   }
   run->near_singular_seen = w->near_singular;
 }
@@ -73,28 +70,25 @@ static void observe_redundant(baum_simulation *run, double t)
       baum_i_need_jacobian(w) != BAUM_OK) {
     return; /* a function of the user that fails now will soon be reported */
   }
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
   double kept = 0.0;
   double left_out = 0.0;
   int row = 0;
+  (void)baum_i_row_sizes(w, w->phi, &row);
   for (int i = 0; i < m->nc; i++) {
-    double size = fabs(w->phi[i]) / distance[i];
     if (!w->rows.omitted[i]) {
-      kept = fmax(kept, size);
-    } else if (size > left_out) {
-      left_out = size;
+      kept = fmax(kept, w->work_c[i]);
+    } else if (w->work_c[i] > left_out) {
+      left_out = w->work_c[i];
       row = i;
     }
   }
   if (left_out > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
-    (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
     baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
                     "t = %.9g s: a row of %s that was left out as redundant is violated by %.3g, "
                     "relative to the scales, the rows that were kept by %.1g: constraints "
                     "contradict each other, or the motion has left its branch; do not trust it",
-                    t, label, left_out, kept);
+                    t, baum_i_row_label(m, row, label), left_out, kept);
   }
 }
 
@@ -120,7 +114,7 @@ static bool keeps_positions(baum_formulation formulation)
 static double allowed_violation(const baum_simulation *run)
 {
   double rtol = run->problem.rtol;
-  if (baum_i_problem_has_fixed_step(&run->problem) || isnan(rtol)) {
+  if (baum_i_run_has_fixed_step(run) || isnan(rtol)) {
     return LARGE;
   }
   return fmin(LARGE, keeps_positions(run->problem.formulation)
@@ -161,17 +155,16 @@ static void observe_large(baum_simulation *run, double t)
   }
   predict(run, c);
   double allowed = allowed_violation(run);
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
+  int row = -1;
+  (void)baum_i_row_sizes(w, w->phi, &row);
   for (int i = 0; i < m->nc; i++) {
-    double size = fabs(w->phi[i]) / distance[i];
-    if (size > fmax(allowed, PREDICTED * c->predicted_phi / distance[i])) {
+    double size = w->work_c[i];
+    if (size > allowed && !(fabs(w->phi[i]) <= PREDICTED * c->predicted_phi)) {
       char label[BAUM_I_LABEL_SIZE];
-      (void)baum_i_joint_label(m, baum_i_row_joint(m, i), label);
       baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
                       "t = %.9g s: %s is violated by %.3g, relative to the scales: the run has "
                       "drifted far or blows up; take other gains, a smaller step, or projection",
-                      t, label, size);
+                      t, baum_i_row_label(m, i, label), size);
       return;
     }
   }

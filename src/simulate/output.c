@@ -396,25 +396,20 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
 baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                 int32_t count, double *row)
 {
-  if (!simulation || !row) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_get: %s is NULL",
-                       simulation ? "row" : "the simulation");
-  }
   int width = 0;
-  BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_get"));
+  BAUM_I_TRY(baum_i_check_given("baum_simulation_get", "row", row != NULL));
+  BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   return baum_i_output(simulation, &simulation->state, channels, count, row);
 }
 
 baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique)
 {
-  if (!simulation || !unique) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_unique_multipliers: %s is NULL",
-                       simulation ? "unique" : "the simulation");
-  }
+  const char *call = "baum_simulation_unique_multipliers";
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "unique", unique != NULL));
   const baum_i_state *state = &simulation->state;
   baum_workspace *w = simulation->workspace;
-  BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_unique_multipliers"));
   BAUM_I_TRY(baum_i_reported_acceleration(w, state->t, state->q, state->v));
   return baum_i_find_unique_multipliers(w, unique);
 }

@@ -65,7 +65,7 @@ static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;
   return (f == BAUM_FORMULATION_PROJECTION || f == BAUM_FORMULATION_INDEX3) &&
-         !baum_i_problem_has_fixed_step(&run->problem);
+         !baum_i_run_has_fixed_step(run);
 }
 
 static baum_status restart(baum_simulation *run)

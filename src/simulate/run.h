@@ -107,6 +107,21 @@ struct baum_simulation {
 /* Time, positions and velocities from one state to another. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
 
+static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
+{
+  return baum_i_problem_has_fixed_step(&run->problem);
+}
+
+/* [s] Time at which the last step ended; a variable-step method is ahead of the reported state. */
+static inline double baum_i_run_last_end(const baum_simulation *run)
+{
+  return baum_i_run_has_fixed_step(run) ? run->state.t : run->ahead.t;
+}
+
+/* Give a problem with a workspace of its own the run's present equations: direction, gains, inputs,
+ * laws of drivers. */
+void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
+
 /* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
 
@@ -209,7 +224,7 @@ baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 baum_status baum_i_run_is_wanted(baum_simulation *run);
 
 /* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read
- * it. */
+ * it. BAUM_ERR_ARGUMENT where the run is NULL. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 

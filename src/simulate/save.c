@@ -18,6 +18,7 @@
 #include "base/alloc.h"
 #include "base/digest.h"
 #include "base/text.h"
+#include "mechanism/definition.h"
 #include "mechanism/fingerprint.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
@@ -247,11 +248,8 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
                                  size_t *size)
 {
   const char *call = "baum_simulation_save";
-  if (!simulation || !size) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
-                       simulation ? "size" : "the simulation");
-  }
   BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call)); /* it forgets pivots */
+  BAUM_I_TRY(baum_i_check_given(call, "size", size != NULL));
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   size_t most = sizeof(header) + baum_i_saved_size(&list) + WORD;
@@ -569,11 +567,9 @@ static void restore_parts(baum_simulation *run, const reader *r, const baum_i_sa
 
 baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer, size_t size)
 {
-  if (!simulation || !buffer) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_restore: %s is NULL",
-                       simulation ? "the buffer" : "the simulation");
-  }
-  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, "baum_simulation_restore"));
+  const char *call = "baum_simulation_restore";
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the buffer", buffer != NULL));
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_i_saved list;

@@ -58,9 +58,7 @@ baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count)
     return BAUM_OK;
   }
   baum_i_jump *jumps = baum_i_grow(schedule->jumps, (size_t)count, sizeof *jumps);
-  if (!jumps) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(jumps));
   schedule->jumps = jumps;
   schedule->room = count;
   return BAUM_OK;

@@ -19,9 +19,7 @@ static baum_status make_states(baum_simulation *run)
   size_t nq = (size_t)m->nq;
   size_t nv = (size_t)m->nv;
   run->memory = baum_i_alloc(4 * (nq + nv) + nv, sizeof(double));
-  if (!run->memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->memory));
   double *next = run->memory;
   baum_i_state *states[4] = {&run->state, &run->ahead, &run->trial, &run->spare};
   for (int k = 0; k < 4; k++) {
@@ -116,7 +114,7 @@ static baum_status warn_settings(baum_simulation *run)
       "constraints: give jacobian and gamma, or a larger rtol",
       run->options.rtol, noise);
   }
-  bool variable = !baum_i_problem_has_fixed_step(&run->problem);
+  bool variable = !baum_i_run_has_fixed_step(run);
   if (run->options.formulation == BAUM_FORMULATION_INDEX3 && variable) {
     baum_i_run_warn(run, BAUM_WARNING_INDEX3, run->trial.t, BAUM_I_NO_JOINT,
                     "index 3 is for comparison: its velocities are outside of the error test and "
@@ -235,9 +233,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   checked.struct_size = sizeof checked;
   BAUM_I_TRY(baum_i_options_check(&checked));
   baum_simulation *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run));
   run->options = checked;
   run->integrator = checked.integrator;
   atomic_init(&run->cancelled, 0);
