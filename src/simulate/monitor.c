@@ -2,6 +2,7 @@
 /* What a run watches: violation and its joint, predicted violation, near-singular configurations,
  * warnings, counters. */
 #include <math.h>
+#include <stddef.h>
 
 #include "base/sized.h"
 #include "simulate/account.h"
@@ -196,46 +197,50 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-static baum_i_work work_here(const baum_simulation *run)
+/* Counts of solvers and methods, and the counters that show them with those of other processes. */
+static const size_t COUNTED[BAUM_I_WORK] = {
+  offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
+  offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),
+  offsetof(baum_counters, forced_steps),
+};
+
+static int64_t *counter_at(baum_counters *counters, int k)
+{
+  return (int64_t *)(void *)((char *)counters + COUNTED[k]);
+}
+
+static void count_here(const baum_simulation *run, int64_t here[BAUM_I_WORK])
 {
   baum_i_kkt_counters kkt = baum_i_workspace_work(run->workspace);
-  baum_i_statistics statistics = {0};
+  baum_i_statistics own = {0};
   if (run->integrator->statistics && run->self) {
-    run->integrator->statistics(run->self, &statistics);
+    run->integrator->statistics(run->self, &own);
   }
-  return (baum_i_work){
-    .factorizations = kkt.factorizations + statistics.factorizations,
-    .full_factorizations = kkt.full_factorizations + statistics.full_factorizations,
-    .rejected = statistics.rejected,
-    .nonlinear_iterations = statistics.nonlinear_iterations,
-    .forced = statistics.forced,
-  };
+  here[0] = kkt.factorizations + own.factorizations;
+  here[1] = kkt.full_factorizations + own.full_factorizations;
+  here[2] = own.rejected;
+  here[3] = own.nonlinear_iterations;
+  here[4] = own.forced;
 }
 
 void baum_i_run_count(baum_simulation *run)
 {
-  baum_counters *c = &run->counters;
-  baum_i_work here = work_here(run);
-  c->evaluations = run->workspace->evaluations;
-  c->near_singular = run->workspace->near_singular;
-  c->factorizations = run->before.factorizations + here.factorizations;
-  c->full_factorizations = run->before.full_factorizations + here.full_factorizations;
-  c->rejected = run->before.rejected + here.rejected;
-  c->nonlinear_iterations = run->before.nonlinear_iterations + here.nonlinear_iterations;
-  c->forced_steps = run->before.forced + here.forced;
+  int64_t here[BAUM_I_WORK];
+  count_here(run, here);
+  run->counters.evaluations = run->workspace->evaluations;
+  run->counters.near_singular = run->workspace->near_singular;
+  for (int k = 0; k < BAUM_I_WORK; k++) {
+    *counter_at(&run->counters, k) = run->work_before[k] + here[k];
+  }
 }
 
 void baum_i_run_count_from_here(baum_simulation *run)
 {
-  const baum_counters *c = &run->counters;
-  baum_i_work here = work_here(run);
-  run->before = (baum_i_work){
-    .factorizations = c->factorizations - here.factorizations,
-    .full_factorizations = c->full_factorizations - here.full_factorizations,
-    .rejected = c->rejected - here.rejected,
-    .nonlinear_iterations = c->nonlinear_iterations - here.nonlinear_iterations,
-    .forced = c->forced_steps - here.forced,
-  };
+  int64_t here[BAUM_I_WORK];
+  count_here(run, here);
+  for (int k = 0; k < BAUM_I_WORK; k++) {
+    run->work_before[k] = *counter_at(&run->counters, k) - here[k];
+  }
 }
 
 /* With its digits where a step takes little away. */

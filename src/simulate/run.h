@@ -13,7 +13,8 @@
 
 enum {
   BAUM_I_WARNINGS = 24, /* more than there are kinds */
-  BAUM_I_EXPLAIN_SIZE = 3072
+  BAUM_I_EXPLAIN_SIZE = 3072,
+  BAUM_I_WORK = 5 /* counts that solvers and methods keep themselves, see monitor.c */
 };
 
 /* Times of a fixed-step method: origin + k step, never sums. */
@@ -21,15 +22,6 @@ typedef struct baum_i_grid {
   double origin;
   int64_t k;
 } baum_i_grid;
-
-/* What solvers and methods count by themselves. */
-typedef struct baum_i_work {
-  int64_t factorizations;
-  int64_t full_factorizations;
-  int64_t rejected;
-  int64_t nonlinear_iterations;
-  int64_t forced;
-} baum_i_work;
 
 /* An input jumps at a time, see schedule.h. */
 typedef struct baum_i_jump {
@@ -88,9 +80,9 @@ struct baum_simulation {
   baum_i_state spare;       /* of a step near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
-  baum_i_fingerprint fingerprint; /* of the mechanism */
-  baum_i_work before; /* what solvers have done for the run in other processes, less what is not of
-                         it */
+  baum_i_fingerprint fingerprint;   /* of the mechanism */
+  int64_t work_before[BAUM_I_WORK]; /* what other processes have done for the run, less what the
+                                       counts here have had before it */
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
