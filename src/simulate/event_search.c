@@ -183,10 +183,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
     if (x == is.a || x == is.b) {
       break;
     }
-    baum_status status = value_at(run, x);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(value_at(run, x));
     narrow_bracket(&is, x, event->next, baum_i_sign(event->next) == side);
   }
   event->found = is.b;
@@ -295,25 +292,15 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Does a glance show another side than known? */
-static bool any_differs(const baum_i_events *events)
+/* Has any event another side than known? Leaving zero counts for a glance. */
+static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
+  bool any = false;
   for (int k = 0; k < events->count; k++) {
-    if (baum_i_sign(events->list[k].next) != events->marks[k].side) {
-      return true;
-    }
+    any = any || has_passed(events, k) ||
+          (leaving && events->marks[k].side == 0 && events->list[k].next != 0.0);
   }
-  return false;
-}
-
-static bool any_has_passed(const baum_i_events *events)
-{
-  for (int k = 0; k < events->count; k++) {
-    if (has_passed(events, k)) {
-      return true;
-    }
-  }
-  return false;
+  return any;
 }
 
 /* Every event that has passed at t, whose values are given; afterwards they are those at t
@@ -355,10 +342,10 @@ static baum_status search_until(baum_simulation *run, double t, bool exact)
   exact = exact || is_end(run, t);
   BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
   BAUM_I_TRY(baum_i_events_evaluate(run, exact ? &run->trial : &events->look));
-  if (!exact && any_differs(events)) {
+  if (!exact && any_has_passed(events, true)) {
     BAUM_I_TRY(value_at(run, t));
   }
-  if (any_has_passed(events)) {
+  if (any_has_passed(events, false)) {
     BAUM_I_TRY(locate_all(run, t));
     BAUM_I_TRY(deliver_events(run));
   }

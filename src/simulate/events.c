@@ -180,38 +180,29 @@ static bool has_just_been(const baum_simulation *run, int k)
   return fabs(t - last) <= baum_i_event_window(run, &run->events->list[k], t);
 }
 
-static void look_from_here(baum_simulation *run)
+/* Look from the present state on, with the values there. */
+static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
-  events->t = run->state.t;
-  events->begin = run->state.t;
-  events->from = run->state.t;
+  events->t = events->begin = events->from = run->state.t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    mark->value = events->list[k].next;
+    mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
+    mark->fresh = is_start || has_just_been(run, k);
+  }
 }
 
 void baum_i_events_begin(baum_simulation *run)
 {
-  baum_i_events *events = run->events;
-  look_from_here(run);
-  for (int k = 0; k < events->count; k++) {
-    baum_i_event_mark *mark = &events->marks[k];
-    mark->value = events->list[k].next;
-    mark->side = baum_i_sign(mark->value);
-    mark->fresh = 1;
-  }
+  take_values(run, true);
 }
 
 /* What has just happened may do so again at once only because a method begins a little beside the
  * state, or because the run turns back; that is leaving zero. */
 void baum_i_events_go_on(baum_simulation *run)
 {
-  baum_i_events *events = run->events;
-  look_from_here(run);
-  for (int k = 0; k < events->count; k++) {
-    baum_i_event_mark *mark = &events->marks[k];
-    mark->value = events->list[k].next;
-    mark->side = mark->value == 0.0 ? mark->side : baum_i_sign(mark->value);
-    mark->fresh = has_just_been(run, k);
-  }
+  take_values(run, false);
 }
 
 static baum_status begin_last(baum_simulation *run)
