@@ -59,7 +59,7 @@ static const double TIMES = 10.0;
 static double may_be_off(const baum_simulation *run, double kept)
 {
   const baum_i_crossings *p = run->crossings;
-  double pivot = p && p->recent_count > 0 ? p->recent[p->recent_count - 1].pivot : 0.0;
+  double pivot = p && p->recent_count > 0 ? baum_i_last_knot(p)->pivot : 0.0;
   return NEGLIGIBLE + TIMES * sqrt(kept * fmin(1.0, kept / pivot));
 }
 

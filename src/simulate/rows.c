@@ -54,7 +54,7 @@ static double guess_pivot(baum_simulation *run)
 static double find_pivot(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
-  return run->workspace->path ? p->recent[p->recent_count - 1].pivot : guess_pivot(run);
+  return run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);
 }
 
 /* A method that keeps positions on the constraints may keep its history: the motion does not depend
