@@ -128,13 +128,6 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 
 /* ---- evaluations ---- */
 
-/* The flag `retry` says something after these two failures only. */
-static bool may_retry(const baum_i_sundials *sundials, baum_status status)
-{
-  return (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) &&
-         sundials->problem->workspace->point.retry;
-}
-
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {
@@ -143,7 +136,9 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
-  sundials->stopped = !may_retry(sundials, status);
+  /* The flag `retry` says something after these two failures only. */
+  bool may_retry = status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
+  sundials->stopped = !(may_retry && sundials->problem->workspace->point.retry);
   return sundials->stopped ? -1 : 1;
 }
 

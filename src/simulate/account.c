@@ -300,13 +300,6 @@ static baum_status work_to(baum_simulation *run, const baum_i_state *state,
   return projected ? add_projection(account, state->t, raw, state->q, state->v, works) : BAUM_OK;
 }
 
-/* Only variable steps of residuals go on from another state than that they were given. */
-static bool starts_elsewhere(const baum_simulation *run)
-{
-  return run->account->fresh && run->integrator->solves_residuals &&
-         !baum_i_run_has_fixed_step(run);
-}
-
 static void try_work(baum_simulation *run, const baum_i_state *state, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
@@ -314,7 +307,10 @@ static void try_work(baum_simulation *run, const baum_i_state *state, double wor
     return;
   }
   baum_i_run_share_equations(run, &run->account->problem);
-  baum_status status = starts_elsewhere(run) ? move_start(run, account->before) : BAUM_OK;
+  /* Only variable steps of residuals begin at another state than they were given. */
+  bool moves =
+    account->fresh && run->integrator->solves_residuals && !baum_i_run_has_fixed_step(run);
+  baum_status status = moves ? move_start(run, account->before) : BAUM_OK;
   if (status == BAUM_OK) {
     status = work_to(run, state, works);
   }

@@ -11,11 +11,9 @@
 
 #include "mechanism/definition.h"
 #include "simulate/account.h"
-#include "simulate/breaks.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;

@@ -39,19 +39,13 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-static bool is_driven(const baum_simulation *run)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  return m->nc > 0 && run->workspace->rows.rank == m->nv;
-}
-
 /* The motion itself tells its rate, but for one that stands still or barely moves. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double swing = swing_rate(m);
   double now = baum_i_state_rate(m, run->trial.v, run->workspace->a);
-  context->driven = is_driven(run);
+  context->driven = m->nc > 0 && run->workspace->rows.rank == m->nv;
   context->rate = baum_i_run_start_rate(run);
   context->rate_is = "the rate at which gravity swings it";
   if (now < AT_REST * swing || context->rate == 0.0) {
@@ -147,13 +141,6 @@ static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_conte
 
 /* ---- the choice ---- */
 
-static bool is_auto(const baum_simulation *run)
-{
-  int32_t rule = run->options.gains.rule;
-  return rule == BAUM_GAINS_AUTO ||
-         (rule == BAUM_GAINS_DEFAULT && run->integrator->gains == BAUM_GAINS_AUTO);
-}
-
 baum_status baum_i_run_choose_gains(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -169,7 +156,9 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
     .rule_default = run->integrator->gains,
     .allow_unstable = o->allow_unstable,
   };
-  if (is_auto(run)) {
+  int32_t rule =
+    o->gains.rule == BAUM_GAINS_DEFAULT ? (int32_t)run->integrator->gains : o->gains.rule;
+  if (rule == BAUM_GAINS_AUTO) {
     measure_rate(run, &context);
   }
   BAUM_I_TRY(o->row_gains ? copy_row_gains(run) : BAUM_OK);

@@ -24,7 +24,6 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
-#include "simulate/breaks.h"
 #include "simulate/crossing.h"
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
@@ -213,15 +212,6 @@ static bool is_too_costly(const baum_simulation *run)
   return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
-/* Equations as the run has them now. */
-static void use_present_equations(baum_simulation *run)
-{
-  baum_i_companion *c = run->companion;
-  baum_i_run_share_equations(run, &c->problem);
-  c->problem.stop = baum_i_run_next_break(run).near;
-  c->problem.stops = isfinite(c->problem.stop);
-}
-
 /* By steps until it is at t or past it. */
 static baum_status go_to(baum_simulation *run, double t)
 {
@@ -233,21 +223,19 @@ static baum_status go_to(baum_simulation *run, double t)
   return come_to(run, t);
 }
 
-static void give_up(baum_simulation *run)
-{
-  run->companion->doing = ENDED;
-  run->counters.error_estimate = (double)NAN;
-}
-
 /* Compare at a state of the run. What fails here says nothing of the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
-  use_present_equations(run);
+  baum_i_companion *c = run->companion;
+  baum_i_run_share_equations(run, &c->problem);
+  c->problem.stop = baum_i_run_next_break(run).near;
+  c->problem.stops = isfinite(c->problem.stop);
   bool reached = go_to(run, state->t) == BAUM_OK;
   if (reached) {
     compare(run, state);
   } else {
-    give_up(run);
+    c->doing = ENDED;
+    run->counters.error_estimate = (double)NAN;
   }
   return reached;
 }
@@ -255,13 +243,6 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
 static bool goes_along(const baum_simulation *run)
 {
   return run->companion && run->companion->doing == GOES_ALONG;
-}
-
-static void start_from(baum_simulation *run, const baum_i_state *state)
-{
-  baum_i_companion *c = run->companion;
-  baum_i_run_copy(run, state, &c->state);
-  c->method->forget(c->self);
 }
 
 static void keep_state(baum_simulation *run, const baum_i_state *state)
@@ -287,7 +268,8 @@ static void set_out(baum_simulation *run, const baum_i_state *from)
   c->workspace->evaluations = 0;
   c->problem.direction = run->problem.direction;
   run->counters.error_estimate = 0.0;
-  start_from(run, from);
+  baum_i_run_copy(run, from, &c->state);
+  c->method->forget(c->self);
 }
 
 static bool is_coarse(const baum_simulation *run)

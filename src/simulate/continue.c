@@ -3,7 +3,7 @@
  * own. */
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "simulate/schedule.h"
+#include "simulate/run.h"
 
 /* Where a run stands, and what acts on it from outside. */
 typedef struct standing {

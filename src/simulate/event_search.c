@@ -155,11 +155,6 @@ static void narrow_bracket(bracket *is, double x, double value, bool before)
   is->last_moved = before ? BEFORE : AFTER;
 }
 
-static bool is_narrow(const bracket *is, double tolerance)
-{
-  return is->fb == 0.0 || !(fabs(is->b - is->a) > tolerance);
-}
-
 /* Between events->t and t, where event k has passed. */
 static bracket bracket_of(const baum_simulation *run, int k, double t)
 {
@@ -178,7 +173,7 @@ static baum_status locate(baum_simulation *run, int k, double t)
   int32_t side = run->events->marks[k].side;
   bracket is = bracket_of(run, k, t);
   double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
-  for (int try = 0; try < MOST_TRIES && !is_narrow(&is, tolerance); try++) {
+  for (int try = 0; try < MOST_TRIES && is.fb != 0.0 && fabs(is.b - is.a) > tolerance; try++) {
     double x = choose_time(&is, tolerance, try);
     if (x == is.a || x == is.b) {
       break;
@@ -329,17 +324,11 @@ static void keep_values(baum_i_events *events, double t)
   }
 }
 
-/* Is the state at t to be had for nothing? */
-static bool is_end(const baum_simulation *run, double t)
-{
-  return baum_i_run_has_fixed_step(run) ? t == run->trial.t : t == run->ahead.t;
-}
-
 /* From events->t to t, without looks between. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;
-  exact = exact || is_end(run, t);
+  exact = exact || t == (baum_i_run_has_fixed_step(run) ? run->trial.t : run->ahead.t);
   BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
   BAUM_I_TRY(baum_i_events_evaluate(run, exact ? &run->trial : &events->look));
   if (!exact && any_has_passed(events, true)) {

@@ -125,14 +125,6 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
   return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
 }
 
-static double coordinate_of(baum_workspace *w, const baum_i_event *event)
-{
-  const baum_i_joint *joint = w->mechanism->joints[event->joint];
-  baum_i_coordinate coordinate;
-  joint->type->coordinate(joint, &w->point, &coordinate);
-  return coordinate.value - event->def.value;
-}
-
 static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_state *state)
 {
   baum_workspace *w = run->workspace;
@@ -141,7 +133,10 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
   int answer = 0;
   event->next = 0.0;
   if (event->joint >= 0) {
-    event->next = coordinate_of(w, event);
+    const baum_i_joint *joint = w->mechanism->joints[event->joint];
+    baum_i_coordinate coordinate;
+    joint->type->coordinate(joint, &w->point, &coordinate);
+    event->next = coordinate.value - def->value;
   } else {
     w->point.asking = true;
     answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
@@ -173,13 +168,6 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-static bool has_just_been(const baum_simulation *run, int k)
-{
-  double t = run->state.t;
-  double last = run->events->marks[k].last;
-  return fabs(t - last) <= baum_i_event_window(run, &run->events->list[k], t);
-}
-
 /* Look from the present state on, with the values there. */
 static void take_values(baum_simulation *run, bool is_start)
 {
@@ -189,7 +177,8 @@ static void take_values(baum_simulation *run, bool is_start)
     baum_i_event_mark *mark = &events->marks[k];
     mark->value = events->list[k].next;
     mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
-    mark->fresh = is_start || has_just_been(run, k);
+    double since = fabs(run->state.t - mark->last);
+    mark->fresh = is_start || since <= baum_i_event_window(run, &events->list[k], run->state.t);
   }
 }
 
@@ -223,15 +212,6 @@ static baum_status begin_last(baum_simulation *run)
     .value = event->next, .last = (double)NAN, .side = baum_i_sign(event->next), .fresh = 1};
   events->count++;
   return BAUM_OK;
-}
-
-/* A run without events has none of this, as before. */
-static void drop_if_empty(baum_simulation *run)
-{
-  if (run->events && run->events->count == 0) {
-    baum_i_events_destroy(run->events);
-    run->events = NULL;
-  }
 }
 
 /* ---- public ---- */
@@ -268,9 +248,11 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK) {
-    drop_if_empty(simulation);
-  } else if (index) {
+  if (status != BAUM_OK && number == 0) { /* a run without events has none of this */
+    baum_i_events_destroy(simulation->events);
+    simulation->events = NULL;
+  }
+  if (status == BAUM_OK && index) {
     *index = number;
   }
   return status;

@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "simulate/schedule.h"
+#include "simulate/run.h"
 
 /* ---- inputs ---- */
 

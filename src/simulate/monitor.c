@@ -22,14 +22,6 @@ static void observe_row(const baum_simulation *run, const double *rows, double *
   }
 }
 
-/* The steady violation of both Eulers grows with gamma (docs/theory/stabilization.md). */
-static void observe_gamma(baum_simulation *run)
-{
-  double size = 0.0;
-  (void)baum_i_largest(run->workspace->gamma, run->workspace->mechanism->nc, &size);
-  run->largest_gamma = fmax(run->largest_gamma, size);
-}
-
 static void observe_singular(baum_simulation *run, double t)
 {
   const baum_workspace *w = run->workspace;
@@ -105,12 +97,6 @@ static const double TOLERANCES_KEPT = 1e3;
 /* Both Eulers may well have the steady violation that is predicted for their gains. */
 static const double PREDICTED = 3.0;
 
-static bool keeps_positions(baum_formulation formulation)
-{
-  return formulation == BAUM_FORMULATION_PROJECTION || formulation == BAUM_FORMULATION_GGL ||
-         formulation == BAUM_FORMULATION_INDEX3;
-}
-
 /* Largest violation as a displacement over the scales that raises no doubt. */
 static double allowed_violation(const baum_simulation *run)
 {
@@ -118,9 +104,12 @@ static double allowed_violation(const baum_simulation *run)
   if (baum_i_run_has_fixed_step(run) || isnan(rtol)) {
     return LARGE;
   }
-  return fmin(LARGE, keeps_positions(run->problem.formulation)
-                       ? fmax(KEPT, TOLERANCES_KEPT * rtol)
-                       : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol));
+  baum_formulation f = run->problem.formulation;
+  bool keeps_positions =
+    f == BAUM_FORMULATION_PROJECTION || f == BAUM_FORMULATION_GGL || f == BAUM_FORMULATION_INDEX3;
+  double allowed =
+    keeps_positions ? fmax(KEPT, TOLERANCES_KEPT * rtol) : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol);
+  return fmin(LARGE, allowed);
 }
 
 /* Gains below this share of 1/h let the violation lag behind gamma,
@@ -188,7 +177,9 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
-    observe_gamma(run);
+    double size = 0.0; /* with which their steady violation grows (docs/theory/stabilization.md) */
+    (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
+    run->largest_gamma = fmax(run->largest_gamma, size);
   }
   observe_large(run, t);
   observe_singular(run, t);
@@ -243,23 +234,6 @@ void baum_i_run_count_from_here(baum_simulation *run)
   }
 }
 
-/* With its digits where a step takes little away. */
-static void tell_damping(const baum_simulation *run, baum_counters *c)
-{
-  bool stabilized = run->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
-  const baum_amplification *a = &run->gains.amplification;
-  c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
-  c->damping = stabilized ? -log1p(-a->damping) / run->options.step : (double)NAN;
-}
-
-static baum_status tell_residual(baum_simulation *run, baum_counters *c)
-{
-  double columns[BAUM_I_ACCOUNT_WIDTH] = {0.0};
-  baum_status status = run->account ? baum_i_account_put(run, &run->state, columns) : BAUM_OK;
-  c->energy_residual = run->account ? columns[BAUM_I_ACCOUNT_WIDTH - 1] : (double)NAN;
-  return status;
-}
-
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
                                      size_t caller_size)
 {
@@ -271,13 +245,19 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   BAUM_I_TRY(
     baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential));
   baum_counters *c = &simulation->counters;
-  BAUM_I_TRY(tell_residual(simulation, c));
+  double columns[BAUM_I_ACCOUNT_WIDTH] = {[BAUM_I_ACCOUNT_WIDTH - 1] = (double)NAN};
+  BAUM_I_TRY(simulation->account ? baum_i_account_put(simulation, state, columns) : BAUM_OK);
   baum_i_run_count(simulation);
   predict(simulation, c);
   c->energy_change = kinetic + potential - simulation->start_energy;
   c->alpha = simulation->problem.alpha;
   c->beta = simulation->problem.beta;
-  tell_damping(simulation, c);
+  c->energy_residual = columns[BAUM_I_ACCOUNT_WIDTH - 1];
+  bool stabilized = simulation->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
+  const baum_amplification *a = &simulation->gains.amplification;
+  c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
+  /* log1p() keeps the digits of a small damping. */
+  c->damping = stabilized ? -log1p(-a->damping) / simulation->options.step : (double)NAN;
   baum_i_give_sized(out, caller_size, c, sizeof *c);
   return BAUM_OK;
 }

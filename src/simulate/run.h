@@ -241,6 +241,68 @@ baum_status baum_i_run_inside(baum_simulation *run, double t);
  * or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
 
+/* ---- schedule.c ---- */
+
+/* Time goes from one to another: inputs that jump between have the values of there. Goes back as
+ * well. */
+void baum_i_schedule_move(baum_simulation *run, double from, double to);
+
+/* The input has no schedule any more, and keeps its value. */
+void baum_i_schedule_end(baum_simulation *run, int64_t input);
+
+/* Room for so many jumps. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
+
+/* Into an empty one. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
+
+/* Are these bytes, of any alignment, `count` jumps of a run with so many inputs? */
+bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);
+
+/* ---- breaks.c ---- */
+
+/* The two sides of a break, in the order in which the run meets them. */
+typedef struct baum_i_break {
+  double near; /* [s] where steps end */
+  double far;  /* where the next begins */
+} baum_i_break;
+
+/* The next break on the way of the run from the end of its last step; both sides infinite when
+ * there is none. */
+baum_i_break baum_i_run_next_break(const baum_simulation *run);
+
+/* Does the last step end at its near side? */
+bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
+
+/* restart.c: go from the present state, which is at the near side, to the far one: methods that
+ * carry their past along restart, as the grid does. As baum_i_run_restart(). */
+baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
+
+/* ---- rows.c ---- */
+
+/* At the present state, where the next step begins: leave out others where those that are kept have
+ * become poor; then methods restart. Statuses of baum_i_run_restart(). Nothing for kinematics. */
+baum_status baum_i_run_choose_rows(baum_simulation *run);
+
+/* Likewise for a state that comes from outside of the motion, with which all restarts in any
+ * case. */
+void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
+
+/* Leave out these (nc). Statuses of baum_i_omit_rows(); then all stays as it is. */
+baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
+
+/* ---- singular_step.c ---- */
+
+/* A step begins whose acceleration is in run->acceleration: in a singular configuration its limit
+ * takes that place. Uses the trial state. Statuses of an evaluation at the present state, which is
+ * made again. */
+baum_status baum_i_run_limit_acceleration(baum_simulation *run);
+
+/* Project the trial state, the end of a step, onto the constraints at t; but so close to a singular
+ * configuration that rounding would move it by more than the error of the step it stays. Statuses
+ * of baum_i_project(). */
+baum_status baum_i_run_project(baum_simulation *run, double t);
+
 /* ---- failure.c ---- */
 
 /* Add to the message of a step that failed which joint and body to look at, at the last good state,

@@ -25,9 +25,7 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
 #include "simulate/saved.h"
-#include "simulate/schedule.h"
 
 enum { WORD = 8 };
 
@@ -202,14 +200,6 @@ static void forget_unsaved(baum_simulation *run)
   }
 }
 
-/* Values there have been asked for before; should one fail now, what is known of them stays. */
-static void go_on_with_events(baum_simulation *run)
-{
-  if (baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
-    baum_i_events_go_on(run);
-  }
-}
-
 /* The state that is reported becomes the one from which the next step goes. */
 static void restart_for_save(baum_simulation *run)
 {
@@ -220,8 +210,9 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    if (run->events) {
-      go_on_with_events(run);
+    /* Values here have been asked for before; should one fail now, what is known of them stays. */
+    if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
+      baum_i_events_go_on(run);
     }
     run->counters.restarts++;
   }

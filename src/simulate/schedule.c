@@ -3,12 +3,12 @@
  * its sides, so that a run passes it either way, and the value of an input is that behind the last
  * of its jumps up to the present time.
  */
-#include "simulate/schedule.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "simulate/run.h"
 
 /* How many jumps are not after t. */
 static int count_until(const baum_i_schedule *schedule, double t)

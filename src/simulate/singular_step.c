@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "simulate/singular_step.h"
 
 #include <float.h>
 #include <math.h>

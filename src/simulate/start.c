@@ -8,8 +8,6 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
-#include "simulate/schedule.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A design configuration further off is more likely to be mounted on a branch that its
