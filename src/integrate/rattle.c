@@ -115,7 +115,7 @@ static void close_run(void *self)
   baum_i_free(((rattle_run *)self)->memory);
 }
 
-static baum_status fail_velocities(const baum_i_element *element, const char *family)
+static baum_status fail_velocities(const baum_i_element *element)
 {
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
@@ -123,7 +123,7 @@ static baum_status fail_velocities(const baum_i_element *element, const char *fa
     "simulation options: rattle is for forces of time and position, but that of %s depends on "
     "velocities, or does not say depends_on_velocity = false; take rk4 or rk8, or "
     "generalized_alpha where it is stiff",
-    baum_i_label(element, family, label));
+    baum_i_label(element, label));
 }
 
 static baum_status check_body(const baum_i_body *body)
@@ -134,10 +134,10 @@ static baum_status check_body(const baum_i_body *body)
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "simulation options: rattle is for masses that are constant, but %s does "
                        "not say constant_mass = true",
-                       baum_i_label(&body->element, "body", label));
+                       baum_i_label(&body->element, label));
   }
   bool depends = body->type->depends_on_velocity && body->type->depends_on_velocity(def);
-  return depends ? fail_velocities(&body->element, "body") : BAUM_OK;
+  return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
 /* The method is not for masses that vary and forces that depend on velocities. */
@@ -149,7 +149,7 @@ static baum_status check_mechanism(const baum_mechanism *m)
   for (int k = 0; k < m->force_count; k++) {
     const baum_i_force *force = m->forces[k];
     if (force->type->depends_on_velocity && force->type->depends_on_velocity(force->element.def)) {
-      return fail_velocities(&force->element, "force");
+      return fail_velocities(&force->element);
     }
   }
   return BAUM_OK;

@@ -25,6 +25,7 @@
 
 /* What all elements have; first member of each. */
 typedef struct baum_i_element {
+  const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
   void *def;     /* own copy; its name points to `name` or is NULL */
   char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */
@@ -261,16 +262,14 @@ struct baum_i_body_type {
   baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
   /* Adds to (nv). */
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
-  /* Adds; NULL: 0. */
-  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum);
+  /* One body: adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_body *body, baum_i_point *point, double *sum);
   /* One body. a (nv); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
-  /* Adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and M' = 0. */
-  baum_status (*power)(const baum_i_body_group *group, baum_i_point *point,
-                       double power[BAUM_I_POWERS]);
-  /* Compare given derivatives with differences; NULL: nothing given. */
-  baum_status (*check)(const baum_i_body *body, baum_i_point *point);
+  /* One body: adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and
+   * M' = 0. */
+  baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
 };
 
 /* A joint's coordinate for drivers and channels:
@@ -296,6 +295,8 @@ struct baum_i_joint_type {
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
   bool drives;      /* one row: the coordinate of another joint minus a function of time */
+  /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
+  baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
@@ -305,9 +306,11 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() calls evaluate_one(). */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
+  baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
+                              const baum_i_rows *rows);
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -326,10 +329,13 @@ struct baum_i_joint_type {
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
                                const double w[6], double lambda, baum_i_coordinate_blocks *out);
-  baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
   /* Relative error of derivatives by differences; NULL: none are taken. */
   double (*noise)(const void *def);
 };
+
+/* The `evaluate` of types that evaluate joint by joint. */
+baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
+                                 const baum_i_rows *rows);
 
 struct baum_i_force_type {
   baum_i_definition definition;
@@ -338,16 +344,15 @@ struct baum_i_force_type {
   /* Adds to (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   bool (*depends_on_velocity)(const void *def); /* NULL: never */
-  /* Adds; NULL: 0. */
-  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
+  /* One force: adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
   /* One force. Blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* Adds g^T v without what comes of the potential, by class; or with it, and power_is_whole. */
-  baum_status (*power)(const baum_i_force_group *group, baum_i_point *point,
-                       double power[BAUM_I_POWERS]);
+  /* One force: adds g^T v without what comes of the potential, by class; or with it, and
+   * power_is_whole. */
+  baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
-  baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
 
 /* ---- the mechanism ---- */
@@ -385,19 +390,16 @@ struct baum_mechanism {
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   double *parameters;
-  double *design_q;       /* (nq) */
-  double *design_v;       /* (nv) NaN where free */
-  bool *held;             /* (nv) */
-  double *scale;          /* (nv) relevant change of each coordinate */
-  double *position_scale; /* (nq) likewise of each position */
-  int fixed_count;        /* fixed bodies without ground, */
-  int fixed_nv;           /* their velocities, */
-  double *fixed_q;        /* (nq) and where they are */
-  int body_group_count;
-  baum_i_body_group *body_groups;
-  int joint_group_count;
+  double *design_q;               /* (nq) */
+  double *design_v;               /* (nv) NaN where free */
+  bool *held;                     /* (nv) */
+  double *scale;                  /* (nv) relevant change of each coordinate */
+  double *position_scale;         /* (nq) likewise of each position */
+  int fixed_count;                /* fixed bodies without ground, */
+  int fixed_nv;                   /* their velocities, */
+  double *fixed_q;                /* (nq) and where they are */
+  baum_i_body_group *body_groups; /* each list ends with a group without a type */
   baum_i_joint_group *joint_groups;
-  int force_group_count;
   baum_i_force_group *force_groups;
 };
 

@@ -116,25 +116,19 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_force *element = group->forces[i];
-    baum_i_spring_law law = law_of(element, point);
-    *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
-  }
+  baum_i_spring_law law = law_of(element, point);
+  *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    twist now = twist_at(group->forces[i], point);
-    baum_i_spring_law law = law_of(group->forces[i], point);
-    BAUM_I_TRY(baum_i_spring_power(&law, point, now.angle, now.rate, sum));
-  }
-  return BAUM_OK;
+  twist now = twist_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return baum_i_spring_power(&law, point, now.angle, now.rate, sum);
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
@@ -147,8 +141,9 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_force *element = given;
   twist now = twist_at(element, point);
   baum_i_spring_law law = law_of(element, point);
   return baum_i_check_spring_law(&law, point, now.angle, now.rate, 1.0);
@@ -159,14 +154,14 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_planar_torsion_spring_def),
                  .fields = fields,
                  .check = check,
-                 .parameter_count = BAUM_I_SPRING_NUMBERS},
+                 .parameter_count = BAUM_I_SPRING_NUMBERS,
+                 .check_derivatives = check_derivatives},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, planar_torsion_spring, type)
