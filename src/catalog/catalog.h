@@ -67,6 +67,10 @@ typedef struct baum_i_catalog_mechanism {
   .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = NAME##_WIDTH, .q = NAME##_Q[0], \
   .v = NAME##_V[0]
 
+/* The same of one column. */
+#define BAUM_I_CATALOG_SERIES(NAME) \
+  .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = 1, .q = NAME##_Q, .v = NAME##_V
+
 extern const baum_i_catalog_mechanism baum_i_pendulum_a01;
 extern const baum_i_catalog_mechanism baum_i_pendulum_sundials;
 extern const baum_i_catalog_mechanism baum_i_pendulum_mebdf;

@@ -65,6 +65,18 @@ static void build_3(baum_i_parts *parts, const double *p)
   baum_i_chain_add(parts, &baum_i_chain_3);
 }
 
+static void state_3(const double *p, const double *q, const double *v, int body, double *body_q,
+                    double *body_v)
+{
+  (void)p;
+  baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
+  for (int k = 0; k < body; k++) {
+    baum_i_mover_go(&at, q[k], v[k], LENGTH_3[k], 0.0);
+  }
+  baum_i_mover_go(&at, q[body], v[body], LENGTH_3[body] / 2, 0.0);
+  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
+}
+
 static const baum_i_catalog_parameter PARAMETERS_3[1] = {
   {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
 };
@@ -86,6 +98,7 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .build = build_3,
   .units = "mmr",
   .bodies = 3,
+  .state = state_3,
   BAUM_I_CATALOG_STORED(CHAIN),
 };
 

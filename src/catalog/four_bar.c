@@ -79,6 +79,17 @@ static void build(baum_i_parts *parts, const double *p)
                    (baum_i_spot){c, {-p[ROCKER] / 2, 0.0}});
 }
 
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
+{
+  baum_i_mover at = {{body == 2 ? p[FRAME] : 0.0, 0.0}, {0.0, 0.0}};
+  if (body == 1) {
+    baum_i_mover_go(&at, q[0], v[0], p[CRANK], 0.0);
+  }
+  baum_i_mover_go(&at, q[body], v[body], p[CRANK + body] / 2, 0.0);
+  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
+}
+
 const baum_i_catalog_mechanism baum_i_four_bar = {
   .name = "four_bar",
   .title = "four-bar, a crank-rocker of uniform rods under gravity (Grashof)",
@@ -96,5 +107,6 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .build = build,
   .units = "mmr",
   .bodies = 3,
+  .state = state,
   BAUM_I_CATALOG_STORED(FOUR_BAR),
 };

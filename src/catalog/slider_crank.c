@@ -146,22 +146,20 @@ static void build_driven(baum_i_parts *parts, const double *p)
 
 #define SLIDER_CRANK                                                                      \
   .parameter_count = BAUM_I_SLIDER_CRANK_COUNT, .parameters = PARAMETERS, .units = "mmr", \
-  .bodies = 3, .smooth = true
+  .bodies = 3, .state = baum_i_slider_crank_state, .smooth = true
 
-#define STORED(NAME)                                                                         \
-  SLIDER_CRANK, .build = build_free, .samples = NAME##_SAMPLES, .t = NAME##_T,               \
-                .columns = NAME##_WIDTH, .q = NAME##_Q[0], .v = NAME##_V[0], .digits_q = 15, \
-                .digits_v = 15, .end = 0.2
+#define FREE SLIDER_CRANK, .build = build_free, .digits_q = 15, .digits_v = 14, .end = 0.2
 
 #define DRIVEN                                                                                   \
   SLIDER_CRANK, .build = build_driven, .samples = 21, .columns = 1, .solution = driven_solution, \
-                .state = baum_i_slider_crank_state, .digits_q = 13, .digits_v = 13,              \
+                .digits_q = 13, .digits_v = 13,                                                  \
                 .provenance = "closed form; agrees with extrapolation in 160 bits",              \
                 .note = "no freedom left: solved by kinematics, too. Its formulas need "         \
                         "rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
-  STORED(SLIDER_CRANK),
+  FREE,
+  BAUM_I_CATALOG_SERIES(SLIDER_CRANK),
   .name = "slider_crank",
   .title = "slider-crank, centric, the crank free from 150 rad/s",
   .source = FLORES,
@@ -172,7 +170,8 @@ const baum_i_catalog_mechanism baum_i_slider_crank = {
 };
 
 const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
-  STORED(SLIDER_CRANK_ECCENTRIC),
+  FREE,
+  BAUM_I_CATALOG_SERIES(SLIDER_CRANK_ECCENTRIC),
   .name = "slider_crank_eccentric",
   .title = "slider-crank, eccentric, the crank free from 150 rad/s",
   .source = FLORES "; the eccentricity is our choice",

@@ -27,13 +27,20 @@ static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
   [FORCE] = {"force", "N", "on the end of the rod, to the right", BAUM_I_CATALOG_ANY},
 };
 
-/* Crank and rod from crank angle, x of the rod, rod angle. */
+/* From the angle of the crank; the centre of the rod, 1 m from pin B, is on y = 0. */
 static void state(const double *p, const double *q, const double *v, int body, double *body_q,
                   double *body_v)
 {
-  (void)p;
-  baum_i_mover at = {{body == 0 ? 0.0 : q[1], 0.0}, {body == 0 ? 0.0 : v[1], 0.0}};
-  baum_i_mover_state(&at, q[2 * body], v[2 * body], body_q, body_v);
+  baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
+  if (body == 0) {
+    baum_i_mover_state(&at, q[0], v[0], body_q, body_v);
+    return;
+  }
+  baum_i_mover_go(&at, q[0], v[0], p[CRANK], 0.0);
+  double angle = -asin(at.r[1]);
+  double rate = -at.v[1] / cos(angle);
+  baum_i_mover_go(&at, angle, rate, 1.0, 0.0);
+  baum_i_mover_state(&at, angle, rate, body_q, body_v);
 }
 
 static int guide(double t, const double *q, double *phi, void *user)
@@ -127,6 +134,6 @@ const baum_i_catalog_mechanism baum_i_slider_crank_sundials = {
   .build = build,
   .units = "mmr",
   .bodies = 2,
-  BAUM_I_CATALOG_STORED(SUNDIALS_SLIDER_CRANK),
+  BAUM_I_CATALOG_SERIES(SUNDIALS_SLIDER_CRANK),
   .state = state,
 };
