@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Break times: when what acts on a mechanism is known to jump; inputs that jump by a schedule.
+ *  Break times: times at which the loads on a mechanism or its laws jump. Schedules: inputs that
+ *  change at given times.
  */
 #ifndef BAUM_BREAKS_H
 #define BAUM_BREAKS_H
@@ -11,45 +12,49 @@
 extern "C" {
 #endif
 
-/** Declare times at which laws, loads, user forces or other functions of time jump, or change by a
- *  kink. At its break time a function has the value of after. No step of a run passes one: a step
- *  ends there, a few roundings before the time, and the next begins at it, which is where methods
- *  that carry their past along restart (counters.restarts). With fixed steps the step before is
- *  shorter where the break is off the grid (counters.short_steps), and the grid begins there.
- *  Backward in time likewise. Positions and velocities go on as they are: what jumps in the law of
- *  a driver is a violation, as with baum_simulation_set_driver(). Only kinematics have the
- *  velocities of the law. Outputs are where they would be; a target nearer to a break than the
- *  rounding of time is the break.
- *  @param     mechanism  not yet frozen
- *  @param[in] times      (count) [s] finite, in any order; added to those there are. Copied. NULL
- *                        when count is 0
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; the mechanism is
- *             unchanged on failure
- */
+/** Declare times at which laws, loads, user forces or other functions of time are discontinuous or
+ *  have a kink. At its break time a function must return the value after the break.
+ *
+ *  No step crosses a break, forward or backward in time. A step ends a few roundings before it, and
+ *  the next begins at it. Methods that use past steps restart there (counters.restarts). A
+ *  fixed-step method shortens the step before a break that is off its grid (counters.short_steps)
+ *  and begins a new grid at the break. Outputs are where they would be without the break. A target
+ *  closer to a break than the rounding of time is moved to the break.
+ *
+ *  Positions and velocities stay continuous. A jump in the law of a driver is therefore a
+ *  constraint violation, as with baum_simulation_set_driver(). Only kinematics takes the velocities
+ *  of the law.
+ *  @param     mechanism  not frozen; unchanged on failure
+ *  @param[in] times      (count) [s] finite, in any order, in addition to earlier ones. Copied.
+ *                        NULL if count is 0.
+ *  @param     count      [-] >= 0
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const double *times,
                                                     int32_t count);
 
-/** The break times, rising, each once; owned by the mechanism.
- *  @param[out] count  their number. May be NULL.
- *  @return     NULL for NULL, and where there are none
- */
+/** Read the break times.
+ *  @param      mechanism  may be NULL
+ *  @param[out] count      [-] their number. May be NULL.
+ *  @return  (count) [s] rising, each once, owned by the mechanism; NULL if there are none */
 BAUM_API const double *baum_mechanism_break_times(const baum_mechanism *mechanism, int32_t *count);
 
-/** Give an input of a run values from times on: values[k] from times[k] to times[k + 1], the last
- *  one for good, and before times[0] the value that it has at the call. It is a function of time
- *  then, also backward, past times, and where baum_simulation_set_state() goes. Every time at which
- *  the value changes is a break time of this run, as of baum_mechanism_add_break_times(): steps end
- *  there and methods that carry their past along restart, as they do at this call. It replaces a
- *  schedule that the input has, and ends with baum_simulation_set_input() or a count of 0, which
- *  keep what is set and the present value. baum_simulation_save() has schedules, and
- *  baum_simulation_continue() takes them over.
- *  @param     input   of the mechanism of the run
- *  @param[in] times   (count) [s] finite, rising, also before the present one. Copied. NULL when
- *                     count is 0
- *  @param[in] values  (count) finite. Copied. NULL when count is 0
- *  @param     count   [-] >= 0
- *  @return    as baum_simulation_set_input(); the run is unchanged on failure
- */
+/** Schedule the values of an input: values[k] holds from times[k] to times[k + 1], and the last
+ *  value for good. Before times[0] the input has its value at the time of this call. The schedule
+ *  is a function of time: it also holds backward in time, at past times, and after
+ *  baum_simulation_set_state().
+ *
+ *  Each time at which the value changes is a break time of this run, see
+ *  baum_mechanism_add_break_times(). Methods that use past steps restart there and at this call.
+ *  The schedule replaces an earlier one of this input. baum_simulation_set_input(), or a count of
+ *  0, ends it; a count of 0 keeps the present value. baum_simulation_save() includes schedules, and
+ *  baum_simulation_continue() copies them.
+ *  @param     simulation  unchanged on failure
+ *  @param     input       one of the mechanism
+ *  @param[in] times       (count) [s] finite, rising; may be in the past. Copied. NULL if count is
+ *                         0.
+ *  @param[in] values      (count) finite. Copied. NULL if count is 0.
+ *  @param     count       [-] >= 0
+ *  @return  as baum_simulation_set_input() */
 BAUM_API baum_status baum_simulation_schedule_input(baum_simulation *simulation,
                                                     baum_input_id input, const double *times,
                                                     const double *values, int32_t count);

@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Evaluation of a frozen mechanism at a point, without a run. Simulations do this by themselves; a
- *  workspace is for those who need Phi, J, nu, gamma, M, g or an acceleration of their own accord.
+ *  Evaluation of a frozen mechanism at one state, without a run: Phi, J, nu, gamma, M, g,
+ *  accelerations, residuals, assembly and projection.
  *
- *  Arguments: t [s], positions q (nq), velocities v (nv), all finite. No output may overlap an
- *  input; outputs are untouched on failure.
- *  Dense matrices are row-major. Rows and columns are in the order of adding. Units follow the
- *  coordinates.
- *  Threads: one workspace is used by one thread at a time; any number may share a mechanism.
- *  NULL: q, v and every array are required unless an argument says otherwise.
+ *  Arguments: times t [s], positions q (nq) and velocities v (nv) must be finite. No output may
+ *  overlap an input. Outputs are not written on failure. Dense matrices are row-major. Rows and
+ *  columns are in the order of adding. Units follow the coordinates.
+ *
  *  Every call returns BAUM_OK, BAUM_ERR_ARGUMENT (NULL or not finite), BAUM_ERR_CALLBACK or
- *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (from a function of the user
- *  that the workspace is calling), and what its own text adds.
+ *  BAUM_ERR_NOT_FINITE (the message names the element), BAUM_ERR_STATE (called from a user function
+ *  that this workspace is calling), and the statuses that its own comment adds.
+ *
+ *  Threads: one workspace is used by one thread at a time. Any number of workspaces may share a
+ *  mechanism.
  */
 #ifndef BAUM_DYNAMICS_H
 #define BAUM_DYNAMICS_H
@@ -25,127 +26,144 @@ extern "C" {
 /** Memory for evaluating one mechanism. */
 typedef struct baum_workspace baum_workspace;
 
-/** Make a workspace; it keeps the mechanism alive. Redundant rows are found here, from the design
- *  configuration at t = 0.
- *  @param[in]  mechanism  frozen
- *  @param[out] out        receives it, NULL on failure; release with baum_workspace_destroy()
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY
- */
+/** Create a workspace; it keeps the mechanism alive. Redundant rows are determined here, from the
+ *  design configuration at t = 0.
+ *  @param      mechanism  frozen
+ *  @param[out] out        receives it, NULL on failure; release it with baum_workspace_destroy()
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out);
 
-/** Give up a workspace.
- *  @param workspace  may be NULL
- */
+/** Release a workspace. @param workspace  may be NULL */
 BAUM_API void baum_workspace_destroy(baum_workspace *workspace);
 
-/** The design configuration and the given velocities, NaN where free.
- *  @param[out] q,v  (nq), (nv); each may be NULL
- *  @return          BAUM_OK, BAUM_ERR_ARGUMENT
- */
+/** Read the design configuration and the given initial velocities.
+ *  @param      workspace  of the mechanism
+ *  @param[out] q,v        (nq), (nv), NaN where free. Each may be NULL.
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *v);
 
-/** Change an input, which has its initial value before.
- *  @param value  finite
- *  @return       BAUM_OK, BAUM_ERR_ARGUMENT
- */
+/** Change an input. Before, it has its initial value.
+ *  @param workspace  of the mechanism
+ *  @param input      one of its inputs
+ *  @param value      finite
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_workspace_set_input(baum_workspace *workspace, baum_input_id input,
                                               double value);
 
-/** Present value of an input; NaN for NULL and for ids of others. */
+/** Read an input.
+ *  @param workspace  may be NULL
+ *  @param input      one of the mechanism
+ *  @return  its present value; NaN for NULL and other ids */
 BAUM_API double baum_workspace_input(const baum_workspace *workspace, baum_input_id input);
 
-/** Rates of positions q' = N(q) v; v where q is a vector, as in the plane.
- *  @param[in]  q,v  (nq), (nv)
- *  @param[out] dq   (nq)
- */
+/** Compute q' = N(q) v, which is v if q is a vector, as in the plane.
+ *  @param      workspace  of the mechanism
+ *  @param[in]  q,v        (nq), (nv)
+ *  @param[out] dq         (nq)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_rate(baum_workspace *workspace, const double *q,
                                          const double *v, double *dq);
 
-/** Move positions by a displacement of velocity size: q + dx where q is a vector.
- *  @param[in]     dx  (nv)
- *  @param[in,out] q   (nq)
- */
+/** Move positions by a displacement of velocity size: q + dx if q is a vector.
+ *  @param         workspace  of the mechanism
+ *  @param[in]     dx         (nv)
+ *  @param[in,out] q          (nq)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_move(baum_workspace *workspace, const double *dx, double *q);
 
-/** The displacement by which baum_workspace_move() leads from one configuration to another.
- *  @param[in]  from,to  (nq) each
- *  @param[out] dx       (nv)
- */
+/** Compute the displacement by which baum_workspace_move() takes one configuration to another.
+ *  @param      workspace  of the mechanism
+ *  @param[in]  from,to    (nq) each
+ *  @param[out] dx         (nv)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_difference(baum_workspace *workspace, const double *from,
                                                const double *to, double *dx);
 
-/** Constraint residual Phi(q, t) (1).
- *  @param[in]  q    (nq)
- *  @param[out] phi  (nc) [m], [rad] or the unit of a user constraint
- */
+/** Evaluate the constraints Phi(q, t) (1).
+ *  @param      workspace,t,q  see the top of this file
+ *  @param[out] phi            (nc) [m], [rad] or the unit of a user constraint
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double *q,
                                         double *phi);
 
-/** Velocity Jacobian J = dPhi/dq N (3), N the identity where q is a vector.
- *  @param[out] jacobian  (nc x nv)
- */
+/** Evaluate the velocity Jacobian J = dPhi/dq N (3). N is the identity if q is a vector.
+ *  @param      workspace,t,q  see the top of this file
+ *  @param[out] jacobian       (nc x nv)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_jacobian(baum_workspace *workspace, double t, const double *q,
                                              double *jacobian);
 
-/** nu = -dPhi/dt, so that J v = nu (3).
- *  @param[out] nu  (nc)
- */
+/** Evaluate nu = -dPhi/dt, the right side of J v = nu (3).
+ *  @param      workspace,t,q  see the top of this file
+ *  @param[out] nu             (nc)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double *q,
                                        double *nu);
 
-/** gamma, so that J a = gamma (4).
- *  @param[out] gamma  (nc)
- */
+/** Evaluate gamma, the right side of J a = gamma (4).
+ *  @param      workspace,t,q,v  see the top of this file
+ *  @param[out] gamma            (nc)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *gamma);
 
-/** Mass matrix M.
- *  @param[out] mass  (nv x nv)
- */
+/** Evaluate the mass matrix M.
+ *  @param      workspace,t,q  see the top of this file
+ *  @param[out] mass           (nv x nv)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_mass(baum_workspace *workspace, double t, const double *q,
                                          double *mass);
 
-/** Force vector g: applied, gravity and velocity terms.
- *  @param[out] force  (nv)
- */
+/** Evaluate the force vector g: applied forces, gravity and velocity terms.
+ *  @param      workspace,t,q,v  see the top of this file
+ *  @param[out] force            (nv)
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_force(baum_workspace *workspace, double t, const double *q,
                                           const double *v, double *force);
 
-/** Kinetic and potential energy; the latter of gravity, springs, steady loads and user potentials.
- *  @param[out] kinetic,potential  [J]; each may be NULL
- */
+/** Evaluate the kinetic energy and the potential energy of gravity, springs, constant loads and
+ *  user potentials.
+ *  @param      workspace,t,q,v    see the top of this file
+ *  @param[out] kinetic,potential  [J] Each may be NULL.
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_energy(baum_workspace *workspace, double t, const double *q,
                                            const double *v, double *kinetic, double *potential);
 
-/** Acceleration and multipliers of M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi
- *  (7); with alpha = beta = 0 those of (5). Redundant rows are left out of the solution; where
- *  multipliers are not unique they are those of least norm in rows scaled by M, as far as the
- *  constraints are met, and balance the forces to 1e-9 in any case. Which rows are left
- *  out changes where the others come close to dependent; this allocates, and the residual forms
- *  leave them out, too, from then on.
- *  @param      alpha,beta  [1/s] finite
- *  @param[out] a           (nv); may be NULL
- *  @param[out] lambda      (nc); may be NULL
- *  @return                 also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
- */
+/** Solve M a + J^T lambda = g, J a = gamma - 2 alpha Phi' - beta^2 Phi (7) for accelerations and
+ *  multipliers; alpha = beta = 0 gives (5).
+ *
+ *  Redundant rows are omitted from the solution. Multipliers that are not unique have the least
+ *  norm, in rows scaled by M, that meets the constraints, and balance the forces to 1e-9. The
+ *  choice of omitted rows changes if the remaining rows come close to dependent. This allocates,
+ *  and the residual forms then omit the same rows.
+ *  @param      workspace,t,q,v  see the top of this file
+ *  @param      alpha,beta       [1/s] finite
+ *  @param[out] a                (nv) May be NULL.
+ *  @param[out] lambda           (nc) May be NULL.
+ *  @return  also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_acceleration(baum_workspace *workspace, double t,
                                                  const double *q, const double *v, double alpha,
                                                  double beta, double *a, double *lambda);
 
-/** Force and moment of a joint on its body_b: see planar.h. For others, such as user constraints,
- *  gears and couplings: -J^T lambda over its bodies.
- *  @param[in]  lambda    (nc)
- *  @param[out] reaction  (width) as the channel BAUM_JOINT_REACTION, 3 for planar joints
- */
+/** Compute force and moment of a planar joint on its body_b, see planar.h; for user constraints,
+ *  gears and couplings, the generalized force -J^T lambda on the velocities of their bodies.
+ *  @param      workspace,t,q  see the top of this file
+ *  @param[in]  lambda         (nc)
+ *  @param      joint          one of the mechanism
+ *  @param[out] reaction       (width) as the channel BAUM_JOINT_REACTION; 3 for planar joints
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
                                              const double *lambda, baum_joint_id joint,
                                              double *reaction);
 
-/** Which equations baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and
- *  constraints. GGL (Gear, Gupta, Leimkuhler 1985) has q' - N (v - W^-1 J^T mu) instead of the
- *  first, and with mu as many unknowns more; mu is zero but for the errors of a method. W is
- *  constant and diagonal: the diagonal of M in the design configuration at t = 0, for coordinates
- *  of scale s with less than a millionth of the largest M_kk s_k^2 that millionth over s^2. */
+/** The equations that baum_workspace_residual() evaluates: q' - N v, M v' + J^T lambda - g, and the
+ *  constraints below.
+ *
+ *  GGL (Gear, Gupta, Leimkuhler 1985) replaces the first by q' - N (v - W^-1 J^T mu), with as many
+ *  additional unknowns mu, which are zero except for errors of the method. W is constant and
+ *  diagonal: the diagonal of M in the design configuration at t = 0. Entries M_kk with M_kk s_k^2
+ *  below a millionth of the largest are raised to that millionth over s_k^2, where s is the scale
+ *  of a coordinate. */
 typedef enum baum_residual {
   BAUM_RESIDUAL_INDEX1 = 1, /**< J v' - gamma + 2 alpha Phi' + beta^2 Phi. */
   BAUM_RESIDUAL_INDEX2 = 2, /**< Phi' = J v - nu. */
@@ -155,60 +173,66 @@ typedef enum baum_residual {
 
 /** Which equations, and their gains. */
 typedef struct baum_dae {
-  baum_residual index; /**< Form. */
+  baum_residual index; /**< Form of the constraints. */
   double alpha;        /**< [1/s] finite; used by index 1. */
   double beta;         /**< [1/s] finite; used by index 1. */
 } baum_dae;
 
-/** A sparse matrix in compressed columns with sorted rows; the arrays are the caller's. */
+/** A sparse matrix in compressed columns with sorted rows. The caller owns the arrays. */
 typedef struct baum_sparse {
   int32_t *columns; /**< (size + 1) starts of the columns. May be NULL. */
   int32_t *rows;    /**< (nonzeros). May be NULL. */
   double *values;   /**< (nonzeros). May be NULL. */
-  int32_t nonzeros; /**< Number of entries; always written. */
+  int32_t nonzeros; /**< [-] number of entries; always written. */
 } baum_sparse;
 
-/** Residual F(t, y, y') of the differential-algebraic equations with y = (q, v, lambda), for GGL
- *  (q, v, lambda, mu). Rows that are redundant read lambda_i, and mu_i, instead.
- *  @param[in]  dae       which equations
- *  @param[in]  y,dy      (nq + nv + nc) each, (nq + nv + 2 nc) for GGL
- *  @param[out] residual  as many
- */
+/** Evaluate the residual F(t, y, y') of the differential-algebraic equations with y = (q, v,
+ *  lambda); for GGL y = (q, v, lambda, mu). Redundant rows are replaced by lambda_i, and mu_i.
+ *  @param      workspace,t  see the top of this file
+ *  @param[in]  dae          which equations
+ *  @param[in]  y,dy         (nq + nv + nc) each; (nq + nv + 2 nc) for GGL
+ *  @param[out] residual     of the same size
+ *  @return  see the top of this file */
 BAUM_API baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *dae,
                                              double t, const double *y, const double *dy,
                                              double *residual);
 
-/** Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only. Allocates:
- *  for use outside of inner loops. To learn the size call first with all arrays of `out` NULL.
- *  @param      c    [1/s] finite
- *  @param[out] out  nonzeros, and what is asked for by an array that is not NULL
- *  @return          also BAUM_ERR_MEMORY
- */
+/** Evaluate the Jacobian dF/dy + c dF/dy' of that residual. Its pattern depends on dae->index only.
+ *  To learn the number of entries, call it first with all arrays of `out` NULL. It allocates; do
+ *  not use it in inner loops.
+ *  @param      workspace,t  see the top of this file
+ *  @param[in]  dae          which equations
+ *  @param      c            [1/s] finite
+ *  @param[in]  y,dy         as for baum_workspace_residual()
+ *  @param[out] out          receives nonzeros, and fills the arrays that are not NULL
+ *  @return  also BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_residual_jacobian(baum_workspace *workspace,
                                                       const baum_dae *dae, double c, double t,
                                                       const double *y, const double *dy,
                                                       baum_sparse *out);
 
-/** Assemble: move q the least (weighted by mass) so that Phi(q, t) = 0, and complete v. Each Newton
- *  step is the least, so that a move over which J turns is near the least only: give `held` what
- *  must stay.
- *  @param[in,out] q     (nq) a guess on entry; unchanged on failure
- *  @param[in,out] v     (nv) finite entries are held exactly, NaN ones follow from the constraints
- *                       and are least where undetermined; unchanged on failure
- *  @param[in]     held  (held_count) bodies whose positions stay; may be NULL when held_count is 0.
- *                       Bodies whose definition says `held` stay too.
- *  @return              also BAUM_ERR_INCONSISTENT (names the joints that conflict),
- *                       BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY
- */
+/** Assemble: move q by the mass-weighted least change to Phi(q, t) = 0, and complete v. Each Newton
+ *  step is the least. The sum is close to the least, too, unless J changes much over the move; then
+ *  name in `held` the bodies that must stay.
+ *  @param         workspace,t  see the top of this file
+ *  @param[in,out] q            (nq) initial guess on entry; unchanged on failure
+ *  @param[in,out] v            (nv) finite entries are kept exactly; NaN entries follow from the
+ *                              constraints, with the least norm if undetermined. Unchanged on
+ *                              failure.
+ *  @param[in]     held         (held_count) bodies whose positions stay, in addition to those whose
+ *                              definition says `held`. May be NULL if held_count is 0.
+ *  @param         held_count   [-] >= 0
+ *  @return  also BAUM_ERR_INCONSISTENT (the message names the joints in conflict),
+ *           BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double *q,
                                              double *v, const baum_body_id *held,
                                              int32_t held_count);
 
-/** Project onto the constraints: q by the least change in the metric of M, then v likewise.
- *  @param[in,out] q,v  (nq), (nv) near the constraints; unchanged on failure
- *  @return             also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY,
- *                      BAUM_ERR_INCONSISTENT (redundant rows that the others do not meet)
- */
+/** Project onto the constraints: change q, then v, by the least amount in the metric of M.
+ *  @param         workspace,t  see the top of this file
+ *  @param[in,out] q,v          (nq), (nv) near the constraints; unchanged on failure
+ *  @return  also BAUM_ERR_CONVERGENCE, BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY, BAUM_ERR_INCONSISTENT
+ *           (redundant rows contradict the others) */
 BAUM_API baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q,
                                             double *v);
 

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  What a mechanism consists of, frozen or not: bodies, joints, forces and inputs in the order of
- *  adding, and by name. For mechanisms that somebody else has put together, such as those of the
- *  catalogue. Ground is not among the bodies, drivers and user constraints are joints. An id that
- *  is not there is "none", all-zero.
+ *  Finding the elements of a mechanism, frozen or not, by number in the order of adding or by name.
+ *  Useful for mechanisms that somebody else has built, such as those of the catalogue. Ground does
+ *  not count as a body. Drivers and user constraints are joints.
  */
 #ifndef BAUM_ELEMENTS_H
 #define BAUM_ELEMENTS_H
@@ -16,40 +15,49 @@
 extern "C" {
 #endif
 
-/** Number of bodies; 0 for NULL. */
+/** Count the bodies. @param mechanism  may be NULL @return 0 for NULL */
 BAUM_API int32_t baum_mechanism_body_count(const baum_mechanism *mechanism);
 
-/** Number of joints; 0 for NULL. */
+/** Count the joints. @param mechanism  may be NULL @return 0 for NULL */
 BAUM_API int32_t baum_mechanism_joint_count(const baum_mechanism *mechanism);
 
-/** Number of forces, gravity not among them; 0 for NULL. */
+/** Count the forces, without gravity. @param mechanism  may be NULL @return 0 for NULL */
 BAUM_API int32_t baum_mechanism_force_count(const baum_mechanism *mechanism);
 
-/** Body k, 0 to baum_mechanism_body_count() - 1; none for NULL and other k. */
+/** Find a body by number.
+ *  @param mechanism  may be NULL
+ *  @param k          0 to count - 1
+ *  @return  its id; none (all-zero) if there is no such element */
 BAUM_API baum_body_id baum_mechanism_body_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Joint k, likewise. */
+/** Find a joint by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_joint_id baum_mechanism_joint_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Force k, likewise. */
+/** Find a force by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_force_id baum_mechanism_force_at(const baum_mechanism *mechanism, int32_t k);
 
-/** Input k, 0 to baum_mechanism_input_count() - 1, likewise. */
+/** Find an input by number. @copydetails baum_mechanism_body_at() */
 BAUM_API baum_input_id baum_mechanism_input_at(const baum_mechanism *mechanism, int32_t k);
 
-/** The first body of that name, "ground" too; none for NULL and when there is none. */
+/** Find the first body of a name; "ground" gives BAUM_GROUND.
+ *  @param     mechanism  may be NULL
+ *  @param[in] name       may be NULL
+ *  @return  its id; none (all-zero) if there is no such element */
 BAUM_API baum_body_id baum_mechanism_find_body(const baum_mechanism *mechanism, const char *name);
 
-/** The first joint of that name, likewise. */
+/** Find the first joint of a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_joint_id baum_mechanism_find_joint(const baum_mechanism *mechanism, const char *name);
 
-/** The first force of that name, likewise. */
+/** Find the first force of a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_force_id baum_mechanism_find_force(const baum_mechanism *mechanism, const char *name);
 
-/** The first input of that name, likewise. */
+/** Find the first input of a name. @copydetails baum_mechanism_find_body() */
 BAUM_API baum_input_id baum_mechanism_find_input(const baum_mechanism *mechanism, const char *name);
 
-/** Name of a force, owned by the mechanism; NULL when the id is not one of its forces. */
+/** Name of a force.
+ *  @param mechanism  frozen or not
+ *  @param force      one of its forces
+ *  @return  text owned by the mechanism; NULL for other ids */
 BAUM_API const char *baum_mechanism_force_name(const baum_mechanism *mechanism,
                                                baum_force_id force);
 

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  What a call returns, and the message that explains it.
+ *  Statuses and messages.
  *
- *  Every call that can fail returns a baum_status and nothing else; results come through pointers.
- *  0 is done; 1 to 9 stopped as asked; 10 and up reached the end with warnings; below 0 failed.
- *  On failure outputs are null or untouched and the object is as before the call; a run keeps its
- *  last good step. The library never prints, exits or aborts.
+ *  Every call that can fail returns a baum_status; results come through pointers. 0: done. 1 to 9:
+ *  stopped as asked. 10 and up: reached the end with warnings. Below 0: failed.
  *
- *  Threads: baum_message() is one buffer per thread; everything else in the library is in objects.
+ *  On failure, outputs are NULL or not written and the object is as before the call. A run keeps
+ *  its last good step. The library never prints, exits or aborts.
+ *
+ *  Threads: each thread has its own message. The library has no other state outside objects.
  */
 #ifndef BAUM_STATUS_H
 #define BAUM_STATUS_H
@@ -18,7 +19,7 @@
 extern "C" {
 #endif
 
-/** The one list of statuses: name, value, text. Values are part of the ABI, never to be reused. */
+/** All statuses: name, value, text. Values are part of the ABI and are never reused. */
 #define BAUM_STATUS_LIST(X)                                                                 \
   X(BAUM_OK, 0, "done")                                                                     \
   X(BAUM_STOP_CANCELLED, 1, "cancelled")                                                    \
@@ -40,8 +41,9 @@ extern "C" {
   X(BAUM_ERR_NOT_FINITE, -23, "a computed value is not finite")                             \
   X(BAUM_ERR_CALLBACK, -30, "a user function reported a failure")
 
-/** Result of every fallible call. */
+/** The result of every call that can fail; the values are those of BAUM_STATUS_LIST. */
 typedef enum baum_status {
+/** Expands a line of the list. */
 #define BAUM_X(name, value, text) name = (value),
   BAUM_STATUS_LIST(BAUM_X)
 #undef BAUM_X
@@ -49,29 +51,23 @@ typedef enum baum_status {
 
 /** Name of a status, such as "BAUM_ERR_ARGUMENT".
  *  @param status  any value
- *  @return        static text, never NULL; "BAUM_?" for a value that is no status
- */
+ *  @return  static text, never NULL; "BAUM_?" for unknown values */
 BAUM_API const char *baum_status_name(baum_status status);
 
-/** General meaning of a status.
- *  @param status  any value
- *  @return        static text, never NULL
- */
+/** General meaning of a status. @param status  any value @return static text, never NULL */
 BAUM_API const char *baum_status_text(baum_status status);
 
-/** The message of this thread's last call that returned a non-zero status: it names element,
- *  field, value and unit, and for a run the time.
- *  @return  this thread's buffer, never NULL, "" at first; valid until this thread's next failing
- *           call
- */
+/** Message of this thread's last call that returned a non-zero status. It names element, field,
+ *  value and unit, and for a run the time.
+ *  @return  text owned by the library, never NULL, initially ""; valid until this thread's next
+ *           failing call */
 BAUM_API const char *baum_message(void);
 
-/** Set this thread's message, for libraries on top of this one and for functions of the user that
- *  fail: forces, constraints, laws and solutions, whose message then ends that of the library.
- *  @param status    returned as it is
- *  @param message  copied, cut where it is very long; NULL: the general meaning of the status
- *  @return          status, so that one can write `return baum_fail(...)`
- */
+/** Set this thread's message. For libraries on top of this one, and for user functions that fail:
+ *  the library appends their message to its own.
+ *  @param     status   returned unchanged
+ *  @param[in] message  copied, cut if very long; NULL: the general meaning of the status
+ *  @return  status, so that you can write `return baum_fail(...)` */
 BAUM_API baum_status baum_fail(baum_status status, const char *message);
 
 #ifdef __cplusplus

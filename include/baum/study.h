@@ -1,24 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Speed against accuracy, measured: one mechanism, one time span, many settings of a run; what
- *  each of them costs, how exact it is, and which one to take.
+ *  Studies: accuracy against cost, measured. A study runs one mechanism over one time span with
+ *  many settings. It measures the error and the cost of each and recommends a setting.
  *
  *    baum_study_create(mechanism, 0.0, 2.0, &study);
  *    baum_study_add_standard(study, NULL);
  *    baum_study_run(study);
  *    baum_study_recommend(study, 1e-6, BAUM_STUDY_WORK, &options, sizeof options, why, sizeof why);
  *
- *  A setting is an entry. Entries with the same integrator, formulation and gains, which differ in
- *  step or rtol, are a method. Errors are differences from a reference at samples t0 + k (t1 - t0)
- *  / n, k = 1 to n. The study makes its own reference or is given one; no entry is graded better
- *  than the reference is known. docs/theory/work-precision.md says how all of it is done.
+ *  An *entry* is one setting. A *method* is the set of entries with the same integrator,
+ *  formulation and gains, which differ in step or rtol. Errors are differences from a *reference*
+ *  at the samples t0 + k (t1 - t0) / n, k = 1 to n. The study computes its own reference or is
+ *  given one. No entry is graded better than the reference is known. docs/theory/work-precision.md
+ *  explains the details.
  *
- *  Threads: one study is used by one thread at a time, but for baum_study_cancel().
- *  baum_study_run() uses the threads of the options, and calls functions of the user, those of the
- *  mechanism too, from each of them. While baum_study_run() is under way, its progress function may
- *  cancel it and, with one thread, read it: what would change it fails with BAUM_ERR_STATE, and it
- *  cannot be destroyed. Texts are owned by the study and stay as they are until the next call that
- *  is not reading, or its end.
+ *  Threads: one study is used by one thread at a time, except baum_study_cancel(). baum_study_run()
+ *  uses as many threads as the options say and calls user functions, including those of the
+ *  mechanism, from each of them. Meanwhile its progress function may cancel it and, with one
+ *  thread, read it. Functions that change the study fail there with BAUM_ERR_STATE, and destroying
+ *  it does nothing.
+ *
+ *  Texts are owned by the study. They are valid until the next call that changes it.
  */
 #ifndef BAUM_STUDY_H
 #define BAUM_STUDY_H
@@ -39,59 +41,59 @@ typedef struct baum_study baum_study;
 
 /* ---- making one ------------------------------------------------------------------------------ */
 
-/** A study without settings.
- *  @param[in]  mechanism  frozen; kept alive by the study
+/** Create a study without entries.
+ *  @param      mechanism  frozen; the study keeps it alive
  *  @param      t0         [s] finite, start of all runs
- *  @param      t1         [s] finite, their end, not t0; before t0 for runs backward in time
- *  @param[out] out        receives the study, NULL on failure; release with baum_study_destroy()
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY
- */
+ *  @param      t1         [s] finite, end of all runs, not t0; before t0 for runs backward in time
+ *  @param[out] out        receives the study, NULL on failure; release it with baum_study_destroy()
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not frozen), BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double t1,
                                        baum_study **out);
 
-/** End a study.
- *  @param study  may be NULL
- */
+/** Release a study. @param study  may be NULL */
 BAUM_API void baum_study_destroy(baum_study *study);
 
-/** Called after each entry, and for the reference; by one thread at a time, not always the
- *  caller's.
- *  @param done   entries that are done, timed ones twice: half of `total` after all errors are
- *                known
- *  @param total  2 x entries
- *  @return       non-zero to cancel */
+/** Called after each entry and during the reference, by one thread at a time, which may not be that
+ *  of the caller.
+ *  @param study  the study
+ *  @param done   entries whose error is known plus entries whose time is known
+ *  @param total  2 x number of entries
+ *  @param user   the option `user`
+ *  @return  non-zero to cancel */
 typedef int baum_study_progress_fn(const baum_study *study, int32_t done, int32_t total,
                                    void *user);
 
-/** How to study. Start from baum_study_options_default(). */
+/** How to study. */
 typedef struct baum_study_options {
   size_t struct_size; /**< Set by the default. Do not write. */
-  int32_t samples;    /**< [-] 2 to 1e6, at which errors are taken; at most 1e8 / (nq + nv + nc) for
-                        large mechanisms. Default: 100. */
-  int32_t threads; /**< [-] 1 to 1024, for errors; times are always taken one by one. Default: 1. */
-  int32_t repeats; /**< [-] 1 to 1e6, most runs for the time of an entry; fewer where they are long.
-                            Default: 5. */
-  double entry_limit;  /**< [s] > 0 of CPU time, longest run of an entry; may be infinite. The
-                           reference may take a minute, or five times that. Default: 10. */
-  double time_budget;  /**< [s] > 0 of wall time, of one baum_study_run(); may be infinite. Default:
-                            infinity. */
-  bool energy_account; /**< Take the works of the stabilization, at the price of
-                            baum_energy_account. Default: true. */
-  const char *file;    /**< Path of the study file, see baum_study_run(). Copied. Default: NULL,
-                            none. */
+  /** [-] 2 to 1e6, at most 1e8 / (nq + nv + nc); number of samples of the error. Default: 100. */
+  int32_t samples;
+  /** [-] 1 to 1024, for errors. Times are always measured one by one. Default: 1. */
+  int32_t threads;
+  /** [-] 1 to 1e6, most runs to measure the time of an entry; long runs are repeated less.
+   *  Default: 5. */
+  int32_t repeats;
+  /** [s] > 0 of CPU time, longest run of an entry; may be infinite. The reference may take a
+   *  minute, or five times this limit. Default: 10. */
+  double entry_limit;
+  /** [s] > 0 of wall time for one baum_study_run(); may be infinite. Default: infinity. */
+  double time_budget;
+  /** Measure the works of the stabilization, at the cost of baum_energy_account. Default: true. */
+  bool energy_account;
+  /** Path of the study file, see baum_study_run(). Copied. Default: NULL, none. */
+  const char *file;
   baum_study_progress_fn *progress; /**< Default: NULL, none. */
-  void *user;                       /**< Passed to progress, not owned. Default: NULL. */
-  bool validate; /**< Run entries that may be recommended over twice the span and from other starts,
-                      too, so that recommendations hold there. Default: true. */
+  void *user;                       /**< Passed to progress. Not owned. Default: NULL. */
+  /** Run entries that may be recommended also over twice the span and from perturbed starts, so
+   *  that recommendations hold there. Default: true. */
+  bool validate;
 } baum_study_options;
 
-/** Set the default options; writes at most caller_size bytes.
+/** Set every field to its default.
  *  @param[out] options      NULL is ignored
- *  @param      caller_size  sizeof *options
- */
+ *  @param      caller_size  sizeof *options; no byte beyond it is written */
 BAUM_API void baum_study_options_init(baum_study_options *options, size_t caller_size);
-
-/** The default options. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_study_options baum_study_options_default(void)
 {
   baum_study_options options;
@@ -99,49 +101,48 @@ static inline baum_study_options baum_study_options_default(void)
   return options;
 }
 
-/** Set the options. Once entries have been run samples, energy_account and file stay as they are.
+/** Set the options. After the first run, samples, energy_account and file must stay the same.
+ *  @param     study    unchanged on failure
  *  @param[in] options  copied
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY;
- *             unchanged on failure
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_set_options(baum_study *study, const baum_study_options *options);
 
 /* ---- settings -------------------------------------------------------------------------------- */
 
-/** Add one setting. Whether it can be run is found out by running it: one that is refused is an
+/** Add one setting. A setting that cannot be run is found out by running it and stays as a refused
  *  entry.
- *  @param[in] options  copied; start_time, progress and user are the study's whatever they say
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
- *             BAUM_ERR_MEMORY
- */
+ *  @param     study    unchanged on failure
+ *  @param[in] options  copied; start_time, progress and user are ignored
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (NULL, or no integrator), BAUM_ERR_STRUCT, BAUM_ERR_STATE,
+ *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_add(baum_study *study, const baum_simulation_options *options);
 
-/** What the standard grid has. Start from baum_study_grid_default(). */
+/** Contents of the standard grid. */
 typedef struct baum_study_grid {
   size_t struct_size;                /**< Set by the default. Do not write. */
-  const baum_integrator *integrator; /**< This one alone. Default: NULL, all of the build. */
-  baum_formulation formulation;      /**< This one alone. Default: BAUM_FORMULATION_DEFAULT, all. */
-  int32_t settings;  /**< [-] 1 to 64, steps or tolerances of each method. Default: 8. */
-  int32_t constants; /**< [-] 0 to 4, constant gains alpha = beta beside the rule of the integrator
-                          and auto: 1, 10, 100, 1000 times the rate of the motion. Default: 2. */
-  double coarsest; /**< [s] > 0, longest step of order 2 and more. Default: NaN, by the rate of the
-                        motion. */
-  double finest;   /**< [-] > 0, < 1e-2, least rtol; the largest is 1e-2. Default: NaN, 1e-13, or
-                        1e-11 where a constraint of the user has neither jacobian nor gamma: what
-                        differences leave there. */
-  bool quick;      /**< The quick grid, a first answer for about a 25th of the cost: every
-                        integrator with its default formulation (or the one above) and its own rule
-                        for gains, at most 5 settings; `constants` does not apply. Default: false.
-                        */
+  const baum_integrator *integrator; /**< Only this one. Default: NULL, all in this build. */
+  baum_formulation formulation;      /**< Only this one. Default: BAUM_FORMULATION_DEFAULT, all. */
+  int32_t settings; /**< [-] 1 to 64, steps or tolerances of each method. Default: 8. */
+  /** [-] 0 to 4, number of constant gains alpha = beta in addition to the integrator's default rule
+   *  and auto: 1, 10, 100, 1000 times the angular velocity of the motion. Default: 2. */
+  int32_t constants;
+  /** [s] > 0, longest step of methods of order 2 and above. Default: NaN, from the time scale of
+   *  the motion. */
+  double coarsest;
+  /** [-] > 0, < 1e-2, smallest rtol; the largest is 1e-2. Default: NaN: 1e-13, or 1e-11 if a user
+   *  constraint has neither jacobian nor gamma, because differences are no more accurate. */
+  double finest;
+  /** A first answer for about a 25th of the cost: every integrator with its default formulation (or
+   *  the one above) and its default gains, at most 5 settings; `constants` is ignored.
+   *  Default: false. */
+  bool quick;
 } baum_study_grid;
 
-/** Set the default grid; writes at most caller_size bytes.
+/** Set every field to its default.
  *  @param[out] grid         NULL is ignored
- *  @param      caller_size  sizeof *grid
- */
+ *  @param      caller_size  sizeof *grid; no byte beyond it is written */
 BAUM_API void baum_study_grid_init(baum_study_grid *grid, size_t caller_size);
-
-/** The default grid. */
+/** @copydoc baum_coordinates_def_default() */
 static inline baum_study_grid baum_study_grid_default(void)
 {
   baum_study_grid grid;
@@ -149,347 +150,361 @@ static inline baum_study_grid baum_study_grid_default(void)
   return grid;
 }
 
-/** Add the standard grid: every integrator that the build has, with each of its formulations, gains
- *  by its own rule, auto and some constants, each with some steps or tolerances from coarse to
- *  fine.
- *  @param[in] grid  NULL: the default
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has no such integrator with that
- *             formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY,
- *             BAUM_STOP_CANCELLED; and when the
- *             mechanism cannot be started, whose rate is looked for, what baum_simulation_create()
- *             returns. Unchanged on failure
- */
+/** Add the standard grid: every integrator of the build with each of its formulations, its default
+ *  gains, auto gains and some constant gains, each with steps or tolerances from coarse to fine.
+ *  The steps follow from the time scale of the motion, which a trial run determines.
+ *  @param     study  unchanged on failure
+ *  @param[in] grid   NULL: the default
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build has no such integrator with that
+ *           formulation), BAUM_ERR_STRUCT, BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if
+ *           the mechanism cannot be started, the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *grid);
 
-/** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, rtol of 1e-2 to 1e-14, and
- *  with BAUMGARTE gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a period or
- *  rtol 1e-7. Every entry is to meet its tolerance, or to say why not. The entry limit bounds what
- *  tiny steps take.
- *  @param[in] integrator  NULL: all of the build that take a step or a tolerance
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT (also when the build has not that integrator),
- *             BAUM_ERR_STATE, BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; and when the mechanism cannot
- *             be started, what baum_simulation_create() returns. Unchanged on failure
- */
+/** Add stress settings: steps of 1e-1 to 1e-9 of a period of the motion, and rtol of 1e-2 to 1e-14.
+ *  BAUMGARTE also gets gains alpha = beta of 0 and of 1e-6 to 1e12 1/s, at a step of 1e-3 of a
+ *  period or at rtol 1e-7. Every entry should meet its tolerance or say why not. The entry limit
+ *  bounds the time of tiny steps.
+ *  @param study       unchanged on failure
+ *  @param integrator  NULL: all in this build that take a step or a tolerance
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the build lacks that integrator), BAUM_ERR_STATE,
+ *           BAUM_ERR_MEMORY, BAUM_STOP_CANCELLED; if the mechanism cannot be started, the status of
+ *           baum_simulation_create() */
 BAUM_API baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator);
 
 /* ---- what error means ------------------------------------------------------------------------ */
 
-/** Say what error means: the largest |difference from the reference| / unit over all columns of
- *  some channels. Without this call it is that of all positions, lengths by the scale of the
- *  mechanism and angles in radians. Before entries have been run.
+/** Define the error: the largest |difference from the reference| / unit over all columns of some
+ *  channels. Without this call it is the largest error of all positions, with lengths relative to
+ *  the characteristic length and angles in radians. Call it before the first run.
+ *  @param     study     unchanged on failure
  *  @param[in] channels  (count) copied
  *  @param     count     [-] >= 1
- *  @param     unit      [of the channels] > 0, finite: a difference of that size is an error of 1
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE,
- *             BAUM_ERR_MEMORY; unchanged on failure
- */
+ *  @param     unit      [of the channels] > 0, finite; a difference of this size is an error of 1
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STRUCT (of a channel), BAUM_ERR_STATE,
+ *           BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_set_error(baum_study *study, const baum_channel *channels,
                                           int32_t count, double unit);
 
-/** Give a reference as samples, in place of the study's own; the option samples does not apply
- *  then. Before entries have been run. A number that is NaN is not compared.
- *  @param[in] times   (n) [s] strictly monotone from t0 to t1, t0 excluded
+/** Give a reference as samples. The option samples is then ignored. NaN entries are not compared.
+ *  Call it before the first run.
+ *  @param     study   unchanged on failure
+ *  @param[in] times   (n) [s] strictly monotone, from t0 (excluded) to t1
  *  @param     n       [-] >= 1
  *  @param[in] q       (n x nq) copied
- *  @param[in] v       (n x nv) copied. NULL: not known
- *  @param[in] lambda  (n x nc) copied. NULL: not known
- *  @param     digits  [-] > 0, to which it can be trusted: errors below 10^-digits are not told
- *                     apart
- *  @return    BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY; unchanged on failure
- */
+ *  @param[in] v       (n x nv) copied. NULL: unknown.
+ *  @param[in] lambda  (n x nc) copied. NULL: unknown.
+ *  @param     digits  [-] > 0, trusted digits: errors below 10^-digits are not distinguished
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE, BAUM_ERR_MEMORY */
 BAUM_API baum_status baum_study_set_reference(baum_study *study, const double *times, int32_t n,
                                               const double *q, const double *v,
                                               const double *lambda, double digits);
 
-/** A solution known by formulas.
+/** A solution given by formulas.
  *  @param      t       [s]
  *  @param[out] q       (nq)
  *  @param[out] v       (nv)
- *  @param[out] lambda  (nc) NaN at call, may stay so: not known
- *  @return     0 when fine */
+ *  @param[out] lambda  (nc) NaN at the call; leave it if unknown
+ *  @param      user    as given to baum_study_set_solution()
+ *  @return  0 on success */
 typedef int baum_study_solution_fn(double t, double *q, double *v, double *lambda, void *user);
 
-/** Give a reference as a function, otherwise as baum_study_set_reference().
+/** Give a reference as a function. Otherwise like baum_study_set_reference().
+ *  @param study     unchanged on failure
  *  @param solution  called from the thread of baum_study_run()
- *  @param user      passed to it, not owned
- *  @param digits    [-] > 0
- *  @return          BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE
- */
+ *  @param user      passed to it. Not owned. May be NULL.
+ *  @param digits    [-] > 0, trusted digits
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE */
 BAUM_API baum_status baum_study_set_solution(baum_study *study, baum_study_solution_fn *solution,
                                              void *user, double digits);
 
 /* ---- running --------------------------------------------------------------------------------- */
 
-/** Make the reference and run the entries that are not done: first all errors, by several threads,
- *  coarse settings first, then all times, one after the other. Entries that fail, are refused or
- *  reach the limit are entries like others. A finer setting of a method that has reached the entry
- *  limit is not tried. Another call goes on where one has stopped, with entries that were added
- *  since. With the option file every result is appended to it as a line of text when it is known,
- *  and all are on the disk when this returns; a study of the same mechanism, span, samples, error
- *  and reference takes its entries from there, also where a line is cut off. What functions of the
- *  user do is not compared. One process at a time.
- *  @return  BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_STOP_CANCELLED (also
- *           the time budget is spent), BAUM_ERR_STATE (no entries, or under way), BAUM_ERR_MEMORY,
- *           BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file is another study's: the message says what
- *           differs), BAUM_ERR_CALLBACK (the solution), and what stops every run: what
- *           baum_simulation_create() returns for the mechanism
- */
+/** Compute the reference and run the entries that are not done. First come all errors, by several
+ *  threads, coarse settings first; then all times, one by one. Entries that fail, are refused or
+ *  reach the limit stay in the study. If a setting reaches the entry limit, finer settings of its
+ *  method are skipped. Another call continues after a stop and runs entries added since.
+ *
+ *  With the option file, every result is appended to the file as a line of text as soon as it is
+ *  known, and all are on the disk when this function returns. A study of the same mechanism, span,
+ *  samples, error and reference reads its entries from there, even if a line is cut off. User
+ *  functions are not compared. Only one process may use the file at a time.
+ *  @param study  with at least one entry
+ *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_STOP_CANCELLED (also if the
+ *           time budget is spent), BAUM_ERR_STATE (no entries, or already running),
+ *           BAUM_ERR_MEMORY, BAUM_ERR_FILE, BAUM_ERR_BUFFER (the file belongs to another study; the
+ *           message says what differs), BAUM_ERR_CALLBACK (the solution); if no run can be started,
+ *           the status of baum_simulation_create() */
 BAUM_API baum_status baum_study_run(baum_study *study);
 
-/** Ask baum_study_run() to stop, which does not keep entries under way, or a call that adds
- *  entries, which then adds none. From any thread or signal handler.
- *  @param study  may be NULL
- */
+/** Ask baum_study_run() to stop; it discards entries that are not finished. A call that adds
+ *  entries then adds none. May be called from any thread or signal handler.
+ *  @param study  may be NULL */
 BAUM_API void baum_study_cancel(baum_study *study);
 
 /* ---- entries --------------------------------------------------------------------------------- */
 
-/** How far an entry has come. */
+/** State of an entry. */
 typedef enum baum_study_state {
-  BAUM_STUDY_WAITING = 0,  /**< Not run, or not to its end. */
-  BAUM_STUDY_DONE = 1,     /**< Has reached the end of the span. */
-  BAUM_STUDY_REFUSED = 2,  /**< Could not be started. */
-  BAUM_STUDY_FAILED = 3,   /**< Stopped on its way. */
-  BAUM_STUDY_TIMED_OUT = 4 /**< Reached the entry limit, or a coarser setting of its method did. */
+  BAUM_STUDY_WAITING = 0, /**< Not run, or not to its end. */
+  BAUM_STUDY_DONE = 1,    /**< Reached the end of the span. */
+  BAUM_STUDY_REFUSED = 2, /**< Could not be started. */
+  BAUM_STUDY_FAILED = 3,  /**< Failed during the run. */
+  /** Reached the entry limit, or a coarser setting of its method did. */
+  BAUM_STUDY_TIMED_OUT = 4
 } baum_study_state;
 
-/** Name of a state such as "done"; NULL for an unknown value. */
+/** Name of a state. @param state  any value @return such as "done"; NULL for unknown values */
 BAUM_API const char *baum_study_state_name(baum_study_state state);
 
-/** What is found out about a setting: X(type, name, known, unit, meaning). The one list from which
- *  the struct below, the study file, CSV, JSON and Python come. Reports give figures that are known
- *  when DONE for entries that are done only. Errors are the largest over all samples, `final` ones
- *  those at the last; where they would be below the uncertainty of the reference they are that. */
-#define BAUM_STUDY_ENTRY_LIST(X)                                                                   \
-  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")            \
-  X(baum_status, status, ALWAYS, "", "of its run")                                                 \
-  X(bool, at_floor, ALWAYS, "", "error is the uncertainty of the reference, as good as it gets")   \
-  X(bool, untrusted, ALWAYS, "", "the reference is not to be trusted, so errors are not either")   \
-  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")               \
-  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                            \
-  X(double, alpha, ALWAYS, "1/s", "of the gains that the run used, whatever their rule; 0: none")  \
-  X(double, beta, ALWAYS, "1/s", "likewise")                                                       \
-  X(double, error, DONE, "1", "what the study calls error, see baum_study_set_error()")            \
-  X(double, error_final, DONE, "1", "error at the last sample")                                    \
-  X(double, error_half, DONE, "1", "error over the first half of the samples: how errors grow")    \
-  X(double, error_q, DONE, "1", "of positions, by the scales")                                     \
-  X(double, error_q_final, DONE, "1", "of positions at the last sample")                           \
-  X(double, error_v, DONE, "1", "of velocities, by the scales and the largest scaled velocity")    \
-  X(double, error_v_final, DONE, "1", "of velocities at the last sample")                          \
-  X(double, error_lambda, DONE, "1", "of multipliers, times the displacement of their rows")       \
-  X(double, error_lambda_final, DONE, "1", "of multipliers at the last sample")                    \
-  X(double, energy_error, DONE, "J", "drift of energy against the reference")                      \
-  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                   \
-  X(double, error_estimate, DONE, "1", "as in baum_counters")                                      \
-  X(double, error_validated, DONE, "1", "over twice the span and from starts nearby; see below")   \
-  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")        \
-  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                   \
-  X(double, violation_work, DONE, "J", "work of constraint forces, see baum_energy_account")       \
-  X(double, projection_work, DONE, "J", "energy that projections have changed, likewise")          \
-  X(double, gains_work, DONE, "J", "work of the stabilization, likewise")                          \
-  X(double, work, DONE, "evaluations", "the same on every machine: BAUM_STUDY_WORK")               \
-  X(double, cpu, DONE, "s", "least CPU time of a run from its making to its end, without samples") \
-  X(double, cpu_spread, DONE, "s", "second least CPU time less the least")                         \
-  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                          \
-  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without those of samples")    \
-  X(int64_t, factorizations, DONE, "1", "of matrices, likewise")                                   \
-  X(int64_t, nonlinear_iterations, DONE, "1", "of implicit methods")                               \
-  X(int64_t, steps, DONE, "1", "accepted")                                                         \
-  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                      \
-  X(int64_t, forced_steps, DONE, "1", "over singular configurations")                              \
-  X(int64_t, near_singular_intervals, DONE, "1", "of its run")                                     \
-  X(int64_t, warnings, DONE, "1", "of its run")                                                    \
-  X(int64_t, branch_warnings, DONE, "1", "of its run")                                             \
+/** The results of an entry: X(type, name, known, unit, meaning). The struct below, the study file,
+ *  CSV, JSON and Python are generated from this list. Results marked DONE are known for entries
+ *  that are done. Errors are the largest over all samples, `final` ones those at the last sample.
+ *  They are never below the uncertainty of the reference. */
+#define BAUM_STUDY_ENTRY_LIST(X)                                                                \
+  X(baum_study_state, state, ALWAYS, "", "done, refused, failed, timed_out or waiting")         \
+  X(baum_status, status, ALWAYS, "", "of its run")                                              \
+  X(bool, at_floor, ALWAYS, "", "error is at the uncertainty of the reference")                 \
+  X(bool, untrusted, ALWAYS, "", "the reference is not trusted, so the errors are not either")  \
+  X(bool, off, ALWAYS, "", "another motion: error_q above 0.1, or a branch warning")            \
+  X(bool, unstable, ALWAYS, "", "its gains do not damp with this step")                         \
+  X(double, alpha, ALWAYS, "1/s", "of the gains in use; 0: none")                               \
+  X(double, beta, ALWAYS, "1/s", "of the gains in use; 0: none")                                \
+  X(double, error, DONE, "1", "as defined by baum_study_set_error()")                           \
+  X(double, error_final, DONE, "1", "error at the last sample")                                 \
+  X(double, error_half, DONE, "1", "error over the first half of the samples")                  \
+  X(double, error_q, DONE, "1", "of positions, relative to the scales")                         \
+  X(double, error_q_final, DONE, "1", "of positions at the last sample")                        \
+  X(double, error_v, DONE, "1", "of velocities, relative to scales and largest velocity")       \
+  X(double, error_v_final, DONE, "1", "of velocities at the last sample")                       \
+  X(double, error_lambda, DONE, "1", "of multipliers, times the displacement of their rows")    \
+  X(double, error_lambda_final, DONE, "1", "of multipliers at the last sample")                 \
+  X(double, energy_error, DONE, "J", "drift of energy against the reference")                   \
+  X(double, energy_error_final, DONE, "J", "drift of energy at the last sample")                \
+  X(double, error_estimate, DONE, "1", "as in baum_counters")                                   \
+  X(double, error_validated, DONE, "1", "over twice the span and from perturbed starts")        \
+  X(double, max_phi, DONE, "m or rad", "largest constraint violation |Phi| over all steps")     \
+  X(double, max_phi_rate, DONE, "m/s or rad/s", "largest |Phi'| over all steps")                \
+  X(double, violation_work, DONE, "J", "work of violated constraints, see baum_energy_account") \
+  X(double, projection_work, DONE, "J", "change of energy by projections")                      \
+  X(double, gains_work, DONE, "J", "work of the gains, see baum_energy_account")                \
+  X(double, work, DONE, "evaluations", "see BAUM_STUDY_WORK; the same on every machine")        \
+  X(double, cpu, DONE, "s", "least CPU time of a run with its creation, without samples")       \
+  X(double, cpu_spread, DONE, "s", "second least CPU time minus the least")                     \
+  X(int32_t, repeats, DONE, "1", "runs for the CPU time")                                       \
+  X(int64_t, evaluations, DONE, "1", "right-hand sides or residuals, without samples")          \
+  X(int64_t, factorizations, DONE, "1", "of matrices, without samples")                         \
+  X(int64_t, nonlinear_iterations, DONE, "1", "of implicit methods")                            \
+  X(int64_t, steps, DONE, "1", "accepted")                                                      \
+  X(int64_t, rejected, DONE, "1", "steps that were repeated")                                   \
+  X(int64_t, forced_steps, DONE, "1", "over singular configurations")                           \
+  X(int64_t, near_singular_intervals, DONE, "1", "of its run")                                  \
+  X(int64_t, warnings, DONE, "1", "of its run")                                                 \
+  X(int64_t, branch_warnings, DONE, "1", "of its run")                                          \
   X(int64_t, doubts, DONE, "1", "kinds of warnings that doubt the motion")
 
-/** What a setting costs and how exact it is. NaN: not known. error_validated is infinite where the
- *  setting fails there, and not known for entries that cost far more than others as exact. */
+/** What a setting costs and how accurate it is. Its last fields are those of BAUM_STUDY_ENTRY_LIST.
+ *  NaN: unknown. error_validated is infinite if the setting fails in the validation. It is unknown
+ *  for entries that cost far more than others of the same accuracy. */
 typedef struct baum_study_entry {
   size_t struct_size;  /**< Set by baum_study_entry_at(). */
   const char *name;    /**< Such as "rk8 projection, rtol 1e-06". */
-  const char *message; /**< Why it is refused or failed, else its first warning, else "". */
+  const char *message; /**< Why it is refused or failed, or its first warning, or "". */
   const baum_integrator *integrator; /**< Of the options. */
-  baum_formulation formulation;      /**< The one it stands for, not DEFAULT. */
+  baum_formulation formulation;      /**< The actual one, never DEFAULT. */
   baum_gains gains;                  /**< Of the options. */
-  double step;                       /**< [s] NaN: it goes by rtol. */
-  double rtol;                       /**< [-] NaN: it goes by step. */
-  int32_t method;                    /**< See baum_study_method_at(). */
+  double step;                       /**< [s] NaN for entries with rtol. */
+  double rtol;                       /**< [-] NaN for entries with a step. */
+  int32_t method;                    /**< [-] see baum_study_method_at(). */
+/** Expands a line of the list. */
 #define BAUM_X(type, name, known, unit, meaning) type name;
   BAUM_STUDY_ENTRY_LIST(BAUM_X)
 #undef BAUM_X
 } baum_study_entry;
 
-/** Number of entries; 0 for NULL. */
+/** Count the entries. @param study  may be NULL @return 0 for NULL */
 BAUM_API int32_t baum_study_entry_count(const baum_study *study);
 
 /** Read an entry.
+ *  @param      study        the study
  *  @param      k            0 to baum_study_entry_count() - 1, in the order of adding
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_entry_at(const baum_study *study, int32_t k, baum_study_entry *out,
                                          size_t caller_size);
 
-/** The options of an entry, ready for baum_simulation_create(). row_gains, if any, are owned by the
- *  study.
+/** Read the options of an entry, ready for baum_simulation_create(). The study owns row_gains.
+ *  @param      study        the study
+ *  @param      k            0 to baum_study_entry_count() - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_entry_options(const baum_study *study, int32_t k,
                                               baum_simulation_options *out, size_t caller_size);
 
 /* ---- reference ------------------------------------------------------------------------------- */
 
-/** Where the reference has come from. */
+/** Where the reference comes from. */
 typedef enum baum_study_origin {
-  BAUM_STUDY_OWN = 0,     /**< Made by the study. */
+  BAUM_STUDY_OWN = 0,     /**< Computed by the study. */
   BAUM_STUDY_GIVEN = 1,   /**< baum_study_set_reference(). */
   BAUM_STUDY_SOLUTION = 2 /**< baum_study_set_solution(). */
 } baum_study_origin;
 
 /** How far the reference can be trusted. */
 typedef struct baum_study_reference {
-  size_t struct_size;        /**< Set by baum_study_reference_read(). */
-  baum_study_origin origin;  /**< Whose. */
-  bool trusted;              /**< Own: its runs agree to three digits or more and met no singular
-                           configuration. */
-  double digits;             /**< [-] trusted digits, -log10(uncertainty); NaN before it is made. */
-  double uncertainty;        /**< [-] of error. */
-  double uncertainty_q;      /**< [-] of error_q. */
-  double uncertainty_v;      /**< [-] of error_v. */
+  size_t struct_size;       /**< Set by baum_study_reference_read(). */
+  baum_study_origin origin; /**< Where it comes from. */
+  /** False if the study's own reference runs agree to fewer than three digits or met a singular
+   *  configuration. */
+  bool trusted;
+  double digits;        /**< [-] trusted digits, -log10(uncertainty); NaN before it is computed. */
+  double uncertainty;   /**< [-] of error. */
+  double uncertainty_q; /**< [-] of error_q. */
+  double uncertainty_v; /**< [-] of error_v. */
   double uncertainty_lambda; /**< [-] of error_lambda. */
   double uncertainty_energy; /**< [J] of energy_error. */
   int32_t samples;           /**< [-] number of samples. */
-  const char *text; /**< Who agrees with whom to how many digits, or why it is not to be trusted. */
+  const char *text;          /**< Which runs agree to how many digits, or why it is not trusted. */
 } baum_study_reference;
 
 /** Read how far the reference can be trusted; known after baum_study_run().
+ *  @param      study        the study
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_reference_read(const baum_study *study, baum_study_reference *out,
                                                size_t caller_size);
 
-/** A sample of the reference.
+/** Read a sample of the reference.
+ *  @param      study   the study
  *  @param      k       0 to samples - 1
- *  @param[out] t       [s] NULL: not wanted, as the others
- *  @param[out] q       (nq)
- *  @param[out] v       (nv) NaN where not known
- *  @param[out] lambda  (nc) NaN where not known
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not made; one that goes on from a
- *              complete file does not make it again)
- */
+ *  @param[out] t       [s] May be NULL.
+ *  @param[out] q       (nq) May be NULL.
+ *  @param[out] v       (nv) NaN if unknown. May be NULL.
+ *  @param[out] lambda  (nc) NaN if unknown. May be NULL.
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT, BAUM_ERR_STATE (not computed; a study that finds all
+ *           entries in its file does not compute it again) */
 BAUM_API baum_status baum_study_reference_sample(const baum_study *study, int32_t k, double *t,
                                                  double *q, double *v, double *lambda);
 
-/** What has been studied.
- *  @param[out] t0,t1    [s] NULL: not wanted
- *  @param[out] options  as set; NULL: not wanted
+/** Read what the study was given.
+ *  @param      study        the study
+ *  @param[out] t0,t1        [s] Each may be NULL.
+ *  @param[out] options      as set. May be NULL.
  *  @param      caller_size  sizeof *options
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_settings(const baum_study *study, double *t0, double *t1,
                                          baum_study_options *options, size_t caller_size);
 
-/** In words what error means, such as "largest error of all positions, lengths by 0.51 m, angles in
- *  rad"; NULL for NULL. */
+/** State in words how the error is defined.
+ *  @param study  may be NULL
+ *  @return  such as "largest error of all positions, lengths by 0.51 m, angles in rad"; NULL for
+ *           NULL */
 BAUM_API const char *baum_study_error_text(const baum_study *study);
 
 /* ---- answers --------------------------------------------------------------------------------- */
 
-/** What cost means. */
+/** How cost is measured. */
 typedef enum baum_study_cost {
-  BAUM_STUDY_WORK =
-    0, /**< [-] the same on every machine: evaluations, factorizations and iterations of implicit
-            methods, each counted alike. */
-  BAUM_STUDY_CPU = 1 /**< [s] as measured. */
+  /** [-] evaluations plus factorizations and iterations of implicit methods, each counted as one;
+   *  the same on every machine. */
+  BAUM_STUDY_WORK = 0,
+  BAUM_STUDY_CPU = 1 /**< [s] measured CPU time. */
 } baum_study_cost;
 
-/** Entries with the same integrator, formulation and gains, of which each has a step, or each an
- *  rtol. */
+/** Entries with the same integrator, formulation and gains, which differ in step or in rtol. */
 typedef struct baum_study_method {
   size_t struct_size;                /**< Set by baum_study_method_at(). */
   const char *name;                  /**< Such as "rk8 projection". */
   const baum_integrator *integrator; /**< Of its entries. */
   baum_formulation formulation;      /**< Of its entries. */
   baum_gains gains;                  /**< Of its entries. */
-  bool fixed_step;                   /**< Of steps rather than tolerances. */
-  int32_t entries;                   /**< [-] it has. */
-  int32_t usable;                    /**< [-] of these those that are done and not `off`. */
-  double least_error;                /**< [-] that it reaches; NaN when none is usable. */
-  double slope; /**< [-] d log error / d log step or rtol where errors fall; NaN: not known. */
-  double work_per_digit; /**< [-] factor on work for one more digit; NaN likewise. */
-  double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN likewise. */
-  double growth; /**< [-] error_validated over error of its entries, on geometric average; NaN: none
-                      was validated to the end. */
+  bool fixed_step;                   /**< Entries differ in step, not in rtol. */
+  int32_t entries;                   /**< [-] number of entries. */
+  int32_t usable;                    /**< [-] of these, those that are done and not `off`. */
+  double least_error; /**< [-] the smallest error of its entries; NaN if none is usable. */
+  double slope;       /**< [-] d log error / d log step or rtol where errors fall; NaN: unknown. */
+  double work_per_digit; /**< [-] factor on work for one more digit; NaN: unknown. */
+  double cpu_per_digit;  /**< [-] factor on CPU time for one more digit; NaN: unknown. */
+  /** [-] geometric mean of error_validated / error over its entries; NaN if none was validated to
+   *  the end. */
+  double growth;
 } baum_study_method;
 
-/** Number of methods; 0 for NULL. */
+/** Count the methods. @param study  may be NULL @return 0 for NULL */
 BAUM_API int32_t baum_study_method_count(const baum_study *study);
 
 /** Read a method.
+ *  @param      study        the study
  *  @param      k            0 to baum_study_method_count() - 1
  *  @param[out] out          filled
  *  @param      caller_size  sizeof *out
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_method_at(const baum_study *study, int32_t k,
                                           baum_study_method *out, size_t caller_size);
 
-/** The Pareto front: entries than which none is both cheaper and more exact. Entries at the floor
- *  of the reference count as equally exact.
- *  @param      cost      what is cheap
- *  @param      capacity  of `entries`; >= 0
- *  @param[out] entries   (capacity) the first ones, from cheap to exact. NULL when capacity is 0
- *  @param[out] count     receives how many there are, which may exceed the capacity
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT
- */
+/** Find the Pareto front: the entries for which no other is both cheaper and more accurate. Entries
+ *  at the floor of the reference count as equally accurate.
+ *  @param      study     the study
+ *  @param      cost      how cost is measured
+ *  @param      capacity  [-] of `entries`; >= 0
+ *  @param[out] entries   (capacity) the first ones, from cheap to accurate. NULL if capacity is 0.
+ *  @param[out] count     [-] number of entries on the front, which may exceed the capacity
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT */
 BAUM_API baum_status baum_study_front(const baum_study *study, baum_study_cost cost,
                                       int32_t capacity, int32_t *entries, int32_t *count);
 
-/** What a method costs at an error, on the line through the logarithms of its entries; up to one
- *  setting beyond its ends.
- *  @param      method  see baum_study_method_at()
+/** Interpolate the cost of a method at an error, on the line through the logarithms of its entries,
+ *  up to one setting beyond its ends.
+ *  @param      study   the study
+ *  @param      method  0 to baum_study_method_count() - 1
  *  @param      error   [-] > 0
+ *  @param      cost    how cost is measured
  *  @param[out] out     [- or s]
- *  @return     BAUM_OK, BAUM_ERR_ARGUMENT (also when it does not reach that error: the message
- *              says how far it comes)
- */
+ *  @return  BAUM_OK, BAUM_ERR_ARGUMENT (also if the method does not reach that error; the message
+ *           says what it reaches) */
 BAUM_API baum_status baum_study_cost_at(const baum_study *study, int32_t method, double error,
                                         baum_study_cost cost, double *out);
 
-/** Cost at equal error: of method a over that of method b.
- *  @param[out] ratio  [-] below 1: a is cheaper
- *  @return     as baum_study_cost_at()
- */
+/** Compare the cost of two methods at equal error.
+ *  @param      study  the study
+ *  @param      a,b    0 to baum_study_method_count() - 1
+ *  @param      error  [-] > 0
+ *  @param      cost   how cost is measured
+ *  @param[out] ratio  [-] cost of a over cost of b; below 1 if a is cheaper
+ *  @return  as baum_study_cost_at() */
 BAUM_API baum_status baum_study_compare(const baum_study *study, int32_t a, int32_t b, double error,
                                         baum_study_cost cost, double *ratio);
 
-/** The cheapest setting for an error. It is chosen so that it holds for starts nearby and for twice
- *  the span, by what entries have shown there (error_validated) and a margin. Its step or rtol may
- *  lie between those of entries of its method. Where no entry keeps the error with all that, one
- *  that keeps it as measured is taken, and `why` says that nothing is left.
+/** Find the cheapest setting for an error. Its step or rtol may lie between those of entries. The
+ *  choice includes a margin and the errors of the validation (error_validated), so that it holds
+ *  for similar starts and for twice the span. If no entry reaches the error with that margin, the
+ *  result is one that reaches it as measured, and `why` says that no margin is left.
+ *  @param      study        after baum_study_run(); unchanged
  *  @param      error        [-] > 0, wanted; see baum_study_set_error()
- *  @param      cost         what is cheap
- *  @param[out] best         options for baum_simulation_create()
+ *  @param      cost         how cost is measured
+ *  @param[out] best         options for baum_simulation_create(); unchanged on failure
  *  @param      caller_size  sizeof *best
  *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
- *                           NULL
- *  @return     BAUM_OK, BAUM_WARNED (the reference is not to be trusted), BAUM_ERR_ARGUMENT (also
- *              when no entry is so exact, or the reference is not known so well), BAUM_ERR_STATE
- *              (no entry is timed); `best` is unchanged on failure
- */
+ *                           NULL.
+ *  @param      size         [byte] of why
+ *  @return  BAUM_OK, BAUM_WARNED (the reference is not trusted), BAUM_ERR_ARGUMENT (also if no
+ *           entry is so accurate, or the reference is not known so well), BAUM_ERR_STATE (no entry
+ *           is timed) */
 BAUM_API baum_status baum_study_recommend(const baum_study *study, double error,
                                           baum_study_cost cost, baum_simulation_options *best,
                                           size_t caller_size, char *why, size_t size);
 
-/** The most exact setting for a CPU time, otherwise as baum_study_recommend().
- *  @param seconds  [s] > 0, finite, for a run over the span of the study on this machine
- *  @return         as baum_study_recommend(); BAUM_ERR_ARGUMENT also when no entry is so fast
- */
+/** Find the most accurate setting for a CPU time. Otherwise like baum_study_recommend().
+ *  @param      study        after baum_study_run(); unchanged
+ *  @param      seconds      [s] > 0, finite, for a run over the span of the study on this machine
+ *  @param[out] best         options for baum_simulation_create(); unchanged on failure
+ *  @param      caller_size  sizeof *best
+ *  @param[out] why          (size) a message with the measured figures, cut if too long. May be
+ *                           NULL.
+ *  @param      size         [byte] of why
+ *  @return  as baum_study_recommend(); BAUM_ERR_ARGUMENT also if no entry is so fast */
 BAUM_API baum_status baum_study_recommend_budget(const baum_study *study, double seconds,
                                                  baum_simulation_options *best, size_t caller_size,
                                                  char *why, size_t size);

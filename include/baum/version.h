@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file
- *  Which library this is and what it was built with.
+ *  The version of the library and its optional parts.
  */
 #ifndef BAUM_VERSION_H
 #define BAUM_VERSION_H
@@ -18,15 +18,13 @@ extern "C" {
 #define BAUM_VERSION_PATCH 0       /**< Corrections. */
 #define BAUM_VERSION       "0.1.0" /**< The three as text. */
 
-/** Version of the library that is running, which may differ from that of the headers.
- *  @return  static text such as "0.1.0"
- */
+/** Version of the running library, which may differ from that of the headers.
+ *  @return  static text such as "0.1.0" */
 BAUM_API const char *baum_version(void);
 
 /** Whether an optional part is built in.
- *  @param feature  "sundials" (CVODE and IDA); NULL and unknown names give false
- *  @return         true when it can be used
- */
+ *  @param[in] feature  "sundials" (CVODE and IDA); NULL and unknown names give false
+ *  @return  true if it can be used */
 BAUM_API bool baum_has(const char *feature);
 
 #ifdef __cplusplus

@@ -57,18 +57,22 @@ static const char *find_struct(const char *headers, const char *name, const char
   return begin + strlen(opening);
 }
 
-/* The next declaration from `from` on: its name and its Default text, "" for none. NULL when
- * there is no more. */
+/* The next declaration from `from` on: its name and the Default of its comment, "" for none. The
+ * comment stands before the declaration or behind it. NULL when there is no more. */
 static const char *next_field(const char *from, const char *end, char name[TEXT_SIZE],
                               char text[TEXT_SIZE])
 {
-  const char *semicolon = strchr(from, ';');
+  const char *comment = from + strspn(from, " \n");
+  bool before = strncmp(comment, "/**", 3) == 0;
+  const char *semicolon = strchr(before ? strstr(comment, "*/") : from, ';');
   if (!semicolon || semicolon >= end) {
     return NULL;
   }
   const char *last = semicolon;
   if (last[-1] == ']') {
-    last = memchr(from, '[', (size_t)(semicolon - from));
+    do {
+      last--;
+    } while (*last != '[');
   }
   while (isspace((unsigned char)last[-1])) {
     last--;
@@ -78,15 +82,16 @@ static const char *next_field(const char *from, const char *end, char name[TEXT_
     first--;
   }
   (void)snprintf(name, TEXT_SIZE, "%.*s", (int)(last - first), first);
-  const char *comment_end = strstr(semicolon, "*/");
+  comment = before ? comment : semicolon;
+  const char *comment_end = strstr(comment, "*/");
   assert_non_null(comment_end);
-  const char *given = strstr(semicolon, "Default: ");
+  const char *given = strstr(comment, "Default: ");
   text[0] = '\0';
   if (given && given < comment_end) {
     given += strlen("Default: ");
     (void)snprintf(text, TEXT_SIZE, "%.*s", (int)(comment_end - given), given);
   }
-  return comment_end + 2;
+  return before ? semicolon + 1 : comment_end + 2;
 }
 
 /* ---- what a text says ---- */

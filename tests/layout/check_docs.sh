@@ -20,7 +20,7 @@ awk '
   /BAUM_(CATALOG_)?API/ {
     functions++
     if (comment == "") fail("no /** comment before: " $0)
-    else if (/BAUM_(CATALOG_)?API[ \t]+baum_status/ && !returns && comment !~ /@return/)
+    else if (/BAUM_(CATALOG_)?API[ \t]+baum_status/ && !returns && comment !~ /@return|@copydoc|@copydetails/)
       fail("no @return in the comment before: " $0)
   }
   !/^[ \t]*$/ { comment = "" }
