@@ -3,7 +3,7 @@
 # usage: sh tests/run.sh [STAGE...]
 #
 # Sets up what is missing and runs the stages named, or all of the first row, until one fails.
-#   format build test asan minimal install python
+#   format docs build test asan minimal install python
 #   tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh   longer or rarer, by name only
 # BAUM_COVERAGE=95 is the least line coverage of src in percent; five folders have 100 in any case.
 # BAUM_FUZZ_SECONDS=600 is the time of each target of stage fuzz.
@@ -12,7 +12,7 @@ set -eu
 cd "$(dirname "$0")/.."
 . tests/setup.sh
 
-usual="format build test asan minimal install python"
+usual="format docs build test asan minimal install python"
 named="tidy coverage valgrind thread analyzer sweeps fuzz random browser fresh"
 prefix=$PWD/build/install-prefix
 fuzz_seconds=${BAUM_FUZZ_SECONDS:-600}
@@ -26,6 +26,12 @@ stage_format() {
   need_venv
   echo "limits"
   sh tests/layout/check_limits.sh "$venv/bin/lizard" src examples tests
+}
+
+# The reference manual in build/doxygen; every public function, parameter and field is documented.
+stage_docs() {
+  mkdir -p build
+  doxygen docs/Doxyfile
 }
 
 stage_build() {
@@ -206,7 +212,7 @@ done
 [ $# -gt 0 ] || set -- $usual
 
 # shellcheck disable=SC2086
-need_packages $build_packages g++ clang clang-format clang-tidy gcovr valgrind
+need_packages $build_packages g++ clang clang-format clang-tidy gcovr valgrind doxygen
 
 summary=
 for stage in "$@"; do
