@@ -109,14 +109,13 @@ static baum_status place_points(const baum_workspace *w, baum_i_block_path *path
 static baum_status make_groups(const baum_mechanism *m, const unsigned char *is_done,
                                baum_i_block_path *path)
 {
-  path->groups = baum_i_alloc((size_t)m->joint_group_count, sizeof *path->groups);
+  path->groups = baum_i_alloc((size_t)m->joint_count, sizeof *path->groups);
   path->joints = baum_i_alloc((size_t)m->joint_count, sizeof(baum_i_joint *));
   if (!path->groups || !path->joints) {
     return BAUM_ERR_MEMORY;
   }
   const baum_i_joint **next = path->joints;
-  for (int k = 0; k < m->joint_group_count; k++) {
-    const baum_i_joint_group *all = &m->joint_groups[k];
+  for (const baum_i_joint_group *all = m->joint_groups; all->type; all++) {
     baum_i_joint_group *group = &path->groups[path->group_count];
     *group = (baum_i_joint_group){.type = all->type, .joints = next};
     for (int i = 0; i < all->count; i++) {
@@ -152,10 +151,7 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
   if (!path->constant_force) {
     return BAUM_ERR_MEMORY;
   }
-  path->force_is_constant = m->force_count == 0;
-  for (int k = 0; k < m->body_group_count; k++) {
-    path->force_is_constant = path->force_is_constant && m->body_groups[k].type->constant_force;
-  }
+  path->force_is_constant = baum_i_has_constant_force(m);
   baum_status status = baum_i_mechanism_add_body_forces(&w->point, true, path->constant_force);
   if (status == BAUM_OK && path->force_is_constant) {
     memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);

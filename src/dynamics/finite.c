@@ -37,7 +37,7 @@ static baum_status fail_velocity(const baum_workspace *w, const char *what, int 
 {
   char label[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, column);
-  return fail(w, what, baum_i_label(&body->element, "body", label), value);
+  return fail(w, what, baum_i_label(&body->element, label), value);
 }
 
 baum_status baum_i_check_rows(const baum_workspace *w, const char *what, const double *values)
@@ -75,7 +75,7 @@ baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const 
       status = baum_i_fail(
         BAUM_ERR_NOT_FINITE,
         "t = %.9g s: the %s of %s is %g, too large for double precision beside its scale of %g",
-        w->point.t, what, baum_i_label(&body->element, "body", label), values[i], m->scale[i]);
+        w->point.t, what, baum_i_label(&body->element, label), values[i], m->scale[i]);
     }
   }
   return status;

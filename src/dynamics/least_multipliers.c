@@ -286,7 +286,7 @@ static baum_status check_balance(const baum_workspace *w)
   }
   char label[BAUM_I_LABEL_SIZE];
   const baum_i_body *body = baum_i_velocity_body(w->mechanism, worst);
-  (void)baum_i_label(&body->element, "body", label);
+  (void)baum_i_label(&body->element, label);
   return baum_i_fail(BAUM_ERR_SINGULAR,
                      "t = %.9g s: the multipliers balance the forces on %s to %.2g of them only, "
                      "must be %g; masses are "

@@ -97,7 +97,7 @@ static void say_most_joined(const baum_mechanism *m, baum_report *report)
 {
   if (report->most_joints > 0) {
     char label[BAUM_I_LABEL_SIZE];
-    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, "body", label);
+    (void)baum_i_label(&m->bodies[report->most_joined.index1]->element, label);
     say(report, "; %s has most joints, %d", label, report->most_joints);
   }
 }
@@ -136,16 +136,6 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
 
 /* ---- skipped work ---- */
 
-static bool has_constant_force(const baum_mechanism *m)
-{
-  for (int k = 0; k < m->body_group_count; k++) {
-    if (!m->body_groups[k].type->constant_force) {
-      return false;
-    }
-  }
-  return m->force_count == 0;
-}
-
 /* One more thing; the line is begun by the first. */
 static void BAUM_I_PRINTF(3, 4) spare(baum_report *report, int *count, const char *format, ...)
 {
@@ -161,7 +151,7 @@ static void report_spared(const baum_mechanism *m, baum_report *report)
 {
   int count = 0;
   report->constant_mass = m->constant_mass;
-  report->constant_force = has_constant_force(m);
+  report->constant_force = baum_i_has_constant_force(m);
   if (report->constant_mass) {
     spare(report, &count, "masses are constant%s", report->blocks ? ", inverted once" : "");
   }

@@ -38,7 +38,7 @@ void baum_i_blocks_reason(const baum_workspace *w, char text[BAUM_I_SOLVER_TEXT_
   int body = w->verdict.body;
   char label[BAUM_I_LABEL_SIZE] = "a body";
   if (body > 0) {
-    (void)baum_i_label(&m->bodies[body]->element, "body", label);
+    (void)baum_i_label(&m->bodies[body]->element, label);
   }
   switch (w->verdict.blocks) {
   case BAUM_I_BLOCKS_CROWDED:

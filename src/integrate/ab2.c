@@ -18,18 +18,11 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab2",
   .table = &TABLE,
   .order = 2,
-  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 2,
              .coefficients = {3.0 / 2.0, -1.0 / 2.0},
              .best = {2.0 / 3.0, 4.0 / 9.0}},
-  .create = baum_i_adams_create,
-  .destroy = baum_i_adams_destroy,
-  .step = baum_i_adams_step,
-  .accept = baum_i_adams_accept,
-  .restart = baum_i_adams_restart,
-  .forget = baum_i_adams_forget,
+  BAUM_I_ADAMS_OPERATIONS,
 };
 
 const baum_integrator *baum_ab2(void)

@@ -21,18 +21,11 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab3",
   .table = &TABLE,
   .order = 3,
-  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 3,
              .coefficients = {23.0 / 12.0, -16.0 / 12.0, 5.0 / 12.0},
              .best = {33.0 / 92.0, 33.0 / 92.0 * 33.0 / 92.0}},
-  .create = baum_i_adams_create,
-  .destroy = baum_i_adams_destroy,
-  .step = baum_i_adams_step,
-  .accept = baum_i_adams_accept,
-  .restart = baum_i_adams_restart,
-  .forget = baum_i_adams_forget,
+  BAUM_I_ADAMS_OPERATIONS,
 };
 
 const baum_integrator *baum_ab3(void)

@@ -24,18 +24,11 @@ static const baum_integrator INTEGRATOR = {
   .name = "ab4",
   .table = &TABLE,
   .order = 4,
-  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_BEST_DAMPING,
   .method = {.kind = BAUM_I_METHOD_ADAMS_BASHFORTH,
              .degree = 4,
              .coefficients = {55.0 / 24.0, -59.0 / 24.0, 37.0 / 24.0, -9.0 / 24.0},
              .best = {0.21464433859629878, 0.21464433859629878 * 0.21464433859629878}},
-  .create = baum_i_adams_create,
-  .destroy = baum_i_adams_destroy,
-  .step = baum_i_adams_step,
-  .accept = baum_i_adams_accept,
-  .restart = baum_i_adams_restart,
-  .forget = baum_i_adams_forget,
+  BAUM_I_ADAMS_OPERATIONS,
 };
 
 const baum_integrator *baum_ab4(void)

@@ -23,22 +23,10 @@
 #include "base/alloc.h"
 #include "base/message.h"
 
-/* Memory of a run. */
-typedef struct adams_run {
-  const baum_i_adams_table *table;
-  void *starter; /* of the Runge-Kutta method */
-  int nq;
-  int nv;
-  int ahead;     /* slot of the present step's start; those before it, round the ring, are past */
-  int past;      /* points known, at most steps - 1 */
-  bool on_grid;  /* the last trial was a step of the grid */
-  double *slots; /* (steps x (nq + nv)) N v and a of a point */
-} adams_run;
-
 /* ---- the past ---- */
 
 /* N v and a of the point j steps back. */
-static double *slot(const adams_run *run, int j)
+static double *slot(const baum_i_adams *run, int j)
 {
   int steps = run->table->steps;
   return run->slots + (size_t)((run->ahead - j + steps) % steps) * (size_t)(run->nq + run->nv);
@@ -61,8 +49,8 @@ static void find_weights(const baum_i_adams_table *table, double theta, double *
 }
 
 /* out (count) += h sum_j weights_j of the slots' numbers from `offset` on. */
-static void add_rates(const adams_run *run, const double *weights, double h, int offset, int count,
-                      double *out)
+static void add_rates(const baum_i_adams *run, const double *weights, double h, int offset,
+                      int count, double *out)
 {
   const double *rates[BAUM_I_ADAMS_STEPS_MAX];
   for (int j = 0; j < run->table->steps; j++) {
@@ -80,7 +68,7 @@ static void add_rates(const adams_run *run, const double *weights, double h, int
 baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_state *state,
                               double h, const double *a)
 {
-  adams_run *run = self;
+  baum_i_adams *run = self;
   run->on_grid = baum_i_problem_is_grid_step(problem, state->t, h);
   baum_i_rate(problem->workspace->mechanism, state->q, state->v, slot(run, 0));
   memcpy(slot(run, 0) + run->nq, a, (size_t)run->nv * sizeof *a);
@@ -98,7 +86,7 @@ baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_
 
 void baum_i_adams_accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
-  adams_run *run = self;
+  baum_i_adams *run = self;
   int steps = run->table->steps;
   if (!run->on_grid) {
     (void)baum_i_adams_restart(self, problem, state);
@@ -119,44 +107,28 @@ baum_status baum_i_adams_restart(void *self, const baum_i_problem *problem,
 
 void baum_i_adams_forget(void *self)
 {
-  adams_run *run = self;
+  baum_i_adams *run = self;
   run->past = 0;
 }
 
 /* ---- memory ---- */
 
-baum_status baum_i_adams_create(const void *table, const baum_i_problem *problem,
-                                const baum_i_state *start, void **out)
+baum_status baum_i_adams_open(void *self, const void *table, const baum_i_problem *problem,
+                              const baum_i_state *start)
 {
-  *out = NULL;
-  adams_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
+  baum_i_adams *run = self;
   run->table = table;
   run->nq = problem->workspace->mechanism->nq;
   run->nv = problem->workspace->mechanism->nv;
-  const baum_integrator *rk4 = baum_rk4();
-  baum_status status = rk4->create(rk4->table, problem, start, &run->starter);
-  if (status == BAUM_OK) {
-    run->slots =
-      baum_i_alloc((size_t)run->table->steps * (size_t)(run->nq + run->nv), sizeof *run->slots);
-    status = run->slots ? BAUM_OK : baum_i_fail_memory();
-  }
-  if (status != BAUM_OK) {
-    baum_i_adams_destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
+  BAUM_I_TRY(baum_i_integrator_create(baum_rk4(), problem, start, &run->starter));
+  size_t count = (size_t)run->table->steps * (size_t)(run->nq + run->nv);
+  run->slots = baum_i_alloc(count, sizeof *run->slots);
+  return baum_i_check_memory(run->slots);
 }
 
-void baum_i_adams_destroy(void *self)
+void baum_i_adams_close(void *self)
 {
-  adams_run *run = self;
-  if (run) {
-    baum_rk4()->destroy(run->starter);
-    baum_i_free(run->slots);
-    baum_i_free(run);
-  }
+  baum_i_adams *run = self;
+  baum_i_integrator_destroy(baum_rk4(), run->starter);
+  baum_i_free(run->slots);
 }

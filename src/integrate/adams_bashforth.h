@@ -14,15 +14,40 @@ typedef struct baum_i_adams_table {
   const double *weights; /* (k x k) */
 } baum_i_adams_table;
 
+/* Memory of a run. */
+typedef struct baum_i_adams {
+  const baum_i_adams_table *table;
+  void *starter; /* of the Runge-Kutta method */
+  int nq;
+  int nv;
+  int ahead;     /* slot of the present step's start; those before it, round the ring, are past */
+  int past;      /* points known, at most steps - 1 */
+  bool on_grid;  /* the last trial was a step of the grid */
+  double *slots; /* (steps x (nq + nv)) N v and a of a point */
+} baum_i_adams;
+
 /* As in baum_integrator; the table is a baum_i_adams_table. */
-baum_status baum_i_adams_create(const void *table, const baum_i_problem *problem,
-                                const baum_i_state *start, void **out);
-void baum_i_adams_destroy(void *self);
+baum_status baum_i_adams_open(void *self, const void *table, const baum_i_problem *problem,
+                              const baum_i_state *start);
+void baum_i_adams_close(void *self);
 baum_status baum_i_adams_step(void *self, const baum_i_problem *problem, baum_i_state *state,
                               double h, const double *a);
 void baum_i_adams_accept(void *self, const baum_i_problem *problem, const baum_i_state *state);
 baum_status baum_i_adams_restart(void *self, const baum_i_problem *problem,
                                  const baum_i_state *state);
 void baum_i_adams_forget(void *self);
+
+/* clang-format off */
+#define BAUM_I_ADAMS_OPERATIONS                                                       \
+  .formulations = {BAUM_FORMULATION_BAUMGARTE, BAUM_FORMULATION_UNSTABILIZED},        \
+  .gains = BAUM_GAINS_BEST_DAMPING,                                                   \
+  .memory = sizeof(baum_i_adams),                                                     \
+  .open = baum_i_adams_open,                                                          \
+  .close = baum_i_adams_close,                                                        \
+  .step = baum_i_adams_step,                                                          \
+  .accept = baum_i_adams_accept,                                                      \
+  .restart = baum_i_adams_restart,                                                    \
+  .forget = baum_i_adams_forget
+/* clang-format on */
 
 #endif

@@ -63,9 +63,7 @@ baum_status baum_i_continuation_open(baum_i_continuation *path, baum_workspace *
   size_t nc = (size_t)workspace->mechanism->nc;
   path->workspace = workspace;
   path->memory = baum_i_alloc(3 * nv + 2 * nc, sizeof *path->memory);
-  if (!path->memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(path->memory));
   path->zero = path->memory;
   path->probe = path->zero + nv;
   path->image = path->probe + nv;

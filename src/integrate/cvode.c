@@ -19,7 +19,6 @@
 #include <cvode/cvode.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
-#include "integrate/cvode.h"
 #include "integrate/cvode_embedded.h"
 #include "integrate/cvode_newton.h"
 #include "integrate/sundials_driver.h"
@@ -200,7 +199,6 @@ static void close_run(baum_i_sundials *sundials)
 static const baum_i_sundials_package PACKAGE = {
   .kind = BAUM_I_SUNDIALS_CVODE,
   BAUM_I_SUNDIALS_CALLS(CVode),
-  .run_size = sizeof(cvode_run),
   .size = size_of,
   .create = CVodeCreate,
   .init = init,
@@ -225,23 +223,6 @@ static const baum_i_sundials_method BDF_METHOD = {
   .attach = attach_bdf,
 };
 
-/* ---- for tests ---- */
-
-baum_status baum_i_cvode_solve_newton(void *self, double t, const double *y, double gamma,
-                                      const double *r, double *x)
-{
-  cvode_run *run = self;
-  N_Vector inside = run->sundials.inside;
-  size_t n = (size_t)N_VGetLength(inside);
-  BAUM_I_TRY(baum_i_cvode_newton_fill(&run->newton, t, y, gamma));
-  SUNLinearSolver solver = run->newton.solver;
-  memcpy(N_VGetArrayPointer(run->work), r, n * sizeof *r);
-  bool solved =
-    SUNLinSolSetup(solver, NULL) == 0 && SUNLinSolSolve(solver, NULL, inside, run->work, 0.0) == 0;
-  memcpy(x, N_VGetArrayPointer(inside), n * sizeof *x);
-  return solved ? BAUM_OK : BAUM_ERR_SINGULAR;
-}
-
 #endif
 
 /* ---- the two integrators ---- */
@@ -254,6 +235,7 @@ static const baum_integrator ADAMS = {
   .family = BAUM_I_FAMILY_ADAMS,
 #if BAUM_HAVE_SUNDIALS
   .table = &ADAMS_METHOD,
+  .memory = sizeof(cvode_run),
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };
@@ -267,6 +249,7 @@ static const baum_integrator BDF = {
   .seen = 60.0 / 137.0,
 #if BAUM_HAVE_SUNDIALS
   .table = &BDF_METHOD,
+  .memory = sizeof(cvode_run),
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };

@@ -52,21 +52,11 @@ static const baum_integrator INTEGRATOR = {
   .name = "dp5",
   .table = &PAIR,
   .order = 5,
-  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
-                   BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 6,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0,
                               1.0 / 600.0}},
-  .create = baum_i_rk_adaptive_create,
-  .destroy = baum_i_rk_adaptive_destroy,
-  .step = baum_i_rk_step,
-  .advance = baum_i_rk_adaptive_advance,
-  .interpolate = baum_i_rk_adaptive_interpolate,
-  .restart = baum_i_rk_adaptive_restart,
-  .forget = baum_i_rk_adaptive_forget,
-  .statistics = baum_i_rk_adaptive_statistics,
+  BAUM_I_RK_ADAPTIVE_OPERATIONS,
 };
 
 const baum_integrator *baum_dp5(void)

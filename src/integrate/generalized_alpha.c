@@ -371,14 +371,11 @@ static void forget(void *self)
 
 /* ---- life ---- */
 
-static void destroy(void *self)
+static void close_run(void *self)
 {
   alpha_run *run = self;
-  if (run) {
-    baum_i_step_matrix_destroy(run->matrix);
-    baum_i_free(run->memory);
-    baum_i_free(run);
-  }
+  baum_i_step_matrix_destroy(run->matrix);
+  baum_i_free(run->memory);
 }
 
 static double *take(double **next, int count)
@@ -388,16 +385,14 @@ static double *take(double **next, int count)
   return taken;
 }
 
-static bool make_memory(alpha_run *run)
+static baum_status make_memory(alpha_run *run)
 {
   int nv = run->nv;
   int nc = run->nc;
   int whole = run->nq + nv + nc;
   size_t count = 3 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
   run->memory = baum_i_alloc(count, sizeof *run->memory);
-  if (!run->memory) {
-    return false;
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->memory));
   double *next = run->memory;
   alpha_past *pasts[2] = {&run->now, &run->next};
   for (int k = 0; k < 2; k++) {
@@ -410,32 +405,20 @@ static bool make_memory(alpha_run *run)
   run->dy = take(&next, whole);
   run->residual = take(&next, whole);
   run->x = take(&next, nv + nc);
-  return true;
+  return BAUM_OK;
 }
 
-static baum_status create(const void *table, const baum_i_problem *problem,
-                          const baum_i_state *start, void **out)
+static baum_status open_run(void *self, const void *table, const baum_i_problem *problem,
+                            const baum_i_state *start)
 {
   (void)table;
   (void)start;
-  *out = NULL;
-  alpha_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
+  alpha_run *run = self;
   run->nq = problem->workspace->mechanism->nq;
   run->nv = problem->workspace->mechanism->nv;
   run->nc = problem->workspace->mechanism->nc;
-  baum_status status = make_memory(run) ? BAUM_OK : baum_i_fail_memory();
-  if (status == BAUM_OK) {
-    status = baum_i_step_matrix_create(problem->workspace, &run->matrix);
-  }
-  if (status != BAUM_OK) {
-    destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
+  BAUM_I_TRY(make_memory(run));
+  return baum_i_step_matrix_create(problem->workspace, &run->matrix);
 }
 
 static void count(const void *self, baum_i_statistics *out)
@@ -460,8 +443,9 @@ static const baum_integrator GENERALIZED_ALPHA = {
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .solves_residuals = true,
-  .create = create,
-  .destroy = destroy,
+  .memory = sizeof(alpha_run),
+  .open = open_run,
+  .close = close_run,
   .step = take_step,
   .accept = accept,
   .restart = restart,

@@ -25,14 +25,10 @@
 
 #if BAUM_HAVE_SUNDIALS
 
-#include "integrate/ida.h"
-
 #include <math.h>
 #include <string.h>
 
 #include <ida/ida.h>
-#include <sunlinsol/sunlinsol_dense.h>
-#include <sunmatrix/sunmatrix_dense.h>
 
 #include "integrate/ida_newton.h"
 #include "integrate/sundials_driver.h"
@@ -43,8 +39,7 @@ typedef struct ida_run {
   baum_i_sundials sundials;
   N_Vector dy;            /* at the end of the last step */
   N_Vector tested;        /* 1 where the error test looks, else 0 */
-  SUNMatrix dense;        /* of differences */
-  SUNLinearSolver solver; /* what IDA calls: dense, or a front before klu */
+  SUNLinearSolver solver; /* what IDA calls: a front before klu */
   baum_i_sundials_klu klu;
   double linearized; /* [1/s] c of the present matrix */
   baum_i_ida_newton newton;
@@ -247,13 +242,6 @@ static baum_status open_run(baum_i_sundials *sundials)
   run->dae.index = residual_of(sundials->problem->formulation);
   run->newton.index = run->dae.index;
   run->newton.sundials = sundials;
-  return BAUM_OK;
-}
-
-static baum_status open_with_klu(baum_i_sundials *sundials)
-{
-  ida_run *run = (ida_run *)sundials;
-  BAUM_I_TRY(open_run(sundials));
   return baum_i_sundials_klu_open(&run->klu, sundials, run->dae.index);
 }
 
@@ -306,19 +294,6 @@ static int attach_klu(baum_i_sundials *sundials)
   return attached ? attach_newton(run) : IDA_MEM_FAIL;
 }
 
-static int attach_dense(baum_i_sundials *sundials)
-{
-  ida_run *run = (ida_run *)sundials;
-  sunindextype n = N_VGetLength(sundials->y);
-  run->dense = SUNDenseMatrix(n, n, sundials->context);
-  if (run->dense) {
-    run->solver = SUNLinSol_Dense(sundials->y, run->dense, sundials->context);
-  }
-  bool attached =
-    run->solver && IDASetLinearSolver(sundials->memory, run->solver, run->dense) == IDALS_SUCCESS;
-  return attached ? attach_newton(run) : IDA_MEM_FAIL;
-}
-
 static int step(baum_i_sundials *sundials, double target, double *tau)
 {
   N_Vector dy = ((ida_run *)sundials)->dy;
@@ -330,14 +305,12 @@ static void close_run(baum_i_sundials *sundials)
   ida_run *run = (ida_run *)sundials;
   baum_i_ida_newton_close(&run->newton);
   (void)SUNLinSolFree(run->solver);
-  SUNMatDestroy(run->dense);
   baum_i_sundials_klu_close(&run->klu);
 }
 
 static const baum_i_sundials_package PACKAGE = {
   .kind = BAUM_I_SUNDIALS_IDA,
   BAUM_I_SUNDIALS_CALLS(IDA),
-  .run_size = sizeof(ida_run),
   .size = size_of,
   .complete_start = complete_start,
   .create = create_memory,
@@ -351,30 +324,9 @@ static const baum_i_sundials_package PACKAGE = {
 static const baum_i_sundials_method METHOD = {
   .name = "ida",
   .package = &PACKAGE,
-  .open = open_with_klu,
+  .open = open_run,
   .attach = attach_klu,
 };
-
-/* ---- for tests ---- */
-
-baum_status baum_i_ida_create_with_differences(const baum_i_problem *problem,
-                                               const baum_i_state *start, void **out)
-{
-  static const baum_i_sundials_method DIFFERENCES = {
-    .name = "ida",
-    .package = &PACKAGE,
-    .open = open_run,
-    .attach = attach_dense,
-  };
-  return baum_i_sundials_create(&DIFFERENCES, problem, start, out);
-}
-
-const double *baum_i_ida_multipliers(const void *run)
-{
-  const baum_i_sundials *sundials = run;
-  const baum_mechanism *mechanism = sundials->problem->workspace->mechanism;
-  return N_VGetArrayPointer(sundials->y) + mechanism->nq + mechanism->nv;
-}
 
 #endif
 
@@ -391,6 +343,7 @@ static const baum_integrator IDA = {
   .solves_residuals = true,
 #if BAUM_HAVE_SUNDIALS
   .table = &METHOD,
+  .memory = sizeof(ida_run),
   BAUM_I_SUNDIALS_OPERATIONS,
 #endif
 };

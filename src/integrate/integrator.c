@@ -28,6 +28,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "base/alloc.h"
 #include "base/text.h"
 
 /* Steps that differ by less than this share are the same: as a shift of a node it is a part of 1e-6
@@ -85,6 +86,35 @@ const char *baum_formulation_name(baum_formulation formulation)
   case BAUM_FORMULATION_GGL: return "ggl";
   case BAUM_FORMULATION_INDEX3: return "index3";
   default: return NULL;
+  }
+}
+
+/* ---- memory of a run ---- */
+
+baum_status baum_i_integrator_create(const baum_integrator *integrator,
+                                     const baum_i_problem *problem, const baum_i_state *start,
+                                     void **out)
+{
+  *out = NULL;
+  if (!integrator->open) {
+    return BAUM_OK;
+  }
+  void *self = baum_i_alloc(1, integrator->memory);
+  BAUM_I_TRY(baum_i_check_memory(self));
+  baum_status status = integrator->open(self, integrator->table, problem, start);
+  if (status != BAUM_OK) {
+    baum_i_integrator_destroy(integrator, self);
+    return status;
+  }
+  *out = self;
+  return BAUM_OK;
+}
+
+void baum_i_integrator_destroy(const baum_integrator *integrator, void *self)
+{
+  if (self) {
+    integrator->close(self);
+    baum_i_free(self);
   }
 }
 

@@ -56,7 +56,7 @@ typedef struct baum_i_statistics {
 
 struct baum_integrator {
   const char *name;
-  const void *table;                /* what create() takes; of a method of a family */
+  const void *table;                /* what open() takes; of a method of a family */
   int order;                        /* 0: variable */
   baum_formulation formulations[6]; /* default first, ends with BAUM_FORMULATION_DEFAULT */
   baum_gain_rule gains;             /* what BAUM_GAINS_DEFAULT means */
@@ -71,11 +71,13 @@ struct baum_integrator {
   const char *why_no_projection; /* where it is refused; NULL: nothing to say */
   bool tests_multipliers;        /* at index 1 tolerance_lambda may be finite */
 
-  /* Memory of a run; NULL where there is none. Every status that a run may fail with. On failure
-   * *out = NULL. */
-  baum_status (*create)(const void *table, const baum_i_problem *problem, const baum_i_state *start,
-                        void **out);
-  void (*destroy)(void *self); /* NULL is fine */
+  /* Memory of a run: `open` fills `memory` zeroed bytes and may fail with every status of a run,
+   * `close` frees what `open` has made so far. Methods without memory have none of the three.
+   * baum_i_integrator_create() and _destroy() call them. */
+  size_t memory;
+  baum_status (*open)(void *self, const void *table, const baum_i_problem *problem,
+                      const baum_i_state *start);
+  void (*close)(void *self);
 
   /* Fixed step: move state from t by h (signed); a is the acceleration at the start of the step
    * (nv), evaluated by the caller through baum_i_problem_motion(). state->t is set by the caller.
@@ -140,6 +142,12 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
  * had begun. */
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
+
+/* Make the memory of a run; *out = NULL for a method without memory, and on failure. */
+baum_status baum_i_integrator_create(const baum_integrator *integrator,
+                                     const baum_i_problem *problem, const baum_i_state *start,
+                                     void **out);
+void baum_i_integrator_destroy(const baum_integrator *integrator, void *self); /* NULL is fine */
 
 /* Formulation offered? */
 bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulation formulation);

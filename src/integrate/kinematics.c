@@ -389,15 +389,11 @@ static void count(const void *self, baum_i_statistics *out)
   *out = run->statistics;
 }
 
-static void destroy(void *self)
+static void close_run(void *self)
 {
   kinematics_run *run = self;
-  if (!run) {
-    return;
-  }
   baum_i_continuation_close(&run->path);
   baum_i_free(run->memory);
-  baum_i_free(run);
 }
 
 static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
@@ -405,9 +401,7 @@ static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
   size_t nv = (size_t)m->nv;
   size_t size = (size_t)m->nq + 3 * nv + (size_t)m->jacobian_size;
   run->memory = baum_i_alloc(POSES * size, sizeof *run->memory);
-  if (!run->memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->memory));
   for (size_t k = 0; k < POSES; k++) {
     double *at = run->memory + k * size;
     double *v = at + m->nq;
@@ -436,31 +430,15 @@ static baum_status check_freedom(const baum_workspace *w)
     degrees_of_freedom == 1 ? "degree of freedom is" : "degrees of freedom are");
 }
 
-static baum_status set_up(kinematics_run *run, const baum_i_problem *problem,
-                          const baum_i_state *start)
+static baum_status open_run(void *self, const void *table, const baum_i_problem *problem,
+                            const baum_i_state *start)
 {
+  (void)table;
+  kinematics_run *run = self;
+  BAUM_I_TRY(check_freedom(problem->workspace));
   BAUM_I_TRY(baum_i_continuation_open(&run->path, problem->workspace));
   BAUM_I_TRY(make_poses(run, problem->workspace->mechanism));
   return restart(run, problem, start);
-}
-
-static baum_status create(const void *table, const baum_i_problem *problem,
-                          const baum_i_state *start, void **out)
-{
-  (void)table;
-  *out = NULL;
-  BAUM_I_TRY(check_freedom(problem->workspace));
-  kinematics_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
-  baum_status status = set_up(run, problem, start);
-  if (status != BAUM_OK) {
-    destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
 }
 
 /* ---- the integrator ---- */
@@ -470,8 +448,9 @@ static const baum_integrator KINEMATICS = {
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
   .without_freedom = true,
-  .create = create,
-  .destroy = destroy,
+  .memory = sizeof(kinematics_run),
+  .open = open_run,
+  .close = close_run,
   .advance = advance,
   .interpolate = interpolate,
   .restart = restart,

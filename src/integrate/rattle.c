@@ -120,16 +120,12 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
 
 /* ---- life ---- */
 
-static void destroy(void *self)
+static void close_run(void *self)
 {
-  rattle_run *run = self;
-  if (run) {
-    baum_i_free(run->memory);
-    baum_i_free(run);
-  }
+  baum_i_free(((rattle_run *)self)->memory);
 }
 
-static baum_status fail_velocities(const baum_i_element *element, const char *family)
+static baum_status fail_velocities(const baum_i_element *element)
 {
   char label[BAUM_I_LABEL_SIZE];
   return baum_i_fail(
@@ -137,7 +133,7 @@ static baum_status fail_velocities(const baum_i_element *element, const char *fa
     "simulation options: rattle is for forces of time and position, but that of %s depends on "
     "velocities, or does not say depends_on_velocity = false; take rk4 or rk8, or "
     "generalized_alpha where it is stiff",
-    baum_i_label(element, family, label));
+    baum_i_label(element, label));
 }
 
 static baum_status check_body(const baum_i_body *body)
@@ -148,10 +144,10 @@ static baum_status check_body(const baum_i_body *body)
     return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                        "simulation options: rattle is for masses that are constant, but %s does "
                        "not say constant_mass = true",
-                       baum_i_label(&body->element, "body", label));
+                       baum_i_label(&body->element, label));
   }
   bool depends = body->type->depends_on_velocity && body->type->depends_on_velocity(def);
-  return depends ? fail_velocities(&body->element, "body") : BAUM_OK;
+  return depends ? fail_velocities(&body->element) : BAUM_OK;
 }
 
 /* The method is not for masses that vary and forces that depend on velocities. */
@@ -163,40 +159,26 @@ static baum_status check_mechanism(const baum_mechanism *m)
   for (int k = 0; k < m->force_count; k++) {
     const baum_i_force *force = m->forces[k];
     if (force->type->depends_on_velocity && force->type->depends_on_velocity(force->element.def)) {
-      return fail_velocities(&force->element, "force");
+      return fail_velocities(&force->element);
     }
   }
   return BAUM_OK;
 }
 
-static baum_status make_run(const baum_i_problem *problem, void **out)
-{
-  rattle_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
-  size_t nq = (size_t)problem->workspace->mechanism->nq;
-  size_t nv = (size_t)problem->workspace->mechanism->nv;
-  run->nv = (int)nv;
-  run->memory = baum_i_alloc(nq + nv, sizeof *run->memory);
-  if (!run->memory) {
-    destroy(run);
-    return baum_i_fail_memory();
-  }
-  run->q = run->memory;
-  run->v = run->q + nq;
-  *out = run;
-  return BAUM_OK;
-}
-
-static baum_status create(const void *table, const baum_i_problem *problem,
-                          const baum_i_state *start, void **out)
+static baum_status open_run(void *self, const void *table, const baum_i_problem *problem,
+                            const baum_i_state *start)
 {
   (void)table;
   (void)start;
-  *out = NULL;
-  BAUM_I_TRY(check_mechanism(problem->workspace->mechanism));
-  return make_run(problem, out);
+  rattle_run *run = self;
+  const baum_mechanism *m = problem->workspace->mechanism;
+  BAUM_I_TRY(check_mechanism(m));
+  run->nv = m->nv;
+  run->memory = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *run->memory);
+  BAUM_I_TRY(baum_i_check_memory(run->memory));
+  run->q = run->memory;
+  run->v = run->q + m->nq;
+  return BAUM_OK;
 }
 
 static void count(const void *self, baum_i_statistics *out)
@@ -211,8 +193,9 @@ static const baum_integrator RATTLE = {
   .formulations = {BAUM_FORMULATION_INDEX3},
   .gains = BAUM_GAINS_DEFAULT,
   .method = {.kind = BAUM_I_METHOD_WITHOUT_GAINS},
-  .create = create,
-  .destroy = destroy,
+  .memory = sizeof(rattle_run),
+  .open = open_run,
+  .close = close_run,
   .step = take_step,
   .statistics = count,
 };

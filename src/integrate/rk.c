@@ -72,7 +72,7 @@ baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_sta
   return BAUM_OK;
 }
 
-baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
+baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more)
 {
@@ -83,40 +83,23 @@ baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
   *rk = (baum_i_rk){.table = table, .nq = m->nq, .nv = m->nv, .size = (int)size};
   rk->kernel = BAUM_I_HOT_TABLE(baum_i_rk_kernel);
   rk->rates = baum_i_alloc(arrays * size, sizeof *rk->rates);
-  if (!rk->rates) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(rk->rates));
   rk->start = rk->rates + (size_t)rate_count * size;
   rk->point = rk->start + size;
   *more = rk->point + size;
   return BAUM_OK;
 }
 
-baum_status baum_i_rk_create(const void *table, const baum_i_problem *problem,
-                             const baum_i_state *start, void **out)
+baum_status baum_i_rk_open(void *self, const void *table, const baum_i_problem *problem,
+                           const baum_i_state *start)
 {
   (void)start;
-  *out = NULL;
-  double *more = NULL;
-  baum_i_rk *rk = baum_i_alloc(1, sizeof *rk);
-  if (!rk) {
-    return baum_i_fail_memory();
-  }
   const baum_i_rk_table *of = table;
-  baum_status status = baum_i_rk_open(rk, of, problem, of->stages, 0, &more);
-  if (status != BAUM_OK) {
-    baum_i_rk_destroy(rk);
-    return status;
-  }
-  *out = rk;
-  return BAUM_OK;
+  double *more = NULL;
+  return baum_i_rk_make(self, of, problem, of->stages, 0, &more);
 }
 
-void baum_i_rk_destroy(void *self)
+void baum_i_rk_close(void *self)
 {
-  baum_i_rk *rk = self;
-  if (rk) {
-    baum_i_free(rk->rates);
-    baum_i_free(rk);
-  }
+  baum_i_free(((baum_i_rk *)self)->rates);
 }

@@ -29,17 +29,32 @@ typedef struct baum_i_rk {
 } baum_i_rk;
 
 /* As in baum_integrator; the table is a baum_i_rk_table. */
-baum_status baum_i_rk_create(const void *table, const baum_i_problem *problem,
-                             const baum_i_state *start, void **out);
-void baum_i_rk_destroy(void *self);
+baum_status baum_i_rk_open(void *self, const void *table, const baum_i_problem *problem,
+                           const baum_i_state *start);
+void baum_i_rk_close(void *self);
 baum_status baum_i_rk_step(void *self, const baum_i_problem *problem, baum_i_state *state, double h,
                            const double *a);
+
+/* What all Runge-Kutta methods offer. */
+/* clang-format off */
+#define BAUM_I_RK_CHOICES                                                             \
+  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,           \
+                   BAUM_FORMULATION_UNSTABILIZED},                                    \
+  .gains = BAUM_GAINS_AUTO
+
+#define BAUM_I_RK_OPERATIONS                                                          \
+  BAUM_I_RK_CHOICES,                                                                  \
+  .memory = sizeof(baum_i_rk),                                                        \
+  .open = baum_i_rk_open,                                                             \
+  .close = baum_i_rk_close,                                                           \
+  .step = baum_i_rk_step
+/* clang-format on */
 
 /* ---- for methods that have more to remember ---- */
 
 /* Fill *rk, with room for rate_count >= stages rates; *more receives more_count further arrays over
  * (q, v). All of it is one piece of memory, rk->rates. */
-baum_status baum_i_rk_open(baum_i_rk *rk, const baum_i_rk_table *table,
+baum_status baum_i_rk_make(baum_i_rk *rk, const baum_i_rk_table *table,
                            const baum_i_problem *problem, int rate_count, int more_count,
                            double **more);
 

@@ -20,15 +20,10 @@ static const baum_integrator INTEGRATOR = {
   .name = "rk3",
   .table = &TABLE,
   .order = 3,
-  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
-                   BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 3,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0}},
-  .create = baum_i_rk_create,
-  .destroy = baum_i_rk_destroy,
-  .step = baum_i_rk_step,
+  BAUM_I_RK_OPERATIONS,
 };
 
 const baum_integrator *baum_rk3(void)

@@ -103,22 +103,12 @@ static const baum_integrator INTEGRATOR = {
   .name = "rk8",
   .table = &PAIR,
   .order = 8,
-  .formulations = {BAUM_FORMULATION_PROJECTION, BAUM_FORMULATION_BAUMGARTE,
-                   BAUM_FORMULATION_UNSTABILIZED},
-  .gains = BAUM_GAINS_AUTO,
   .method = {.kind = BAUM_I_METHOD_ONE_STEP,
              .degree = 12,
              .coefficients = {1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0,
                               1.0 / 5040.0, 1.0 / 40320.0, 2.691692200169086e-06,
                               2.34134510820978e-07, 1.4947364854591546e-08, 3.613324578128244e-10}},
-  .create = baum_i_rk_adaptive_create,
-  .destroy = baum_i_rk_adaptive_destroy,
-  .step = baum_i_rk_step,
-  .advance = baum_i_rk_adaptive_advance,
-  .interpolate = baum_i_rk_adaptive_interpolate,
-  .restart = baum_i_rk_adaptive_restart,
-  .forget = baum_i_rk_adaptive_forget,
-  .statistics = baum_i_rk_adaptive_statistics,
+  BAUM_I_RK_ADAPTIVE_OPERATIONS,
 };
 
 const baum_integrator *baum_rk8(void)

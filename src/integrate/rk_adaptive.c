@@ -24,40 +24,7 @@
 
 #include <float.h>
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-#include "base/alloc.h"
-#include "base/message.h"
-#include "integrate/rk_crossing.h"
-#include "integrate/step_control.h"
-
-/* An evaluation that failed in a try, for which a smaller step was taken. */
-typedef struct failure {
-  baum_status status; /* BAUM_OK: none */
-  double t;           /* start of that try */
-  char message[BAUM_I_MESSAGE_SIZE];
-} failure;
-
-/* Memory of a run. */
-typedef struct adaptive_run {
-  baum_i_rk rk; /* first, for baum_i_rk_step() */
-  const baum_i_rk_pair *pair;
-  baum_i_step_control control;
-  double t;        /* start of the last step */
-  double t_end;    /* its end */
-  double h;        /* its signed length */
-  double *end;     /* (size) (q, v) at its end */
-  double *weights; /* (size) 1 / tolerance */
-  double *dense;   /* ((3 + pair->dense) x size) F of the last step */
-  bool has_step;   /* t .. weights are of a step */
-  bool has_dense;  /* F is of that step */
-  bool unfinished; /* a start or step that failed must be restarted */
-  int64_t rejected;
-  int64_t forced;
-  baum_i_rk_crossing crossing;
-  failure last;
-} adaptive_run;
 
 /* Of the terms of an error estimate of order 3, squared. */
 static const double SHARE_OF_ERROR3 = 0.01;
@@ -76,16 +43,16 @@ enum { MOST_TRIES = 1000 };
 /* ---- failures ---- */
 
 /* h: 0 where no step has begun. */
-static baum_status fail_with_evaluation(const adaptive_run *run, double h)
+static baum_status fail_with_evaluation(const baum_i_rk_adaptive *run, double h)
 {
-  return baum_i_fail_in_step(run->last.status, run->last.message, run->pair->name, run->t, h);
+  return baum_i_fail_in_step(run->failure, run->message.text, run->pair->name, run->t, h);
 }
 
-static void remember(adaptive_run *run, baum_status status)
+static void remember(baum_i_rk_adaptive *run, baum_status status)
 {
-  run->last.status = status;
-  run->last.t = run->t;
-  (void)snprintf(run->last.message, sizeof run->last.message, "%s", baum_message());
+  run->failure = status;
+  run->failure_t = run->t;
+  baum_i_message_keep(&run->message);
 }
 
 /* May a shorter step help? */
@@ -100,10 +67,11 @@ static bool may_shorten(const baum_i_problem *problem, baum_status status)
 
 /* Steps that shrink towards a place where evaluations fail end with one in which none does: what
  * failed nearly no time ago is still the reason. */
-static baum_status fail_short(const adaptive_run *run, const baum_i_problem *problem, double h)
+static baum_status fail_short(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
+                              double h)
 {
-  bool near = fabs(run->t - run->last.t) * problem->rate <= 1e-6;
-  if (run->last.status != BAUM_OK && near) {
+  bool near = fabs(run->t - run->failure_t) * problem->rate <= 1e-6;
+  if (run->failure != BAUM_OK && near) {
     return fail_with_evaluation(run, h);
   }
   return baum_i_fail(
@@ -117,7 +85,7 @@ static baum_status fail_short(const adaptive_run *run, const baum_i_problem *pro
 
 /* ---- norms ---- */
 
-static void weigh(adaptive_run *run, const baum_i_problem *problem)
+static void weigh(baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   int nq = run->rk.nq;
   baum_i_problem_tolerances(problem, run->rk.start + nq, run->weights, run->weights + nq);
@@ -127,7 +95,7 @@ static void weigh(adaptive_run *run, const baum_i_problem *problem)
 }
 
 /* Tolerances below the rounding of the state can never be met. */
-static baum_status check_tolerances(const adaptive_run *run, const baum_i_problem *problem)
+static baum_status check_tolerances(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   static const double ONE = 1.0;
   const baum_i_rk *rk = &run->rk;
@@ -141,14 +109,14 @@ static baum_status check_tolerances(const adaptive_run *run, const baum_i_proble
                      run->t, run->pair->name, problem->rtol);
 }
 
-static double square(const adaptive_run *run, const double *weights)
+static double square(const baum_i_rk_adaptive *run, const double *weights)
 {
   const baum_i_rk *rk = &run->rk;
   return rk->kernel->square(rk->size, run->pair->error_count, weights, rk->rates, run->weights);
 }
 
 /* Estimated error of the step by h, in units of the tolerance. */
-static double estimate(const adaptive_run *run, double h)
+static double estimate(const baum_i_rk_adaptive *run, double h)
 {
   const baum_i_rk_pair *pair = run->pair;
   double count = run->rk.nq + run->rk.nv;
@@ -164,7 +132,7 @@ static double estimate(const adaptive_run *run, double h)
 
 /* With an error constant of one, local errors of the size of the tolerance; less is put right by
  * the first step. */
-static double first_step(const adaptive_run *run, const baum_i_problem *problem)
+static double first_step(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
   const baum_mechanism *m = problem->workspace->mechanism;
@@ -177,10 +145,10 @@ static double first_step(const adaptive_run *run, const baum_i_problem *problem)
 baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem,
                                        const baum_i_state *state)
 {
-  adaptive_run *run = self;
+  baum_i_rk_adaptive *run = self;
   run->unfinished = true;
   run->has_step = false;
-  run->last.status = BAUM_OK;
+  run->failure = BAUM_OK;
   run->t = state->t;
   memcpy(run->rk.start, state->q, (size_t)run->rk.nq * sizeof *state->q);
   memcpy(run->rk.start + run->rk.nq, state->v, (size_t)run->rk.nv * sizeof *state->v);
@@ -197,12 +165,12 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
 
 void baum_i_rk_adaptive_forget(void *self)
 {
-  adaptive_run *run = self;
+  baum_i_rk_adaptive *run = self;
   run->unfinished = true;
 }
 
 /* The end of the last step is the start of the next. */
-static void go_on(adaptive_run *run, const baum_i_problem *problem)
+static void go_on(baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
   size_t bytes = (size_t)rk->size * sizeof *rk->start;
@@ -213,7 +181,7 @@ static void go_on(adaptive_run *run, const baum_i_problem *problem)
   baum_i_rk_crossing_go_on(&run->crossing, rk, problem, run->control.step);
 }
 
-static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
+static baum_status begin(baum_i_rk_adaptive *run, const baum_i_problem *problem,
                          const baum_i_state *state)
 {
   if (run->unfinished) {
@@ -228,7 +196,7 @@ static baum_status begin(adaptive_run *run, const baum_i_problem *problem,
 /* ---- one step ---- */
 
 /* Project the end. *moved: by how much, in units of the tolerance of positions. */
-static baum_status project_end(const adaptive_run *run, const baum_i_problem *problem,
+static baum_status project_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
                                double *moved)
 {
   int nq = run->rk.nq;
@@ -246,7 +214,8 @@ static baum_status project_end(const adaptive_run *run, const baum_i_problem *pr
 
 /* Projection and rate of the end. A driver whose velocity jumps has accelerations that say nothing
  * of it: only the projection does. */
-static baum_status finish_end(const adaptive_run *run, const baum_i_problem *problem, double *error)
+static baum_status finish_end(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
+                              double *error)
 {
   const baum_i_rk *rk = &run->rk;
   baum_status status = BAUM_OK;
@@ -264,7 +233,7 @@ static baum_status finish_end(const adaptive_run *run, const baum_i_problem *pro
 
 /* A step from t to t_end: its end, the rate there, and its error; the two only when the error is at
  * most `most`. */
-static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, double most,
+static baum_status try_step(baum_i_rk_adaptive *run, const baum_i_problem *problem, double most,
                             double *error)
 {
   const baum_i_rk *rk = &run->rk;
@@ -287,7 +256,7 @@ static baum_status try_step(adaptive_run *run, const baum_i_problem *problem, do
 
 /* The one place where a step is accepted. One cut to `length` for a configuration ahead says
  * nothing against what was wanted, which the next needs to get over it. */
-static void accept(adaptive_run *run, double error, double length, baum_i_state *state)
+static void accept(baum_i_rk_adaptive *run, double error, double length, baum_i_state *state)
 {
   double wanted = run->control.step;
   baum_i_step_control_accept(&run->control, fabs(run->h), error);
@@ -302,7 +271,7 @@ static void accept(adaptive_run *run, double error, double length, baum_i_state 
 }
 
 /* From where the step begins by about this length. */
-static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, double length)
+static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *problem, double length)
 {
   length = fmin(length, problem->max_step);
   double shortest = fmax(SHORTEST * fmax(fabs(run->t), 1.0 / problem->rate), DBL_MIN);
@@ -318,13 +287,14 @@ static baum_status choose_end(adaptive_run *run, const baum_i_problem *problem, 
 }
 
 /* Error that is accepted, in units of the tolerance. */
-static double largest_error(const adaptive_run *run, const baum_i_problem *problem, bool forced)
+static double largest_error(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
+                            bool forced)
 {
   return fmax(1.0, baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol);
 }
 
 /* The error counts where evaluations have not failed. */
-static void refuse(adaptive_run *run, const baum_i_problem *problem, baum_status status,
+static void refuse(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_status status,
                    double error)
 {
   double known = status == BAUM_OK ? error : (double)INFINITY;
@@ -334,7 +304,7 @@ static void refuse(adaptive_run *run, const baum_i_problem *problem, baum_status
 }
 
 /* Tries until one is accepted. */
-static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i_state *state)
+static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_i_state *state)
 {
   baum_i_rk_crossing_look(&run->crossing, &run->rk, problem, run->t);
   for (int k = 0; k < MOST_TRIES && !baum_i_rk_crossing_is_held(&run->crossing); k++) {
@@ -367,7 +337,7 @@ static baum_status step(adaptive_run *run, const baum_i_problem *problem, baum_i
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,
                                        baum_i_state *state)
 {
-  adaptive_run *run = self;
+  baum_i_rk_adaptive *run = self;
   baum_status status = begin(run, problem, state);
   if (status == BAUM_OK) {
     status = step(run, problem, state);
@@ -378,7 +348,7 @@ baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem
 
 /* ---- inside the last step ---- */
 
-static baum_status evaluate_extra(const adaptive_run *run, const baum_i_problem *problem)
+static baum_status evaluate_extra(const baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   const baum_i_rk *rk = &run->rk;
   const baum_i_rk_pair *pair = run->pair;
@@ -394,7 +364,7 @@ static baum_status evaluate_extra(const adaptive_run *run, const baum_i_problem 
 }
 
 /* F of the step. */
-static void fill_dense(const adaptive_run *run)
+static void fill_dense(const baum_i_rk_adaptive *run)
 {
   const baum_i_rk *rk = &run->rk;
   const baum_i_rk_pair *pair = run->pair;
@@ -415,7 +385,7 @@ static void fill_dense(const adaptive_run *run)
   }
 }
 
-static baum_status prepare_dense(adaptive_run *run, const baum_i_problem *problem)
+static baum_status prepare_dense(baum_i_rk_adaptive *run, const baum_i_problem *problem)
 {
   if (run->has_dense) {
     return BAUM_OK;
@@ -427,7 +397,7 @@ static baum_status prepare_dense(adaptive_run *run, const baum_i_problem *proble
 }
 
 /* Nested form of the head of this file, at coordinate i of (q, v). */
-static double value_at(const adaptive_run *run, double x, int i)
+static double value_at(const baum_i_rk_adaptive *run, double x, int i)
 {
   int n = run->rk.size;
   double value = 0.0;
@@ -440,7 +410,7 @@ static double value_at(const adaptive_run *run, double x, int i)
 baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *problem, double t,
                                            double *q, double *v)
 {
-  adaptive_run *run = self;
+  baum_i_rk_adaptive *run = self;
   if (!run->has_step || !((t - run->t) * (t - run->t_end) <= 0.0)) {
     return baum_i_fail(BAUM_ERR_INTEGRATOR, "t = %.9g s is not inside the last step of %s", t,
                        run->pair->name);
@@ -461,43 +431,22 @@ baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *pro
 
 void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out)
 {
-  const adaptive_run *run = self;
+  const baum_i_rk_adaptive *run = self;
   *out = (baum_i_statistics){.rejected = run->rejected, .forced = run->forced};
 }
 
-baum_status baum_i_rk_adaptive_create(const void *table, const baum_i_problem *problem,
-                                      const baum_i_state *start, void **out)
+baum_status baum_i_rk_adaptive_open(void *self, const void *table, const baum_i_problem *problem,
+                                    const baum_i_state *start)
 {
   (void)start;
-  *out = NULL;
+  baum_i_rk_adaptive *run = self;
   const baum_i_rk_pair *pair = table;
-  adaptive_run *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
-  double *more = NULL;
   int rates = pair->table.stages + 1 + pair->extra;
-  baum_status status =
-    baum_i_rk_open(&run->rk, &pair->table, problem, rates, 5 + pair->dense, &more);
-  if (status != BAUM_OK) {
-    baum_i_rk_adaptive_destroy(run);
-    return status;
-  }
+  BAUM_I_TRY(baum_i_rk_make(&run->rk, &pair->table, problem, rates, 5 + pair->dense, &run->end));
   run->pair = pair;
   baum_i_rk_crossing_open(&run->crossing, &pair->table);
-  run->end = more;
   run->weights = run->end + run->rk.size;
   run->dense = run->weights + run->rk.size;
   run->unfinished = true;
-  *out = run;
   return BAUM_OK;
-}
-
-void baum_i_rk_adaptive_destroy(void *self)
-{
-  adaptive_run *run = self;
-  if (run) {
-    baum_i_free(run->rk.rates);
-    baum_i_free(run);
-  }
 }

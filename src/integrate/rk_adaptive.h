@@ -4,7 +4,10 @@
 #ifndef BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 #define BAUM_I_INTEGRATE_RK_ADAPTIVE_H
 
+#include "base/message.h"
 #include "integrate/rk.h"
+#include "integrate/rk_crossing.h"
+#include "integrate/step_control.h"
 
 /* A pair of s stages. Rate s (from 0) is that at the end of the step, from which the next one
  * begins. Extra rates, for the interpolant alone, come after it. */
@@ -22,10 +25,32 @@ typedef struct baum_i_rk_pair {
   const double *dense_row; /* (dense x (s + 1 + extra)) */
 } baum_i_rk_pair;
 
+/* Memory of a run. */
+typedef struct baum_i_rk_adaptive {
+  baum_i_rk rk; /* first, for baum_i_rk_step() */
+  const baum_i_rk_pair *pair;
+  baum_i_step_control control;
+  double t;        /* start of the last step */
+  double t_end;    /* its end */
+  double h;        /* its signed length */
+  double *end;     /* (size) (q, v) at its end */
+  double *weights; /* (size) 1 / tolerance */
+  double *dense;   /* ((3 + pair->dense) x size) F of the last step */
+  bool has_step;   /* t .. weights are of a step */
+  bool has_dense;  /* F is of that step */
+  bool unfinished; /* a start or step that failed must be restarted */
+  int64_t rejected;
+  int64_t forced;
+  baum_i_rk_crossing crossing;
+  /* An evaluation that failed in a try, for which a smaller step was taken. */
+  baum_status failure;         /* BAUM_OK: none */
+  double failure_t;            /* start of that try */
+  baum_i_kept_message message; /* of that evaluation */
+} baum_i_rk_adaptive;
+
 /* As in baum_integrator; the table is a baum_i_rk_pair. */
-baum_status baum_i_rk_adaptive_create(const void *table, const baum_i_problem *problem,
-                                      const baum_i_state *start, void **out);
-void baum_i_rk_adaptive_destroy(void *self);
+baum_status baum_i_rk_adaptive_open(void *self, const void *table, const baum_i_problem *problem,
+                                    const baum_i_state *start);
 baum_status baum_i_rk_adaptive_advance(void *self, const baum_i_problem *problem,
                                        baum_i_state *state);
 baum_status baum_i_rk_adaptive_interpolate(void *self, const baum_i_problem *problem, double t,
@@ -34,5 +59,19 @@ baum_status baum_i_rk_adaptive_restart(void *self, const baum_i_problem *problem
                                        const baum_i_state *state);
 void baum_i_rk_adaptive_forget(void *self);
 void baum_i_rk_adaptive_statistics(const void *self, baum_i_statistics *out);
+
+/* clang-format off */
+#define BAUM_I_RK_ADAPTIVE_OPERATIONS                                                 \
+  BAUM_I_RK_CHOICES,                                                                  \
+  .memory = sizeof(baum_i_rk_adaptive),                                               \
+  .open = baum_i_rk_adaptive_open,                                                    \
+  .close = baum_i_rk_close, /* a run begins with its baum_i_rk */                      \
+  .step = baum_i_rk_step,                                                             \
+  .advance = baum_i_rk_adaptive_advance,                                              \
+  .interpolate = baum_i_rk_adaptive_interpolate,                                      \
+  .restart = baum_i_rk_adaptive_restart,                                              \
+  .forget = baum_i_rk_adaptive_forget,                                                \
+  .statistics = baum_i_rk_adaptive_statistics
+/* clang-format on */
 
 #endif

@@ -3,74 +3,46 @@
  * integrator says it is. */
 #include "integrate/integrator.h"
 
-#include <math.h>
-#include <string.h>
-
 #include "base/message.h"
 #include "base/sized.h"
+#include "mechanism/fields.h"
 
 /* ---- checks ---- */
 
 static baum_status check_integrator(const baum_integrator *integrator)
 {
-  if (integrator) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "integrator is NULL, must be one such as baum_euler()");
+  return integrator
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT,
+                         "stability: integrator is NULL, must be one such as baum_euler()");
 }
 
 /* Has it a region? */
 static baum_status check_fixed_step(const baum_integrator *integrator)
 {
   BAUM_I_TRY(check_integrator(integrator));
+  const char *why = NULL;
   if (integrator->without_freedom) {
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "%s solves positions from the constraints, so there is nothing to stabilize "
-                       "and no region",
-                       integrator->name);
+    why = "solves positions from the constraints, so there is nothing to stabilize and no region";
+  } else if (integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
+    why = "chooses its step, so it has no fixed region of stability";
+  } else if (integrator->method.kind == BAUM_I_METHOD_WITHOUT_GAINS) {
+    why = "keeps the constraints by itself, without gains, so it has no region of stability";
   }
-  if (integrator->method.kind == BAUM_I_METHOD_VARIABLE_STEP) {
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "%s chooses its step, so it has no fixed region of stability",
-                       integrator->name);
-  }
-  if (integrator->method.kind == BAUM_I_METHOD_WITHOUT_GAINS) {
-    return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                       "%s keeps the constraints by itself, without gains, so it has no region of "
-                       "stability",
-                       integrator->name);
-  }
-  return BAUM_OK;
+  return why ? baum_i_fail(BAUM_ERR_UNSUPPORTED, "%s %s", integrator->name, why) : BAUM_OK;
 }
 
-static baum_status check_finite(double value, const char *name)
-{
-  if (isfinite(value)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g, must be finite", name, value);
-}
-
-static baum_status check_positive(double value, const char *name)
-{
-  if (value > 0.0 && isfinite(value)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g, must be > 0 and finite", name, value);
-}
+static const char *const LABEL = "stability";
 
 static baum_status check_point(double alpha_h, double beta2_h2)
 {
-  BAUM_I_TRY(check_finite(alpha_h, "alpha_h"));
-  return check_finite(beta2_h2, "beta2_h2");
+  BAUM_I_TRY(baum_i_check_finite(LABEL, "alpha_h", "", alpha_h));
+  return baum_i_check_finite(LABEL, "beta2_h2", "", beta2_h2);
 }
 
 static baum_status check_out(const void *out, const char *name)
 {
-  if (out) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is NULL", name);
+  return baum_i_check_given(LABEL, name, out != NULL);
 }
 
 static baum_status check_pair(const void *first, const char *first_name, const void *second,
@@ -94,10 +66,8 @@ static baum_status check_arrays(int32_t capacity, const void *first, const char 
 static baum_status check_range(const double range[2], const char *name)
 {
   BAUM_I_TRY(check_out(range, name));
-  if (isfinite(range[0]) && isfinite(range[1])) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT, "%s is %g to %g, must be finite", name, range[0], range[1]);
+  BAUM_I_TRY(baum_i_check_finite(LABEL, name, "", range[0]));
+  return baum_i_check_finite(LABEL, name, "", range[1]);
 }
 
 /* ---- at a point ---- */
@@ -107,12 +77,8 @@ baum_status baum_stability_at(const baum_integrator *integrator, double alpha_h,
 {
   BAUM_I_TRY(check_integrator(integrator));
   BAUM_I_TRY(check_point(alpha_h, beta2_h2));
-  BAUM_I_TRY(check_out(out, "out"));
-  if (caller_size < sizeof(size_t)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "caller_size is %zu, must be sizeof *out", caller_size);
-  }
-  baum_amplification amplification;
-  memset(&amplification, 0, sizeof amplification);
+  BAUM_I_TRY(baum_i_check_sized(out, caller_size, "baum_stability_at"));
+  baum_amplification amplification = {.struct_size = 0};
   baum_i_amplification(&integrator->method, alpha_h, beta2_h2, &amplification);
   baum_i_give_sized(out, caller_size, &amplification, sizeof amplification);
   return BAUM_OK;
@@ -135,7 +101,7 @@ const char *baum_stability_statement(const baum_integrator *integrator)
 static baum_status check_ray(const baum_integrator *integrator, double damping_ratio)
 {
   BAUM_I_TRY(check_fixed_step(integrator));
-  return check_positive(damping_ratio, "damping_ratio");
+  return baum_i_check_positive(LABEL, "damping_ratio", "", damping_ratio);
 }
 
 typedef double alpha_h_of_ray(const baum_i_method *method, double damping_ratio);
@@ -190,14 +156,13 @@ baum_status baum_stability_best(const baum_integrator *integrator, double *alpha
 baum_status baum_stability_deadbeat(const baum_integrator *integrator, double *alpha_h,
                                     double *beta2_h2)
 {
-  baum_status status = check_point_out(integrator, alpha_h, beta2_h2);
-  if (status != BAUM_OK || baum_i_stability_deadbeat(&integrator->method, alpha_h, beta2_h2)) {
-    return status;
-  }
-  return baum_i_fail(BAUM_ERR_UNSUPPORTED,
-                     "%s remembers several steps, so no gains end a violation within one; "
-                     "baum_stability_best() has the point of fastest decay",
-                     integrator->name);
+  BAUM_I_TRY(check_point_out(integrator, alpha_h, beta2_h2));
+  return baum_i_stability_deadbeat(&integrator->method, alpha_h, beta2_h2)
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_UNSUPPORTED,
+                         "%s uses several past steps, so no gains end a violation within one; "
+                         "baum_stability_best() has the point of fastest decay",
+                         integrator->name);
 }
 
 baum_status baum_stability_nearest(const baum_integrator *integrator, double alpha_h,
@@ -250,7 +215,7 @@ baum_status baum_stability_outline(const baum_integrator *integrator, double rad
                                    int32_t *count)
 {
   BAUM_I_TRY(check_fixed_step(integrator));
-  BAUM_I_TRY(check_positive(radius, "radius"));
+  BAUM_I_TRY(baum_i_check_positive(LABEL, "radius", "", radius));
   BAUM_I_TRY(check_arrays(capacity, alpha_h, "alpha_h", beta2_h2, "beta2_h2", count));
   baum_i_outline out = {.capacity = capacity, .alpha_h = alpha_h, .beta2_h2 = beta2_h2};
   baum_i_stability_outline(&integrator->method, radius - 1.0, &out);

@@ -60,29 +60,20 @@ static int create_context(baum_i_sundials *sundials)
 
 enum { PREFIX = 1 };
 
-/* A vector of SUNDIALS' own making goes its own ways. */
-static N_Vector let_go(N_Vector vector)
-{
-  if (vector) {
-    vector->ops->nvclone = N_VClone_Serial;
-    vector->ops->nvcloneempty = N_VCloneEmpty_Serial;
-    vector->ops->nvdestroy = N_VDestroy_Serial;
-  }
-  return vector;
-}
-
 static N_Vector clone(N_Vector like)
 {
   baum_i_sundials *sundials;
   memcpy(&sundials, N_VGetArrayPointer(like) - PREFIX, sizeof(void *));
   N_Vector vector = baum_i_sundials_vector(sundials);
-  return vector ? vector : let_go(N_VClone_Serial(like));
-}
-
-/* For differences of IDA: a shell around numbers that are not ours. */
-static N_Vector clone_empty(N_Vector like)
-{
-  return let_go(N_VCloneEmpty_Serial(like));
+  if (vector) {
+    return vector;
+  }
+  vector = N_VClone_Serial(like);
+  if (vector) { /* of SUNDIALS' own making */
+    vector->ops->nvclone = N_VClone_Serial;
+    vector->ops->nvdestroy = N_VDestroy_Serial;
+  }
+  return vector;
 }
 
 static void keep(N_Vector vector)
@@ -105,7 +96,6 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
       return baum_i_fail_memory();
     }
     vector->ops->nvclone = clone;
-    vector->ops->nvcloneempty = clone_empty;
     vector->ops->nvdestroy = keep;
     sundials->vectors[k] = vector;
   }

@@ -16,8 +16,6 @@
 #include <cvode/cvode.h>
 #include <ida/ida.h>
 
-#include "base/alloc.h"
-
 /* ---- messages ---- */
 
 /* Flags by package, 0 where it has none; what they mean, and advice. */
@@ -96,17 +94,6 @@ static baum_status fail_in_step(const baum_i_sundials *run, int flag)
   double step = 0.0;
   (void)run->method->package->get_step(run->memory, &step);
   return fail(run, flag, step);
-}
-
-baum_status baum_i_sundials_explain_flag(baum_i_sundials_kind kind, int flag)
-{
-  const baum_i_sundials_package package = {.kind = kind};
-  const baum_i_sundials_method method = {
-    .name = kind == BAUM_I_SUNDIALS_IDA ? "ida" : "cvode",
-    .package = &package,
-  };
-  const baum_i_sundials run = {.method = &method};
-  return fail(&run, flag, 1e-3);
 }
 
 /* ---- start and restart ---- */
@@ -312,13 +299,15 @@ static int start_sundials(baum_i_sundials *run)
   return flag;
 }
 
-static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
-                          const baum_i_state *start)
+baum_status baum_i_sundials_open_run(void *self, const void *table, const baum_i_problem *problem,
+                                     const baum_i_state *start)
 {
+  baum_i_sundials *run = self;
+  run->method = table;
+  run->problem = problem;
   BAUM_I_TRY(baum_i_sundials_open(run, run->method->package->size(problem)));
   run->y = baum_i_sundials_vector(run);
   run->inside = baum_i_sundials_vector(run);
-  run->problem = problem;
   if (run->method->open) {
     BAUM_I_TRY(run->method->open(run));
   }
@@ -328,34 +317,12 @@ static baum_status set_up(baum_i_sundials *run, const baum_i_problem *problem,
   return flag == 0 ? BAUM_OK : fail(run, flag, 0.0);
 }
 
-baum_status baum_i_sundials_create(const void *method, const baum_i_problem *problem,
-                                   const baum_i_state *start, void **out)
-{
-  *out = NULL;
-  const baum_i_sundials_method *of = method;
-  baum_i_sundials *run = baum_i_alloc(1, of->package->run_size);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
-  run->method = of;
-  baum_status status = set_up(run, problem, start);
-  if (status != BAUM_OK) {
-    baum_i_sundials_destroy(run);
-    return status;
-  }
-  *out = run;
-  return BAUM_OK;
-}
-
-void baum_i_sundials_destroy(void *self)
+void baum_i_sundials_close_run(void *self)
 {
   baum_i_sundials *run = self;
-  if (run) {
-    run->method->package->destroy(&run->memory);
-    run->method->package->close(run);
-    baum_i_sundials_close(run);
-    baum_i_free(run);
-  }
+  run->method->package->destroy(&run->memory);
+  run->method->package->close(run);
+  baum_i_sundials_close(run);
 }
 
 #endif

@@ -35,7 +35,6 @@ typedef struct baum_i_sundials_package {
   int (*count_iterations)(void *memory, long *count);
   void (*destroy)(void **memory); /* NULL is fine */
 
-  size_t run_size;                            /* of a run, which begins with baum_i_sundials */
   int (*size)(const baum_i_problem *problem); /* n, length of y */
   /* Completes the start at t, with (q, v) in run->y and 0 behind them; NULL: nothing to do. */
   baum_status (*complete_start)(baum_i_sundials *run, double t);
@@ -83,13 +82,12 @@ typedef struct baum_i_sundials_method {
   .destroy = prefix##Free
 /* clang-format on */
 
-/* As create() of an integrator. */
-baum_status baum_i_sundials_create(const void *method, const baum_i_problem *problem,
-                                   const baum_i_state *start, void **out);
-
 /* ---- operations of an integrator ---- */
 
-void baum_i_sundials_destroy(void *self);
+/* The table is a baum_i_sundials_method; a run begins with its baum_i_sundials. */
+baum_status baum_i_sundials_open_run(void *self, const void *table, const baum_i_problem *problem,
+                                     const baum_i_state *start);
+void baum_i_sundials_close_run(void *self);
 baum_status baum_i_sundials_advance(void *self, const baum_i_problem *problem, baum_i_state *state);
 baum_status baum_i_sundials_interpolate(void *self, const baum_i_problem *problem, double t,
                                         double *q, double *v);
@@ -100,18 +98,13 @@ void baum_i_sundials_count(const void *self, baum_i_statistics *out);
 
 /* clang-format off */
 #define BAUM_I_SUNDIALS_OPERATIONS              \
-  .create = baum_i_sundials_create,             \
-  .destroy = baum_i_sundials_destroy,           \
+  .open = baum_i_sundials_open_run,             \
+  .close = baum_i_sundials_close_run,           \
   .advance = baum_i_sundials_advance,           \
   .interpolate = baum_i_sundials_interpolate,   \
   .restart = baum_i_sundials_restart,           \
   .forget = baum_i_sundials_forget,             \
   .statistics = baum_i_sundials_count
 /* clang-format on */
-
-/* ---- for tests ---- */
-
-/* The message of a flag, as of a step of 0.001 s from t = 0 that no evaluation failed in. */
-baum_status baum_i_sundials_explain_flag(baum_i_sundials_kind kind, int flag);
 
 #endif

@@ -80,15 +80,22 @@ static void release(baum_i_element *element)
   element->name = NULL;
 }
 
+/* Write the name of an element without one: "joint2". */
+static const char *name_by_number(const char *family, int number, char text[BAUM_I_LABEL_SIZE])
+{
+  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s%d", family, number);
+  return text;
+}
+
 /* Fill an element from a definition whose fields are already checked; on failure it owns
  * nothing. */
-static baum_status fill(baum_i_element *element, const char *family, const void *def)
+static baum_status fill(baum_i_element *element, const void *def)
 {
   const baum_i_definition *definition = element->definition;
   const char *given = ((const baum_i_def_head *)def)->name;
-  char default_name[BAUM_I_LABEL_SIZE];
-  (void)snprintf(default_name, sizeof default_name, "%s%d", family, element->index);
-  element->name = baum_i_copy_text(given ? given : default_name);
+  char text[BAUM_I_LABEL_SIZE];
+  const char *name = given ? given : name_by_number(element->family, element->index, text);
+  element->name = baum_i_copy_text(name);
   element->def = baum_i_copy(def, 1, definition->size);
   if (element->def && baum_i_fields_own(definition, element->def) != BAUM_OK) {
     baum_i_free(element->def); /* which owns nothing */
@@ -131,10 +138,11 @@ baum_status baum_i_append_element(baum_mechanism *mechanism, const baum_i_family
   if (!element) {
     return baum_i_fail_memory();
   }
+  element->family = family->name;
   element->definition = definition;
   element->index = baum_i_family_count(family, mechanism) + 1;
   baum_i_span *span = baum_i_family_span(family, element);
-  baum_status status = fill(element, family->name, def);
+  baum_status status = fill(element, def);
   if (status == BAUM_OK) {
     status = make_span(mechanism, definition, element->def, element->index, span);
   }
@@ -160,15 +168,11 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
                        definition->kind);
   }
   BAUM_I_TRY(complete(definition, def, out));
-  const char *name = out->head.name;
-  BAUM_I_TRY(baum_i_check_name(family->name, number, name));
+  BAUM_I_TRY(baum_i_check_name(family->name, number, out->head.name));
+  char name[BAUM_I_LABEL_SIZE];
   char label[BAUM_I_LABEL_SIZE];
-  if (name) {
-    (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", family->name, number, name);
-  } else {
-    (void)snprintf(label, sizeof label, "%s %d \"%s%d\"", family->name, number, family->name,
-                   number);
-  }
+  (void)snprintf(label, sizeof label, "%s %d \"%.80s\"", family->name, number,
+                 out->head.name ? out->head.name : name_by_number(family->name, number, name));
   return baum_i_fields_check(definition, mechanism, out, label);
 }
 
@@ -199,14 +203,13 @@ static baum_status find(const baum_mechanism *mechanism, const baum_i_family *fa
   return BAUM_OK;
 }
 
-static baum_status check_kind(const baum_i_element *element, const baum_i_family *family,
-                              const baum_i_definition *definition)
+static baum_status check_kind(const baum_i_element *element, const baum_i_definition *definition)
 {
+  char label[BAUM_I_LABEL_SIZE];
   return element->definition == definition
            ? BAUM_OK
-           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s %d \"%s\" is a %s, not a %s", family->name,
-                         element->index, element->name, element->definition->kind,
-                         definition->kind);
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s is a %s, not a %s", baum_i_label(element, label),
+                         element->definition->kind, definition->kind);
 }
 
 baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_family *family,
@@ -216,7 +219,7 @@ baum_status baum_i_get_element(const baum_mechanism *mechanism, const baum_i_fam
   baum_i_element *element = NULL;
   BAUM_I_TRY(find(mechanism, family, definition, id, &element));
   BAUM_I_TRY(baum_i_check_sized(out, caller_size, definition->kind));
-  BAUM_I_TRY(check_kind(element, family, definition));
+  BAUM_I_TRY(check_kind(element, definition));
   baum_i_give_sized(out, caller_size, element->def, definition->size);
   return BAUM_OK;
 }
@@ -226,7 +229,7 @@ static baum_status check_ties(const baum_mechanism *mechanism, const baum_i_fami
                               const void *def, baum_i_element *element)
 {
   char label[BAUM_I_LABEL_SIZE];
-  baum_i_label(element, family->name, label);
+  baum_i_label(element, label);
   BAUM_I_TRY(baum_i_fields_check_kept(element->definition, element->def, def, label));
   const baum_i_span *span = baum_i_family_span(family, element);
   baum_i_span next;
@@ -246,10 +249,10 @@ baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *f
   whole_def whole = {.head = {0}};
   BAUM_I_TRY(find(mechanism, family, definition, id, &element));
   BAUM_I_TRY(check(mechanism, family, definition, def, element->index, &whole));
-  BAUM_I_TRY(check_kind(element, family, definition));
+  BAUM_I_TRY(check_kind(element, definition));
   BAUM_I_TRY(check_ties(mechanism, family, &whole, element));
   baum_i_element next = *element;
-  BAUM_I_TRY(fill(&next, family->name, &whole));
+  BAUM_I_TRY(fill(&next, &whole));
   release(element);
   *element = next;
   return BAUM_OK;

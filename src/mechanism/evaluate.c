@@ -1,17 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Evaluation of a whole mechanism: one call per group. */
+/* Evaluation of a whole mechanism: one call per group, or per element where none is frequent. */
 #include <string.h>
 
 #include "base/message.h"
 #include "mechanism/mechanism.h"
 
+static void clear(double *values, int count)
+{
+  if (values) {
+    memset(values, 0, (size_t)count * sizeof *values);
+  }
+}
+
 /* ---- joints ---- */
 
 baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  for (int k = 0; k < mechanism->joint_group_count; k++) {
-    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+  for (const baum_i_joint_group *group = point->mechanism->joint_groups; group->type; group++) {
     BAUM_I_TRY(group->type->evaluate(group, point, rows));
   }
   return BAUM_OK;
@@ -29,7 +34,7 @@ baum_status baum_i_mechanism_jacobian(baum_i_point *point, double *jacobian)
 
 baum_status baum_i_mechanism_nu(baum_i_point *point, double *nu)
 {
-  memset(nu, 0, (size_t)point->mechanism->nc * sizeof *nu);
+  clear(nu, point->mechanism->nc);
   return baum_i_mechanism_rows(point, &(baum_i_rows){.nu = nu});
 }
 
@@ -38,25 +43,17 @@ baum_status baum_i_mechanism_gamma(baum_i_point *point, double *gamma)
   return baum_i_mechanism_rows(point, &(baum_i_rows){.gamma = gamma});
 }
 
-static void clear(double *values, int count)
-{
-  if (values) {
-    memset(values, 0, (size_t)count * sizeof *values);
-  }
-}
-
 baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double *w,
                                               const double *lambda,
                                               const baum_i_joint_blocks *blocks)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  clear(blocks->jw_q, mechanism->jacobian_size);
-  clear(blocks->gamma_q, mechanism->jacobian_size);
-  clear(blocks->gamma_v, mechanism->jacobian_size);
-  clear(blocks->nu_q, mechanism->jacobian_size);
-  clear(blocks->jtl_q, mechanism->joint_square_size);
-  for (int k = 0; k < mechanism->joint_group_count; k++) {
-    const baum_i_joint_group *group = &mechanism->joint_groups[k];
+  const baum_mechanism *m = point->mechanism;
+  clear(blocks->jw_q, m->jacobian_size);
+  clear(blocks->gamma_q, m->jacobian_size);
+  clear(blocks->gamma_v, m->jacobian_size);
+  clear(blocks->nu_q, m->jacobian_size);
+  clear(blocks->jtl_q, m->joint_square_size);
+  for (const baum_i_joint_group *group = m->joint_groups; group->type; group++) {
     for (int i = 0; group->type->linearize && i < group->count; i++) {
       BAUM_I_TRY(group->type->linearize(group->joints[i], point, w, lambda, blocks));
     }
@@ -68,9 +65,7 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
 
 baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  for (int k = 0; k < mechanism->body_group_count; k++) {
-    const baum_i_body_group *group = &mechanism->body_groups[k];
+  for (const baum_i_body_group *group = point->mechanism->body_groups; group->type; group++) {
     BAUM_I_TRY(group->type->mass(group, point, mass));
   }
   return BAUM_OK;
@@ -78,9 +73,7 @@ baum_status baum_i_mechanism_mass(baum_i_point *point, double *mass)
 
 baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant, double *force)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  for (int k = 0; k < mechanism->body_group_count; k++) {
-    const baum_i_body_group *group = &mechanism->body_groups[k];
+  for (const baum_i_body_group *group = point->mechanism->body_groups; group->type; group++) {
     if (group->type->constant_force == constant) {
       BAUM_I_TRY(group->type->force(group, point, force));
     }
@@ -90,10 +83,8 @@ baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant,
 
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force)
 {
-  const baum_mechanism *mechanism = point->mechanism;
   BAUM_I_TRY(baum_i_mechanism_add_body_forces(point, false, force));
-  for (int k = 0; k < mechanism->force_group_count; k++) {
-    const baum_i_force_group *group = &mechanism->force_groups[k];
+  for (const baum_i_force_group *group = point->mechanism->force_groups; group->type; group++) {
     BAUM_I_TRY(group->type->force(group, point, force));
   }
   return BAUM_OK;
@@ -106,34 +97,23 @@ baum_status baum_i_mechanism_force(baum_i_point *point, double *force)
   return baum_i_mechanism_add_varying_forces(point, force);
 }
 
-baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)
+bool baum_i_has_constant_force(const baum_mechanism *mechanism)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  *potential = 0.0;
-  for (int k = 0; k < mechanism->body_group_count; k++) {
-    const baum_i_body_group *group = &mechanism->body_groups[k];
-    if (group->type->potential) {
-      BAUM_I_TRY(group->type->potential(group, point, potential));
-    }
+  bool constant = mechanism->force_count == 0;
+  for (const baum_i_body_group *group = mechanism->body_groups; group->type; group++) {
+    constant = constant && group->type->constant_force;
   }
-  for (int k = 0; k < mechanism->force_group_count; k++) {
-    const baum_i_force_group *group = &mechanism->force_groups[k];
-    if (group->type->potential) {
-      BAUM_I_TRY(group->type->potential(group, point, potential));
-    }
-  }
-  return BAUM_OK;
+  return constant;
 }
 
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
                                               const baum_i_body_blocks *blocks)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  clear(blocks->ma_q, mechanism->mass_size);
-  clear(blocks->force_q, mechanism->mass_size);
-  clear(blocks->force_v, mechanism->mass_size);
-  for (int k = 0; k < mechanism->body_group_count; k++) {
-    const baum_i_body_group *group = &mechanism->body_groups[k];
+  const baum_mechanism *m = point->mechanism;
+  clear(blocks->ma_q, m->mass_size);
+  clear(blocks->force_q, m->mass_size);
+  clear(blocks->force_v, m->mass_size);
+  for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
     for (int i = 0; group->type->linearize && i < group->count; i++) {
       BAUM_I_TRY(group->type->linearize(group->bodies[i], point, a, blocks));
     }
@@ -144,13 +124,70 @@ baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double 
 baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
                                               const baum_i_force_blocks *blocks)
 {
-  const baum_mechanism *mechanism = point->mechanism;
-  clear(blocks->force_q, mechanism->force_square_size);
-  clear(blocks->force_v, mechanism->force_square_size);
-  for (int k = 0; k < mechanism->force_group_count; k++) {
-    const baum_i_force_group *group = &mechanism->force_groups[k];
+  const baum_mechanism *m = point->mechanism;
+  clear(blocks->force_q, m->force_square_size);
+  clear(blocks->force_v, m->force_square_size);
+  for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
     for (int i = 0; i < group->count; i++) {
       BAUM_I_TRY(group->type->linearize(group->forces[i], point, blocks));
+    }
+  }
+  return BAUM_OK;
+}
+
+/* ---- energy ----
+ *
+ * Functions of the user give a potential, but not its gradient: the power of these elements is
+ * taken whole, and what the potential has taken up over a time is the difference of its values,
+ * without any error.
+ */
+
+/* whole_power: only of types whose power is taken whole. */
+static baum_status add_potentials(baum_i_point *point, bool whole_power, double *of_bodies,
+                                  double *of_forces)
+{
+  const baum_mechanism *m = point->mechanism;
+  for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
+    bool wanted = group->type->potential && (group->type->power || !whole_power);
+    for (int i = 0; wanted && i < group->count; i++) {
+      BAUM_I_TRY(group->type->potential(group->bodies[i], point, of_bodies));
+    }
+  }
+  for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
+    bool wanted = group->type->potential && (group->type->power_is_whole || !whole_power);
+    for (int i = 0; wanted && i < group->count; i++) {
+      BAUM_I_TRY(group->type->potential(group->forces[i], point, of_forces));
+    }
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential)
+{
+  *potential = 0.0;
+  return add_potentials(point, false, potential, potential);
+}
+
+baum_status baum_i_mechanism_potential_of_whole(baum_i_point *point,
+                                                double potential[BAUM_I_POWERS])
+{
+  clear(potential, BAUM_I_POWERS);
+  return add_potentials(point, true, &potential[BAUM_I_POWER_BODIES],
+                        &potential[BAUM_I_POWER_USER_FORCES]);
+}
+
+baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS])
+{
+  const baum_mechanism *m = point->mechanism;
+  clear(power, BAUM_I_POWERS);
+  for (const baum_i_body_group *group = m->body_groups; group->type; group++) {
+    for (int i = 0; group->type->power && i < group->count; i++) {
+      BAUM_I_TRY(group->type->power(group->bodies[i], point, power));
+    }
+  }
+  for (const baum_i_force_group *group = m->force_groups; group->type; group++) {
+    for (int i = 0; i < group->count; i++) {
+      BAUM_I_TRY(group->type->power(group->forces[i], point, power));
     }
   }
   return BAUM_OK;

@@ -44,19 +44,18 @@
         return baum_i_fail_memory();                                                           \
       }                                                                                        \
       group->type = item->type;                                                                \
-      mechanism->FAMILY##_group_count++;                                                       \
     }                                                                                          \
     group->LIST[group->count++] = item;                                                        \
     return BAUM_OK;                                                                            \
   }                                                                                            \
   static void free_##FAMILY##_groups(baum_mechanism *mechanism)                                \
   {                                                                                            \
-    for (int k = 0; k < mechanism->FAMILY##_group_count; k++) {                                \
-      baum_i_free(mechanism->FAMILY##_groups[k].LIST);                                         \
+    baum_i_##FAMILY##_group *group = mechanism->FAMILY##_groups;                               \
+    for (; group && group->type; group++) {                                                    \
+      baum_i_free(group->LIST);                                                                \
     }                                                                                          \
     baum_i_free(mechanism->FAMILY##_groups);                                                   \
     mechanism->FAMILY##_groups = NULL;                                                         \
-    mechanism->FAMILY##_group_count = 0;                                                       \
   }
 
 LIST_FUNCTIONS(body, bodies, 1)

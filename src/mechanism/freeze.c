@@ -119,7 +119,7 @@ static baum_status number_element(baum_mechanism *mechanism, const baum_i_family
       !widen_scratch(mechanism, span->ql > span->nl ? span->ql : span->nl, rows)) {
     char label[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism has more than %d matrix entries here",
-                       baum_i_label(element, family->name, label), INT_MAX);
+                       baum_i_label(element, label), INT_MAX);
   }
   element->parameter = mechanism->parameter_count;
   mechanism->parameter_count += element->definition->parameter_count;

@@ -134,17 +134,20 @@ const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int col
 
 /* ---- labels ---- */
 
-const char *baum_i_label(const baum_i_element *element, const char *family,
-                         char text[BAUM_I_LABEL_SIZE])
+const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE])
 {
-  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s %d \"%.80s\"", family, element->index, element->name);
+  if (!element->definition) {
+    return strcpy(text, "ground");
+  }
+  (void)snprintf(text, BAUM_I_LABEL_SIZE, "%s %d \"%.80s\"", element->family, element->index,
+                 element->name);
   return text;
 }
 
 const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
                                char text[BAUM_I_LABEL_SIZE])
 {
-  return baum_i_label(&mechanism->joints[joint]->element, "joint", text);
+  return baum_i_label(&mechanism->joints[joint]->element, text);
 }
 
 /* ---- stages ---- */

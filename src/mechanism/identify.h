@@ -53,10 +53,9 @@ int baum_i_row_joint(const baum_mechanism *mechanism, int row);
 const baum_i_body *baum_i_velocity_body(const baum_mechanism *mechanism, int column);
 baum_joint_id baum_i_joint_id(const baum_mechanism *mechanism, int joint);
 
-/* `joint 2 "B"` into text; returns text. Number from 1. */
+/* `joint 2 "B"`, numbered from 1, or `ground` into text; returns text. */
 enum { BAUM_I_LABEL_SIZE = 128 };
-const char *baum_i_label(const baum_i_element *element, const char *family,
-                         char text[BAUM_I_LABEL_SIZE]);
+const char *baum_i_label(const baum_i_element *element, char text[BAUM_I_LABEL_SIZE]);
 const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
                                char text[BAUM_I_LABEL_SIZE]);
 

@@ -40,6 +40,8 @@ baum_status baum_i_mechanism_add_body_forces(baum_i_point *point, bool constant,
 /* of those others and of all forces. */
 baum_status baum_i_mechanism_add_varying_forces(baum_i_point *point, double *force);
 baum_status baum_i_mechanism_potential(baum_i_point *point, double *potential);
+/* Whether the force on every body depends on parameters only. */
+bool baum_i_has_constant_force(const baum_mechanism *mechanism);
 baum_status baum_i_mechanism_linearize_bodies(baum_i_point *point, const double *a,
                                               const baum_i_body_blocks *blocks);
 baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double *w,
@@ -47,7 +49,8 @@ baum_status baum_i_mechanism_linearize_joints(baum_i_point *point, const double 
                                               const baum_i_joint_blocks *blocks);
 baum_status baum_i_mechanism_linearize_forces(baum_i_point *point,
                                               const baum_i_force_blocks *blocks);
-/* ---- power.c, for the energy account ---- */
+
+/* ---- for the energy account ---- */
 
 /* Set by class; needs velocities. */
 baum_status baum_i_mechanism_power(baum_i_point *point, double power[BAUM_I_POWERS]);

@@ -25,6 +25,7 @@
 
 /* What all elements have; first member of each. */
 typedef struct baum_i_element {
+  const char *family; /* "body", "joint" or "force" */
   const baum_i_definition *definition;
   void *def;     /* own copy; its name points to `name` or is NULL */
   char *name;    /* given, or "body<k>", "joint<k>", "force<k>" */
@@ -261,14 +262,14 @@ struct baum_i_body_type {
   baum_status (*mass)(const baum_i_body_group *group, baum_i_point *point, double *mass);
   /* Adds to (nv). */
   baum_status (*force)(const baum_i_body_group *group, baum_i_point *point, double *force);
-  /* Adds; NULL: 0. */
-  baum_status (*potential)(const baum_i_body_group *group, baum_i_point *point, double *sum);
+  /* One body: adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_body *body, baum_i_point *point, double *sum);
   /* One body. a (nv); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_body *body, baum_i_point *point, const double *a,
                            const baum_i_body_blocks *blocks);
-  /* Adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and M' = 0. */
-  baum_status (*power)(const baum_i_body_group *group, baum_i_point *point,
-                       double power[BAUM_I_POWERS]);
+  /* One body: adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and
+   * M' = 0. */
+  baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
   /* Compare given derivatives with differences; NULL: nothing given. */
   baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
@@ -338,14 +339,14 @@ struct baum_i_force_type {
   /* Adds to (nv). */
   baum_status (*force)(const baum_i_force_group *group, baum_i_point *point, double *force);
   bool (*depends_on_velocity)(const void *def); /* NULL: never */
-  /* Adds; NULL: 0. */
-  baum_status (*potential)(const baum_i_force_group *group, baum_i_point *point, double *sum);
+  /* One force: adds; NULL: 0. */
+  baum_status (*potential)(const baum_i_force *force, baum_i_point *point, double *sum);
   /* One force. Blocks arrive zeroed. */
   baum_status (*linearize)(const baum_i_force *force, baum_i_point *point,
                            const baum_i_force_blocks *blocks);
-  /* Adds g^T v without what comes of the potential, by class; or with it, and power_is_whole. */
-  baum_status (*power)(const baum_i_force_group *group, baum_i_point *point,
-                       double power[BAUM_I_POWERS]);
+  /* One force: adds g^T v without what comes of the potential, by class; or with it, and
+   * power_is_whole. */
+  baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
   baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
@@ -385,19 +386,16 @@ struct baum_mechanism {
   baum_i_body_place *places; /* (body_count + 1) */
   bool all_planar;           /* every body has the three coordinates of a planar body */
   double *parameters;
-  double *design_q;       /* (nq) */
-  double *design_v;       /* (nv) NaN where free */
-  bool *held;             /* (nv) */
-  double *scale;          /* (nv) relevant change of each coordinate */
-  double *position_scale; /* (nq) likewise of each position */
-  int fixed_count;        /* fixed bodies without ground, */
-  int fixed_nv;           /* their velocities, */
-  double *fixed_q;        /* (nq) and where they are */
-  int body_group_count;
-  baum_i_body_group *body_groups;
-  int joint_group_count;
+  double *design_q;               /* (nq) */
+  double *design_v;               /* (nv) NaN where free */
+  bool *held;                     /* (nv) */
+  double *scale;                  /* (nv) relevant change of each coordinate */
+  double *position_scale;         /* (nq) likewise of each position */
+  int fixed_count;                /* fixed bodies without ground, */
+  int fixed_nv;                   /* their velocities, */
+  double *fixed_q;                /* (nq) and where they are */
+  baum_i_body_group *body_groups; /* each list ends with a group without a type */
   baum_i_joint_group *joint_groups;
-  int force_group_count;
   baum_i_force_group *force_groups;
 };
 

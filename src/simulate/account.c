@@ -476,8 +476,9 @@ static baum_status make_stepper(baum_simulation *run)
   bool wanted = method->step && method->advance &&
                 run->problem.formulation == BAUM_FORMULATION_PROJECTION &&
                 !baum_i_problem_has_fixed_step(&run->problem);
-  return wanted ? method->create(method->table, &account->problem, &run->trial, &account->stepper)
-                : BAUM_OK;
+  return wanted
+           ? baum_i_integrator_create(method, &account->problem, &run->trial, &account->stepper)
+           : BAUM_OK;
 }
 
 baum_status baum_i_account_create(baum_simulation *run)
@@ -505,9 +506,7 @@ baum_status baum_i_account_create(baum_simulation *run)
 void baum_i_account_destroy(const baum_integrator *method, baum_i_account *account)
 {
   if (account) {
-    if (account->stepper) {
-      method->destroy(account->stepper);
-    }
+    baum_i_integrator_destroy(method, account->stepper);
     baum_workspace_destroy(account->workspace);
     baum_i_free(account->from.q);
     baum_i_free(account);

@@ -144,15 +144,13 @@ baum_status baum_i_companion_create(baum_simulation *run)
   BAUM_I_TRY(make_memory(c));
   run->beside[1] = c->workspace;
   choose_problem(run, c);
-  return c->method->create(c->method->table, &c->problem, &run->trial, &c->self);
+  return baum_i_integrator_create(c->method, &c->problem, &run->trial, &c->self);
 }
 
 void baum_i_companion_destroy(baum_i_companion *c)
 {
   if (c) {
-    if (c->self) {
-      c->method->destroy(c->self);
-    }
+    baum_i_integrator_destroy(c->method, c->self);
     baum_workspace_destroy(c->workspace);
     baum_i_free(c->state.q);
     baum_i_free(c);

@@ -84,7 +84,7 @@ static void say_body(const baum_workspace *w, char *text, size_t size)
   int column = find_largest(w->a, m->scale, m->nv, false, &largest);
   if (column >= 0) {
     const baum_i_body *body = baum_i_velocity_body(m, column);
-    (void)baum_i_label(&body->element, "body", label);
+    (void)baum_i_label(&body->element, label);
     baum_i_append(text, size, ", %s accelerates most", label);
   }
 }

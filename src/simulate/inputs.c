@@ -184,7 +184,7 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   BAUM_I_TRY(baum_i_check_joint(m, driver, call, "driver"));
   char label[BAUM_I_LABEL_SIZE];
   const baum_i_joint *joint = m->joints[baum_i_joint_index(m, driver)];
-  (void)baum_i_label(&joint->element, "joint", label);
+  (void)baum_i_label(&joint->element, label);
   if (!joint->type->replace_law) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is a %s, not a driver", call, label,
                        joint->type->definition.kind);

@@ -3,17 +3,15 @@
 #include "simulate/options.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
-#include "base/message.h"
 #include "base/sized.h"
+#include "base/text.h"
 #include "integrate/integrator.h"
 
 void baum_simulation_options_init(baum_simulation_options *options, size_t caller_size)
 {
   const baum_simulation_options defaults = {
-    .start_time = 0.0,
     .step = NAN,
     .rtol = NAN,
     .atol = NAN,
@@ -36,126 +34,117 @@ static baum_status refuse(const char *field, const char *unit, double value, con
                      unit[0] ? " " : "", unit, must);
 }
 
-/* Factors on tolerances where there is no tolerance. */
-static baum_status check_no_factors(const baum_simulation_options *o)
+/* ---- numbers ---- */
+
+/* How a method proceeds with the options given. */
+typedef enum stepping { FIXED_STEP, VARIABLE_STEP, NO_STEP } stepping;
+
+/* Why it refuses a number. */
+static const char *const WHY_NOT[] = {
+  [FIXED_STEP] = "has a fixed step; give step alone",
+  [VARIABLE_STEP] = "chooses its own steps; give rtol alone",
+  [NO_STEP] = "solves Phi(q, t) = 0 to rounding at the requested times; give neither step nor "
+              "tolerance",
+};
+
+/* A number of the options, which must lie between two limits. */
+typedef struct number {
+  const char *name;
+  const char *unit;
+  size_t offset;
+  bool takes[3]; /* by stepping */
+  bool required; /* where it is taken */
+  double unset;  /* value that counts as not given */
+  double least;
+  double most;
+  bool may_be_zero;
+  bool may_be_infinite;
+  const char *must;
+} number;
+
+#define NUMBER(FIELD, UNIT) #FIELD, UNIT, offsetof(baum_simulation_options, FIELD)
+#define ALWAYS       \
+  {                  \
+    true, true, true \
+  }
+#define WITH_TOLERANCE     \
+  {                        \
+    [VARIABLE_STEP] = true \
+  }
+#define WITHOUT_STEP                         \
+  {                                          \
+    [VARIABLE_STEP] = true, [NO_STEP] = true \
+  }
+
+/* Factors last: what is said of them holds where no tolerance is taken. tolerance_lambda is refused
+ * by check_multipliers() where it is not taken. */
+/* clang-format off */
+static const number NUMBERS[] = {
+  {NUMBER(step, "s"), {[FIXED_STEP] = true}, .required = true, .unset = NAN, .most = INFINITY,
+   .must = "must be finite and > 0"},
+  {NUMBER(rtol, ""), WITH_TOLERANCE, .required = true, .unset = NAN, .most = 1.0,
+   .must = "must be > 0 and < 1"},
+  {NUMBER(atol, ""), WITH_TOLERANCE, .unset = NAN, .most = INFINITY, .may_be_zero = true,
+   .must = "must be finite and >= 0"},
+  {NUMBER(max_step, "s"), WITHOUT_STEP, .unset = NAN, .most = INFINITY, .may_be_infinite = true,
+   .must = "must be > 0"},
+  {NUMBER(start_time, "s"), ALWAYS, .least = -INFINITY, .most = INFINITY, .must = "must be finite"},
+  {NUMBER(progress_interval, "s"), ALWAYS, .most = INFINITY, .may_be_zero = true,
+   .must = "must be finite and >= 0"},
+  {NUMBER(tolerance_q, ""), WITH_TOLERANCE, .unset = 1.0, .most = INFINITY,
+   .must = "must be > 0 and finite"},
+  {NUMBER(tolerance_v, ""), WITH_TOLERANCE, .unset = 1.0, .most = INFINITY,
+   .must = "must be > 0 and finite"},
+  {NUMBER(tolerance_lambda, ""), ALWAYS, .unset = INFINITY, .most = INFINITY,
+   .may_be_infinite = true, .must = "must be > 0"},
+};
+/* clang-format on */
+
+static baum_status check_number(const number *n, stepping how, const baum_simulation_options *o)
 {
-  const char *const fields[2] = {"tolerance_q", "tolerance_v"};
-  const double values[2] = {o->tolerance_q, o->tolerance_v};
-  for (int k = 0; k < 2; k++) {
-    if (values[k] != 1.0) {
+  double x;
+  memcpy(&x, (const char *)o + n->offset, sizeof x);
+  const char *name = o->integrator->name;
+  if (x == n->unset || (isnan(x) && isnan(n->unset))) {
+    return !n->required || !n->takes[how]
+             ? BAUM_OK
+             : baum_i_fail(BAUM_ERR_ARGUMENT,
+                           "simulation options: %s is not given, and %s needs it", n->name, name);
+  }
+  if (!n->takes[how]) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: %s is %g%s%s, but %s %s", n->name, x,
+                       n->unit[0] ? " " : "", n->unit, name,
+                       isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
+  }
+  bool fine = (x > n->least || (n->may_be_zero && x == 0.0)) &&
+              (x < n->most || (n->may_be_infinite && isinf(x)));
+  return fine ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+}
+
+/* Methods of either kind proceed by what is given. */
+static baum_status check_numbers(const baum_simulation_options *o)
+{
+  const baum_integrator *method = o->integrator;
+  stepping how = method->step ? FIXED_STEP : VARIABLE_STEP;
+  if (method->without_freedom) {
+    how = NO_STEP;
+  } else if (method->step && method->advance) {
+    if (isnan(o->step) == isnan(o->rtol)) {
       return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "simulation options: %s is %g, but %s takes no tolerance here; leave it 1",
-                         fields[k], values[k], o->integrator->name);
+                         "simulation options: %s takes step for steps of one length or rtol for "
+                         "steps of its own choice, %s",
+                         method->name,
+                         isnan(o->step) ? "and neither is given" : "not both of them");
     }
+    how = isnan(o->step) ? VARIABLE_STEP : FIXED_STEP;
+  }
+  for (size_t k = 0; k < sizeof NUMBERS / sizeof *NUMBERS; k++) {
+    BAUM_I_TRY(check_number(&NUMBERS[k], how, o));
   }
   return BAUM_OK;
 }
 
-static baum_status check_step(const baum_simulation_options *o)
-{
-  const char *name = o->integrator->name;
-  if (isnan(o->step)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT,
-                       "simulation options: step is not given, and %s has a fixed step", name);
-  }
-  if (!isfinite(o->step) || o->step <= 0.0) {
-    return refuse("step", "s", o->step, "must be finite and > 0");
-  }
-  const char *const fields[3] = {"rtol", "atol", "max_step"};
-  const double values[3] = {o->rtol, o->atol, o->max_step};
-  for (int k = 0; k < 3; k++) {
-    if (!isnan(values[k])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "simulation options: %s is %g, but %s has a fixed step; give step alone",
-                         fields[k], values[k], name);
-    }
-  }
-  return check_no_factors(o);
-}
-
-static baum_status check_factors(const baum_simulation_options *o)
-{
-  const char *const fields[3] = {"tolerance_q", "tolerance_v", "tolerance_lambda"};
-  const double values[3] = {o->tolerance_q, o->tolerance_v, o->tolerance_lambda};
-  for (int k = 0; k < 3; k++) {
-    bool may_be_infinite = k == 2; /* without any test of q and v there is no step to choose */
-    if (!(values[k] > 0.0 && (may_be_infinite || isfinite(values[k])))) {
-      return refuse(fields[k], "", values[k],
-                    may_be_infinite ? "must be > 0" : "must be > 0 and finite");
-    }
-  }
-  return BAUM_OK;
-}
-
-static baum_status check_max_step(const baum_simulation_options *o)
-{
-  bool is_fine = isnan(o->max_step) || o->max_step > 0.0;
-  return is_fine ? BAUM_OK : refuse("max_step", "s", o->max_step, "must be > 0");
-}
-
-/* Kinematics takes neither step nor tolerance. */
-static baum_status check_neither(const baum_simulation_options *o)
-{
-  const char *const fields[3] = {"step", "rtol", "atol"};
-  const double values[3] = {o->step, o->rtol, o->atol};
-  for (int k = 0; k < 3; k++) {
-    if (!isnan(values[k])) {
-      return baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "simulation options: %s is %g, but %s solves Phi(q, t) = 0 to rounding at "
-                         "the times asked for; give neither step nor tolerance",
-                         fields[k], values[k], o->integrator->name);
-    }
-  }
-  BAUM_I_TRY(check_no_factors(o));
-  return check_max_step(o);
-}
-
-static baum_status check_tolerance(const baum_simulation_options *o)
-{
-  const char *name = o->integrator->name;
-  if (!isnan(o->step)) {
-    return baum_i_fail(
-      BAUM_ERR_ARGUMENT,
-      "simulation options: step is %g s, but %s chooses its own steps; give rtol alone", o->step,
-      name);
-  }
-  if (isnan(o->rtol)) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "simulation options: rtol is not given, and %s needs it",
-                       name);
-  }
-  if (!(o->rtol > 0.0 && o->rtol < 1.0)) {
-    return refuse("rtol", "", o->rtol, "must be > 0 and < 1");
-  }
-  if (!isnan(o->atol) && !(isfinite(o->atol) && o->atol >= 0.0)) {
-    return refuse("atol", "", o->atol, "must be finite and >= 0");
-  }
-  BAUM_I_TRY(check_factors(o));
-  return check_max_step(o);
-}
-
-/* Methods of either kind go by what is given. */
-static baum_status check_either(const baum_simulation_options *o)
-{
-  if (isnan(o->step) == isnan(o->rtol)) {
-    return baum_i_fail(
-      BAUM_ERR_ARGUMENT,
-      "simulation options: %s takes step for steps of one length or rtol for steps "
-      "of its own choice, %s",
-      o->integrator->name, isnan(o->step) ? "and neither is given" : "not both of them");
-  }
-  return isnan(o->step) ? check_tolerance(o) : check_step(o);
-}
-
-static baum_status check_steps(const baum_simulation_options *o)
-{
-  if (o->integrator->without_freedom) {
-    return check_neither(o);
-  }
-  if (o->integrator->step && o->integrator->advance) {
-    return check_either(o);
-  }
-  return o->integrator->step ? check_step(o) : check_tolerance(o);
-}
+/* ---- choices ---- */
 
 static baum_status check_choices(const baum_simulation_options *o)
 {
@@ -165,16 +154,7 @@ static baum_status check_choices(const baum_simulation_options *o)
   if (o->solver < BAUM_SOLVER_AUTO || o->solver > BAUM_SOLVER_BLOCK) {
     return refuse("solver", "", (double)o->solver, "is no baum_solver");
   }
-  if (!isfinite(o->start_time)) {
-    return refuse("start_time", "s", o->start_time, "must be finite");
-  }
-  if (o->max_steps <= 0) {
-    return refuse("max_steps", "", (double)o->max_steps, "must be > 0");
-  }
-  if (!(isfinite(o->progress_interval) && o->progress_interval >= 0.0)) {
-    return refuse("progress_interval", "s", o->progress_interval, "must be finite and >= 0");
-  }
-  return BAUM_OK;
+  return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }
 
 /* The pair of integrator and formulation. */
@@ -189,9 +169,7 @@ static baum_status check_pair(baum_simulation_options *o)
   }
   char list[160] = "";
   for (int k = 0; offered[k] != BAUM_FORMULATION_DEFAULT; k++) {
-    size_t used = strlen(list);
-    (void)snprintf(list + used, sizeof list - used, "%s%s", k > 0 ? ", " : "",
-                   baum_formulation_name(offered[k]));
+    baum_i_append(list, sizeof list, "%s%s", k > 0 ? ", " : "", baum_formulation_name(offered[k]));
   }
   const char *name = baum_formulation_name(o->formulation);
   bool projection = o->formulation == BAUM_FORMULATION_PROJECTION;
@@ -273,7 +251,7 @@ baum_status baum_i_options_check(baum_simulation_options *options)
       "baum_cvode_bdf, baum_ida, "
       "baum_kinematics");
   }
-  BAUM_I_TRY(check_steps(options));
+  BAUM_I_TRY(check_numbers(options));
   BAUM_I_TRY(check_choices(options));
   BAUM_I_TRY(check_pair(options));
   BAUM_I_TRY(check_multipliers(options));

@@ -141,7 +141,7 @@ void baum_i_append_channel(const baum_mechanism *m, const baum_channel *c, char 
   baum_i_append(text, size, "%s", f.word);
   if (f.of == OF_BODY) {
     const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
-    baum_i_append(text, size, " of %s", baum_i_label(&body->element, "body", label));
+    baum_i_append(text, size, " of %s", baum_i_label(&body->element, label));
     if (c->point[0] != 0.0 || c->point[1] != 0.0) {
       baum_i_append(text, size, " at (%g, %g) m", c->point[0], c->point[1]);
     }

@@ -172,8 +172,7 @@ static baum_status make_crossings(baum_simulation *run)
 
 static baum_status make_integrator(baum_simulation *run)
 {
-  const baum_integrator *of = run->integrator;
-  return of->create ? of->create(of->table, &run->problem, &run->trial, &run->self) : BAUM_OK;
+  return baum_i_integrator_create(run->integrator, &run->problem, &run->trial, &run->self);
 }
 
 static baum_status accept_start(baum_simulation *run)
@@ -269,9 +268,7 @@ void baum_simulation_destroy(baum_simulation *simulation)
   if (!simulation || is_in_use(simulation)) {
     return;
   }
-  if (simulation->integrator->destroy) {
-    simulation->integrator->destroy(simulation->self);
-  }
+  baum_i_integrator_destroy(simulation->integrator, simulation->self);
   baum_i_companion_destroy(simulation->companion);
   baum_i_account_destroy(simulation->integrator, simulation->account);
   baum_i_events_destroy(simulation->events);

@@ -61,7 +61,7 @@ static baum_status fail_far(baum_simulation *run, const double *drawn, const bau
   return baum_i_fail(BAUM_ERR_INCONSISTENT,
                      "t = %.9g s: assembly would move %s by %.3g%s, more than %.3g%s; the "
                      "design configuration fits least in %s; give it closer to the assembled one",
-                     run->trial.t, baum_i_label(&body->element, "body", label), fabs(moved),
+                     run->trial.t, baum_i_label(&body->element, label), fabs(moved),
                      unit_of(body, coordinate), limit * scale, unit_of(body, coordinate), joint);
 }
 

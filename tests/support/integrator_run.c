@@ -72,11 +72,8 @@ baum_status integrator_run_open(integrator_run *run, const integrator_setup *set
   check(baum_i_find_rows(run->workspace, 0.0, run->state_q));
   define_problem(run, setup);
   find_rate(run);
-  baum_status status = BAUM_OK;
-  if (run->integrator->create) {
-    status =
-      setup->integrator->create(setup->integrator->table, &run->problem, &run->state, &run->self);
-  }
+  baum_status status =
+    baum_i_integrator_create(setup->integrator, &run->problem, &run->state, &run->self);
   if (status != BAUM_OK) {
     assert_null(run->self);
     integrator_run_close(run);
@@ -86,9 +83,7 @@ baum_status integrator_run_open(integrator_run *run, const integrator_setup *set
 
 void integrator_run_close(integrator_run *run)
 {
-  if (run->integrator->destroy) {
-    run->integrator->destroy(run->self);
-  }
+  baum_i_integrator_destroy(run->integrator, run->self);
   baum_workspace_destroy(run->workspace);
 }
 

@@ -261,30 +261,33 @@ static void wrong_arguments_are_refused_with_the_argument(void **state)
   double y = 7.0;
   const baum_integrator *e = baum_euler();
   ASSERT_REFUSED(baum_stability_at(NULL, 1.0, 1.0, &out, sizeof out), BAUM_ERR_ARGUMENT,
-                 "integrator is NULL, must be one such as baum_euler()");
+                 "stability: integrator is NULL, must be one such as baum_euler()");
   ASSERT_REFUSED(baum_stability_at(e, (double)NAN, 1.0, &out, sizeof out), BAUM_ERR_ARGUMENT,
-                 "alpha_h is nan, must be finite");
+                 "stability: alpha_h is nan, must be finite");
   ASSERT_REFUSED(baum_stability_at(e, 1.0, (double)INFINITY, &out, sizeof out), BAUM_ERR_ARGUMENT,
-                 "beta2_h2 is inf, must be finite");
+                 "stability: beta2_h2 is inf, must be finite");
   ASSERT_REFUSED(baum_stability_at(e, 1.0, 1.0, NULL, sizeof out), BAUM_ERR_ARGUMENT,
-                 "out is NULL");
+                 "baum_stability_at: out is NULL or caller_size is too small");
   ASSERT_REFUSED(baum_stability_at(e, 1.0, 1.0, &out, 3), BAUM_ERR_ARGUMENT,
                  "caller_size is 3, must be sizeof *out");
   ASSERT_REFUSED(baum_stability_limit(NULL, 1.0, &x), BAUM_ERR_ARGUMENT,
-                 "integrator is NULL, must be one such as baum_euler()");
+                 "stability: integrator is NULL, must be one such as baum_euler()");
   ASSERT_REFUSED(baum_stability_limit(e, 0.0, &x), BAUM_ERR_ARGUMENT,
-                 "damping_ratio is 0, must be > 0 and finite");
+                 "stability: damping_ratio is 0, must be finite and > 0");
   ASSERT_REFUSED(baum_stability_limit(e, (double)INFINITY, &x), BAUM_ERR_ARGUMENT,
-                 "damping_ratio is inf, must be > 0 and finite");
-  ASSERT_REFUSED(baum_stability_limit(e, 1.0, NULL), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
-  ASSERT_REFUSED(baum_stability_deadbeat(e, NULL, &y), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
-  ASSERT_REFUSED(baum_stability_deadbeat(e, &x, NULL), BAUM_ERR_ARGUMENT, "beta2_h2 is NULL");
+                 "stability: damping_ratio is inf, must be finite and > 0");
+  ASSERT_REFUSED(baum_stability_limit(e, 1.0, NULL), BAUM_ERR_ARGUMENT,
+                 "stability: alpha_h is NULL, must be given");
+  ASSERT_REFUSED(baum_stability_deadbeat(e, NULL, &y), BAUM_ERR_ARGUMENT,
+                 "stability: alpha_h is NULL, must be given");
+  ASSERT_REFUSED(baum_stability_deadbeat(e, &x, NULL), BAUM_ERR_ARGUMENT,
+                 "stability: beta2_h2 is NULL, must be given");
   ASSERT_REFUSED(baum_stability_nearest(e, (double)NAN, 1.0, &x, &y), BAUM_ERR_ARGUMENT,
-                 "alpha_h is nan, must be finite");
+                 "stability: alpha_h is nan, must be finite");
   ASSERT_REFUSED(baum_stability_nearest(e, 1.0, 1.0, NULL, &y), BAUM_ERR_ARGUMENT,
-                 "good_alpha_h is NULL");
+                 "stability: good_alpha_h is NULL, must be given");
   ASSERT_REFUSED(baum_stability_nearest(e, 1.0, 1.0, &x, NULL), BAUM_ERR_ARGUMENT,
-                 "good_beta2_h2 is NULL");
+                 "stability: good_beta2_h2 is NULL, must be given");
   const char *why = "cvode_bdf chooses its step, so it has no fixed region of stability";
   ASSERT_REFUSED(baum_stability_limit(baum_cvode_bdf(), 1.0, &x), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_deadbeat(baum_cvode_bdf(), &x, &y), BAUM_ERR_UNSUPPORTED, why);

@@ -109,7 +109,7 @@ static void a_longest_step_is_checked(void **state)
   o.step = 1e-3;
   o.max_step = 0.1;
   assert_int_equal(baum_simulation_create(m, &o, &s), BAUM_ERR_ARGUMENT);
-  assert_non_null(strstr(baum_message(), "max_step is 0.1, but rk4 has a fixed step"));
+  assert_non_null(strstr(baum_message(), "max_step is 0.1 s, but rk4 has a fixed step"));
   o.integrator = baum_ida();
   o.step = (double)NAN;
   o.rtol = 1e-6;

@@ -215,7 +215,7 @@ static void methods_without_a_region_are_refused(void **state)
   ASSERT_REFUSED(baum_stability_grid(k, range, range, 1, 1, &x), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_outline(k, 1.0, 0, NULL, NULL, &n), BAUM_ERR_UNSUPPORTED, why);
   ASSERT_REFUSED(baum_stability_deadbeat(baum_ab2(), &x, &y), BAUM_ERR_UNSUPPORTED,
-                 "ab2 remembers several steps, so no gains end a violation within one; "
+                 "ab2 uses several past steps, so no gains end a violation within one; "
                  "baum_stability_best() has the point of fastest decay");
   baum_amplification out;
   assert_int_equal(baum_stability_at(baum_rattle(), 1.0, 1.0, &out, sizeof out), BAUM_OK);
@@ -239,20 +239,21 @@ static void wrong_arguments_of_rays_are_refused(void **state)
   double y = 7.0;
   int32_t n = 7;
   ASSERT_REFUSED(baum_stability_intervals(NULL, 1.0, 1, &x, &y, &n), BAUM_ERR_ARGUMENT,
-                 "integrator is NULL, must be one such as baum_euler()");
+                 "stability: integrator is NULL, must be one such as baum_euler()");
   ASSERT_REFUSED(baum_stability_intervals(e, -1.0, 1, &x, &y, &n), BAUM_ERR_ARGUMENT,
-                 "damping_ratio is -1, must be > 0 and finite");
+                 "stability: damping_ratio is -1, must be finite and > 0");
   ASSERT_REFUSED(baum_stability_intervals(e, 1.0, -1, &x, &y, &n), BAUM_ERR_ARGUMENT,
                  "capacity is -1, must be >= 0");
   ASSERT_REFUSED(baum_stability_intervals(e, 1.0, 1, NULL, &y, &n), BAUM_ERR_ARGUMENT,
-                 "from is NULL");
+                 "stability: from is NULL, must be given");
   ASSERT_REFUSED(baum_stability_intervals(e, 1.0, 1, &x, NULL, &n), BAUM_ERR_ARGUMENT,
-                 "to is NULL");
+                 "stability: to is NULL, must be given");
   ASSERT_REFUSED(baum_stability_intervals(e, 1.0, 1, &x, &y, NULL), BAUM_ERR_ARGUMENT,
-                 "count is NULL");
+                 "stability: count is NULL, must be given");
   ASSERT_REFUSED(baum_stability_best_on_ray(e, (double)NAN, &x), BAUM_ERR_ARGUMENT,
-                 "damping_ratio is nan, must be > 0 and finite");
-  ASSERT_REFUSED(baum_stability_best_on_ray(e, 1.0, NULL), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
+                 "stability: damping_ratio is nan, must be finite and > 0");
+  ASSERT_REFUSED(baum_stability_best_on_ray(e, 1.0, NULL), BAUM_ERR_ARGUMENT,
+                 "stability: alpha_h is NULL, must be given");
   assert_true(x == 7.0 && y == 7.0 && n == 7);
 }
 
@@ -265,22 +266,24 @@ static void wrong_arguments_of_the_plane_are_refused(void **state)
   int32_t n = 7;
   const double range[2] = {0.0, 1.0};
   const double endless[2] = {0.0, (double)INFINITY};
-  ASSERT_REFUSED(baum_stability_best(e, NULL, &y), BAUM_ERR_ARGUMENT, "alpha_h is NULL");
-  ASSERT_REFUSED(baum_stability_best(e, &x, NULL), BAUM_ERR_ARGUMENT, "beta2_h2 is NULL");
+  ASSERT_REFUSED(baum_stability_best(e, NULL, &y), BAUM_ERR_ARGUMENT,
+                 "stability: alpha_h is NULL, must be given");
+  ASSERT_REFUSED(baum_stability_best(e, &x, NULL), BAUM_ERR_ARGUMENT,
+                 "stability: beta2_h2 is NULL, must be given");
   ASSERT_REFUSED(baum_stability_grid(e, NULL, range, 1, 1, &x), BAUM_ERR_ARGUMENT,
-                 "alpha_h is NULL");
+                 "stability: alpha_h is NULL, must be given");
   ASSERT_REFUSED(baum_stability_grid(e, range, endless, 1, 1, &x), BAUM_ERR_ARGUMENT,
-                 "beta2_h2 is 0 to inf, must be finite");
+                 "stability: beta2_h2 is inf, must be finite");
   ASSERT_REFUSED(baum_stability_grid(e, range, range, 0, 1, &x), BAUM_ERR_ARGUMENT,
                  "columns is 0 and rows is 1, must be >= 1");
   ASSERT_REFUSED(baum_stability_grid(e, range, range, 1, 1, NULL), BAUM_ERR_ARGUMENT,
-                 "radius is NULL");
+                 "stability: radius is NULL, must be given");
   ASSERT_REFUSED(baum_stability_outline(e, 0.0, 1, &x, &y, &n), BAUM_ERR_ARGUMENT,
-                 "radius is 0, must be > 0 and finite");
+                 "stability: radius is 0, must be finite and > 0");
   ASSERT_REFUSED(baum_stability_outline(e, 1.0, 1, &x, NULL, &n), BAUM_ERR_ARGUMENT,
-                 "beta2_h2 is NULL");
+                 "stability: beta2_h2 is NULL, must be given");
   ASSERT_REFUSED(baum_stability_outline(e, 1.0, 1, &x, &y, NULL), BAUM_ERR_ARGUMENT,
-                 "count is NULL");
+                 "stability: count is NULL, must be given");
   assert_true(x == 7.0 && y == 7.0 && n == 7);
 }
 

@@ -55,6 +55,39 @@ static void check_flag(const char *name, int flag, baum_status status, int known
   }
 }
 
+static int answer;
+
+static int give_step(void *memory, sunrealtype *step)
+{
+  (void)memory;
+  *step = 1e-3;
+  return 0;
+}
+
+static int give_flag(baum_i_sundials *run, double target, double *tau)
+{
+  (void)run;
+  (void)target;
+  (void)tau;
+  return answer;
+}
+
+/* A step of 0.001 s from t = 0 that a package ends with this flag. */
+static baum_status step_with_flag(baum_i_sundials_kind kind, int flag)
+{
+  const baum_i_sundials_package package = {
+    .kind = kind, .get_time = give_step, .get_step = give_step, .step = give_flag};
+  const baum_i_sundials_method method = {
+    .name = kind == BAUM_I_SUNDIALS_IDA ? "ida" : "cvode",
+    .package = &package,
+  };
+  const baum_i_problem problem = {.rate = 1.0};
+  baum_i_state state = {.t = 0.0};
+  baum_i_sundials run = {.method = &method};
+  answer = flag;
+  return baum_i_sundials_advance(&run, &problem, &state);
+}
+
 static void every_flag_has_a_sentence_with_time_and_step(void **state)
 {
   (void)state;
@@ -64,8 +97,8 @@ static void every_flag_has_a_sentence_with_time_and_step(void **state)
       known[0] = FLAGS[k].cvode == flag ? k : known[0];
       known[1] = FLAGS[k].ida == flag ? k : known[1];
     }
-    check_flag("cvode", flag, baum_i_sundials_explain_flag(BAUM_I_SUNDIALS_CVODE, flag), known[0]);
-    check_flag("ida", flag, baum_i_sundials_explain_flag(BAUM_I_SUNDIALS_IDA, flag), known[1]);
+    check_flag("cvode", flag, step_with_flag(BAUM_I_SUNDIALS_CVODE, flag), known[0]);
+    check_flag("ida", flag, step_with_flag(BAUM_I_SUNDIALS_IDA, flag), known[1]);
   }
 }
 

@@ -12,8 +12,8 @@ baum_status baum_i_check_coordinate(const baum_mechanism *mechanism, baum_joint_
   if (!joint->type->coordinate) {
     char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, a %s, which has no coordinate %s", label,
-                       field, baum_i_label(&joint->element, "joint", text),
-                       joint->type->definition.kind, purpose);
+                       field, baum_i_label(&joint->element, text), joint->type->definition.kind,
+                       purpose);
   }
   return joint->type->check_coordinate
            ? joint->type->check_coordinate(mechanism, joint->element.def, label)

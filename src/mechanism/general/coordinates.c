@@ -114,12 +114,7 @@ static const baum_coordinates_def *def_of(const baum_i_body *body)
 static baum_i_user_function function(const baum_i_body *body, const char *name, int row_count,
                                      int cols)
 {
-  return (baum_i_user_function){.element = &body->element,
-                                .family = "body",
-                                .name = name,
-                                .rows = row_count,
-                                .cols = cols,
-                                .user = def_of(body)->user};
+  return (baum_i_user_function){&body->element, name, row_count, cols, def_of(body)->user};
 }
 
 static baum_status mass_at(const baum_i_body *body, const baum_i_local *at, double *out)
@@ -130,7 +125,7 @@ static baum_status mass_at(const baum_i_body *body, const baum_i_local *at, doub
 
 static baum_i_given_force given_force(const baum_i_body *body)
 {
-  return BAUM_I_GIVEN_FORCE(&body->element, "body", def_of(body));
+  return BAUM_I_GIVEN_FORCE(&body->element, def_of(body));
 }
 
 /* ---- evaluation ---- */
@@ -160,14 +155,11 @@ static baum_status force(const baum_i_body_group *group, baum_i_point *point, do
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_body_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_body *body, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    baum_i_given_force f = given_force(group->bodies[i]);
-    baum_i_local at = baum_i_gather(point, &group->bodies[i]->span);
-    BAUM_I_TRY(baum_i_given_force_potential(&f, &at, sum));
-  }
-  return BAUM_OK;
+  baum_i_given_force f = given_force(body);
+  baum_i_local at = baum_i_gather(point, &body->span);
+  return baum_i_given_force_potential(&f, &at, sum);
 }
 
 /* ---- derivatives ---- */
@@ -200,28 +192,14 @@ static baum_status kinetic_rate(const baum_i_body *body, const baum_i_local *at,
   return baum_i_difference_first(&field, &ray, at, out);
 }
 
-static baum_status power_of(const baum_i_body *body, const baum_i_local *at, double *sum)
+static baum_status power(const baum_i_body *body, baum_i_point *point, double sum[BAUM_I_POWERS])
 {
-  baum_i_local here = *at;
-  double *value = baum_i_take(&here, body->nv);
-  double rate = 0.0;
   baum_i_given_force f = given_force(body);
-  BAUM_I_TRY(baum_i_given_force_at(&f, &here, value));
-  for (int j = 0; j < body->nv; j++) {
-    *sum += value[j] * at->v[j];
-  }
-  BAUM_I_TRY(kinetic_rate(body, &here, &rate));
-  *sum += rate;
-  return BAUM_OK;
-}
-
-static baum_status power(const baum_i_body_group *group, baum_i_point *point,
-                         double sum[BAUM_I_POWERS])
-{
-  for (int i = 0; i < group->count; i++) {
-    baum_i_local at = baum_i_gather(point, &group->bodies[i]->span);
-    BAUM_I_TRY(power_of(group->bodies[i], &at, &sum[BAUM_I_POWER_BODIES]));
-  }
+  baum_i_local at = baum_i_gather(point, &body->span);
+  double rate = 0.0;
+  BAUM_I_TRY(baum_i_given_force_power(&f, &at, &sum[BAUM_I_POWER_BODIES]));
+  BAUM_I_TRY(kinetic_rate(body, &at, &rate));
+  sum[BAUM_I_POWER_BODIES] += rate;
   return BAUM_OK;
 }
 
@@ -291,7 +269,7 @@ static baum_status check_symmetry(const baum_i_body *body, const double *block)
         return baum_i_fail(BAUM_ERR_ARGUMENT,
                            "%s: mass()[%d][%d] is %.9g but mass()[%d][%d] is %.9g; must be "
                            "symmetric",
-                           baum_i_label(&body->element, "body", label), i, j, a, j, i, b);
+                           baum_i_label(&body->element, label), i, j, a, j, i, b);
       }
     }
   }

@@ -108,8 +108,7 @@ baum_status baum_i_coordinates_check_manifold(const baum_coordinates_def *def, c
 
 static baum_i_user_function function(const baum_i_body *body, const char *name, int rows)
 {
-  return (baum_i_user_function){
-    .element = &body->element, .family = "body", .name = name, .rows = rows};
+  return (baum_i_user_function){.element = &body->element, .name = name, .rows = rows};
 }
 
 static baum_status position_field(const void *body, const baum_i_local *at, double *out)

@@ -89,11 +89,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
 static baum_i_user_function function(const baum_i_joint *joint)
 {
   const baum_coupling_def *def = joint->element.def;
-  return (baum_i_user_function){.element = &joint->element,
-                                .family = "joint",
-                                .name = "law",
-                                .rows = LAW_SIZE,
-                                .user = def->user};
+  return (baum_i_user_function){&joint->element, "law", LAW_SIZE, 0, def->user};
 }
 
 /* The law's own place, to call and to difference at; values (q, v, scale) stay the caller's. */

@@ -65,7 +65,7 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
       point->retry = true;
       return baum_i_fail(
         BAUM_ERR_NOT_FINITE, "%s: %s gave %g for the %s [%s%s]",
-        baum_i_label(&driver->element, "joint", label), source, s[i], names[i],
+        baum_i_label(&driver->element, label), source, s[i], names[i],
         driven_by(point->mechanism, driver->element.def)->type->is_angle ? "rad" : "m", per[i]);
     }
   }

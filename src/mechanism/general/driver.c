@@ -49,7 +49,7 @@ static baum_status law_at(const baum_i_joint *joint, baum_i_point *point, double
   int code = def->law(t, s, def->user);
   point->asking = false;
   return code == 0 ? baum_i_check_motion(joint, point, "law()", s)
-                   : baum_i_fail_returned(&joint->element, "joint", "law", code, point);
+                   : baum_i_fail_returned(&joint->element, "law", code, point);
 }
 
 static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[3])
@@ -81,7 +81,7 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
   given[0] = 0.0;
   const baum_i_local at = {.point = point, .t = point->t, .free = point->scratch};
   const baum_i_user_function function = {
-    .element = &joint->element, .family = "joint", .name = "law", .rows = LAW_SIZE};
+    .element = &joint->element, .name = "law", .rows = LAW_SIZE};
   const baum_i_field field = {.evaluate = derived_field, .context = joint, .size = LAW_SIZE};
   const baum_i_ray ray = {.dt = 1.0, .rate = 1.0};
   const baum_i_claim claim = {&function, "law in t", given};

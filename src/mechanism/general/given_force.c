@@ -9,12 +9,7 @@ static const char *const names[2] = {
 static baum_i_user_function function(const baum_i_given_force *given, const char *name, int rows,
                                      int cols)
 {
-  return (baum_i_user_function){.element = given->element,
-                                .family = given->family,
-                                .name = name,
-                                .rows = rows,
-                                .cols = cols,
-                                .user = given->user};
+  return (baum_i_user_function){given->element, name, rows, cols, given->user};
 }
 
 baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_local *at,
@@ -51,6 +46,18 @@ baum_status baum_i_given_force_potential(const baum_i_given_force *given, const 
     double value;
     BAUM_I_TRY(baum_i_call_q(&f, given->potential, at, &value));
     *sum += value;
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
+                                     double *sum)
+{
+  baum_i_local here = *at;
+  double *value = baum_i_take(&here, at->nl);
+  BAUM_I_TRY(baum_i_given_force_at(given, &here, value));
+  for (int j = 0; j < at->nl; j++) {
+    *sum += value[j] * at->v[j];
   }
   return BAUM_OK;
 }

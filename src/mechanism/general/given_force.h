@@ -9,7 +9,6 @@
 
 typedef struct baum_i_given_force {
   const baum_i_element *element;
-  const char *family;
   baum_force_fn *force;
   baum_force_fn *by[2]; /* derivatives by q and by v, as baum_i_variable; or NULL */
   baum_q_fn *potential; /* or NULL */
@@ -18,9 +17,8 @@ typedef struct baum_i_given_force {
 } baum_i_given_force;
 
 /* Of a definition that has members of these names. */
-#define BAUM_I_GIVEN_FORCE(ELEMENT, FAMILY, DEF)                           \
+#define BAUM_I_GIVEN_FORCE(ELEMENT, DEF)                                   \
   ((baum_i_given_force){.element = (ELEMENT),                              \
-                        .family = (FAMILY),                                \
                         .force = (DEF)->force,                             \
                         .by = {(DEF)->force_q, (DEF)->force_v},            \
                         .potential = (DEF)->potential,                     \
@@ -34,9 +32,11 @@ baum_status baum_i_given_force_at(const baum_i_given_force *given, const baum_i_
 baum_status baum_i_given_force_block(const baum_i_given_force *given, const baum_i_local *at,
                                      baum_i_variable variable, double *out);
 
-/* Adds to *sum. */
+/* Add to *sum. */
 baum_status baum_i_given_force_potential(const baum_i_given_force *given, const baum_i_local *at,
                                          double *sum);
+baum_status baum_i_given_force_power(const baum_i_given_force *given, const baum_i_local *at,
+                                     double *sum);
 
 /* Compare the derivatives that are given with differences; the `check` of types. */
 baum_status baum_i_given_force_check(const baum_i_given_force *given, const baum_i_local *at);

@@ -11,11 +11,7 @@ enum { VALUE, BY_LENGTH, BY_RATE, ENTRIES };
 
 static baum_i_user_function function(const baum_i_spring_law *spring)
 {
-  return (baum_i_user_function){.element = spring->element,
-                                .family = "force",
-                                .name = "law",
-                                .rows = ENTRIES,
-                                .user = spring->user};
+  return (baum_i_user_function){spring->element, "law", ENTRIES, 0, spring->user};
 }
 
 /* One coordinate, the length, and one velocity, its rate. */

@@ -66,12 +66,7 @@ static const baum_user_constraint_def *def_of(const baum_i_joint *joint)
 
 static baum_i_user_function function(const baum_i_joint *joint, const char *name, int cols)
 {
-  return (baum_i_user_function){.element = &joint->element,
-                                .family = "joint",
-                                .name = name,
-                                .rows = joint->rows,
-                                .cols = cols,
-                                .user = def_of(joint)->user};
+  return (baum_i_user_function){&joint->element, name, joint->rows, cols, def_of(joint)->user};
 }
 
 static baum_status phi_at(const baum_i_joint *joint, const baum_i_local *at, double *out)

@@ -26,7 +26,7 @@ static bool depends_on_velocity(const void *def)
 static baum_i_given_force given(const baum_i_force *element)
 {
   const baum_user_force_def *def = element->element.def;
-  return BAUM_I_GIVEN_FORCE(&element->element, "force", def);
+  return BAUM_I_GIVEN_FORCE(&element->element, def);
 }
 
 static baum_status force(const baum_i_force_group *group, baum_i_point *point, double *out)
@@ -44,29 +44,19 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    baum_i_given_force f = given(group->forces[i]);
-    baum_i_local at = baum_i_gather(point, &group->forces[i]->span);
-    BAUM_I_TRY(baum_i_given_force_potential(&f, &at, sum));
-  }
-  return BAUM_OK;
+  baum_i_given_force f = given(element);
+  baum_i_local at = baum_i_gather(point, &element->span);
+  return baum_i_given_force_potential(&f, &at, sum);
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    baum_i_given_force f = given(group->forces[i]);
-    baum_i_local at = baum_i_gather(point, &group->forces[i]->span);
-    double *value = baum_i_take(&at, at.nl);
-    BAUM_I_TRY(baum_i_given_force_at(&f, &at, value));
-    for (int j = 0; j < at.nl; j++) {
-      sum[BAUM_I_POWER_USER_FORCES] += value[j] * at.v[j];
-    }
-  }
-  return BAUM_OK;
+  baum_i_given_force f = given(element);
+  baum_i_local at = baum_i_gather(point, &element->span);
+  return baum_i_given_force_power(&f, &at, &sum[BAUM_I_POWER_USER_FORCES]);
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,

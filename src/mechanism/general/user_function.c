@@ -74,7 +74,7 @@ const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
                               char text[BAUM_I_ENTRY_SIZE])
 {
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_label(function->element, function->family, label);
+  (void)baum_i_label(function->element, label);
   if (function->cols > 0) {
     (void)snprintf(text, BAUM_I_ENTRY_SIZE, "%s: %s()[%d][%d]", label, function->name,
                    entry / function->cols, entry % function->cols);
@@ -84,15 +84,15 @@ const char *baum_i_user_entry(const baum_i_user_function *function, int entry,
   return text;
 }
 
-baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
-                                 const char *name, int answer, baum_i_point *point)
+baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
+                                 baum_i_point *point)
 {
   char label[BAUM_I_LABEL_SIZE];
   const char *said = baum_i_heard();
   point->retry = answer > 0;
   return baum_i_fail(BAUM_ERR_CALLBACK, "%s: %s() returned %d (%s)%s%.300s",
-                     baum_i_label(element, family, label), name, answer,
-                     answer > 0 ? "retry" : "stop", said ? ": " : "", said ? said : "");
+                     baum_i_label(element, label), name, answer, answer > 0 ? "retry" : "stop",
+                     said ? ": " : "", said ? said : "");
 }
 
 static baum_status fail_not_finite(const baum_i_user_function *function, const baum_i_local *at,
@@ -110,8 +110,7 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 {
   at->point->asking = false;
   if (answer != 0) {
-    return baum_i_fail_returned(function->element, function->family, function->name, answer,
-                                at->point);
+    return baum_i_fail_returned(function->element, function->name, answer, at->point);
   }
   int count = values(function);
   for (int i = 0; i < count; i++) {

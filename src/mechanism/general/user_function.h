@@ -48,10 +48,9 @@ double *baum_i_take(baum_i_local *local, int count);
 /* What is called, for messages: `joint 2 "circle": phi()`. */
 typedef struct baum_i_user_function {
   const baum_i_element *element;
-  const char *family; /* "body", "joint", "force" */
-  const char *name;   /* "phi" */
-  int rows;           /* of the output */
-  int cols;           /* of the output; 0 when it is a vector */
+  const char *name; /* "phi" */
+  int rows;         /* of the output */
+  int cols;         /* of the output; 0 when it is a vector */
   void *user;
 } baum_i_user_function;
 
@@ -72,8 +71,8 @@ baum_status baum_i_judge(const baum_i_user_function *function, const baum_i_loca
 
 /* After baum_i_listen(): the message for a function that has answered so, with what it says
  * itself. */
-baum_status baum_i_fail_returned(const baum_i_element *element, const char *family,
-                                 const char *name, int answer, baum_i_point *point);
+baum_status baum_i_fail_returned(const baum_i_element *element, const char *name, int answer,
+                                 baum_i_point *point);
 
 /* `joint 2 "circle": jacobian()[0][1]` into text; returns text.
  * The entry counts over the output as stored. */

@@ -35,11 +35,7 @@ static const double axes[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
 static baum_i_user_function function(const baum_i_joint *joint)
 {
   const baum_planar_curve_def *def = joint->element.def;
-  return (baum_i_user_function){.element = &joint->element,
-                                .family = "joint",
-                                .name = "curve",
-                                .rows = CURVE_SIZE,
-                                .user = def->user};
+  return (baum_i_user_function){&joint->element, "curve", CURVE_SIZE, 0, def->user};
 }
 
 /* A place in the curve's axes, to call and to difference at; values (q, v, scale) stay the

@@ -43,7 +43,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_joint *jo
     return baum_i_fail(
       BAUM_ERR_ARGUMENT,
       "%s: length is not given and is 0 m in the design configuration, must be > 0",
-      baum_i_label(&joint->element, "joint", label));
+      baum_i_label(&joint->element, label));
   }
   return BAUM_OK;
 }

@@ -20,14 +20,10 @@ baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *p
   return BAUM_OK;
 }
 
-baum_status baum_i_gravity_potential(const baum_i_body_group *group, baum_i_point *point,
-                                     double *sum)
+baum_status baum_i_gravity_potential(const baum_i_body *body, baum_i_point *point, double *sum)
 {
   const double *gravity = point->mechanism->gravity;
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_body *body = group->bodies[i];
-    const double *r = point->q + body->q;
-    *sum -= mass_of(body, point) * (gravity[0] * r[0] + gravity[1] * r[1]);
-  }
+  const double *r = point->q + body->q;
+  *sum -= mass_of(body, point) * (gravity[0] * r[0] + gravity[1] * r[1]);
   return BAUM_OK;
 }

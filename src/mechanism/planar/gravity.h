@@ -11,7 +11,6 @@ enum { BAUM_I_GRAVITY_MASS = 0 };
 
 baum_status baum_i_gravity_force(const baum_i_body_group *group, baum_i_point *point,
                                  double *force);
-baum_status baum_i_gravity_potential(const baum_i_body_group *group, baum_i_point *point,
-                                     double *sum);
+baum_status baum_i_gravity_potential(const baum_i_body *body, baum_i_point *point, double *sum);
 
 #endif

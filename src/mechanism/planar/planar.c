@@ -24,11 +24,6 @@ static bool has_angle(const baum_i_body *body)
   return kind == BAUM_I_FRAME_BODY || kind == BAUM_I_FRAME_GROUND;
 }
 
-static const char *body_label(const baum_i_body *body, char text[BAUM_I_LABEL_SIZE])
-{
-  return baum_i_label(&body->element, "body", text);
-}
-
 baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_id id,
                                      const char *label, const char *field)
 {
@@ -36,7 +31,7 @@ baum_status baum_i_planar_check_body(const baum_mechanism *mechanism, baum_body_
   if (baum_i_frame_of(body) == BAUM_I_FRAME_NONE) {
     char text[BAUM_I_LABEL_SIZE];
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no place in the plane", label,
-                       field, body_label(body, text));
+                       field, baum_i_label(&body->element, text));
   }
   return BAUM_OK;
 }
@@ -49,9 +44,9 @@ baum_status baum_i_planar_check_bodies(const baum_mechanism *mechanism, const vo
   BAUM_I_TRY(baum_i_planar_check_body(mechanism, head->body_b, label, "body_b"));
   if (head->body_a.index1 == head->body_b.index1) {
     char text[BAUM_I_LABEL_SIZE];
-    int index = baum_i_body_index(mechanism, head->body_a);
-    const char *which = index == 0 ? "ground" : body_label(mechanism->bodies[index], text);
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label, which);
+    const baum_i_body *both = mechanism->bodies[baum_i_body_index(mechanism, head->body_a)];
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: body_a and body_b are both %s", label,
+                       baum_i_label(&both->element, text));
   }
   return BAUM_OK;
 }
@@ -65,7 +60,7 @@ baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body
   }
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is %s, which has no angle", label, field,
-                     body_label(body, text));
+                     baum_i_label(&body->element, text));
 }
 
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
@@ -129,7 +124,7 @@ static baum_status check_on_particle(const baum_mechanism *mechanism, baum_body_
   }
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is (%g, %g) m, must be (0, 0) on the particle %s",
-                     label, field, s[0], s[1], body_label(body, text));
+                     label, field, s[0], s[1], baum_i_label(&body->element, text));
 }
 
 static baum_status check_points(const baum_mechanism *mechanism, const void *def, const char *label,
@@ -171,7 +166,7 @@ baum_status baum_i_planar_check_axis(const baum_mechanism *mechanism, const void
 
 /* A point in ground axes, design configuration, to a body's axes. */
 static baum_status place_on(const baum_mechanism *mechanism, int index, const double point[2],
-                            const char *label, double s[2])
+                            const baum_i_element *element, double s[2])
 {
   baum_i_frame frame = baum_i_design_frame(mechanism, index);
   double x = point[0] - frame.x;
@@ -187,16 +182,18 @@ static baum_status place_on(const baum_mechanism *mechanism, int index, const do
   if (hypot(x, y) <= SAME_PLACE * (hypot(point[0], point[1]) + hypot(frame.x, frame.y))) {
     return BAUM_OK;
   }
+  char label[BAUM_I_LABEL_SIZE];
   char text[BAUM_I_LABEL_SIZE];
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "%s: point is (%g, %g) m, must be at the particle %s, drawn at (%g, %g) m",
-                     label, point[0], point[1], body_label(body, text), frame.x, frame.y);
+                     baum_i_label(element, label), point[0], point[1],
+                     baum_i_label(&body->element, text), frame.x, frame.y);
 }
 
-baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
-                                 const char *label, double s[4])
+baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
+                                 double s[4])
 {
-  const baum_i_planar_head *head = def;
+  const baum_i_planar_head *head = element->def;
   if (!is_given(head->point)) {
     memcpy(s, head->point_a, sizeof head->point_a);
     memcpy(s + 2, head->point_b, sizeof head->point_b);
@@ -204,8 +201,8 @@ baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *de
   }
   int a = baum_i_body_index(mechanism, head->body_a);
   int b = baum_i_body_index(mechanism, head->body_b);
-  BAUM_I_TRY(place_on(mechanism, a, head->point, label, s));
-  return place_on(mechanism, b, head->point, label, s + 2);
+  BAUM_I_TRY(place_on(mechanism, a, head->point, element, s));
+  return place_on(mechanism, b, head->point, element, s + 2);
 }
 
 /* ---- extent ---- */

@@ -101,11 +101,11 @@ baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Points on both bodies from the definition and the design configuration, s[0..1] on a, s[2..3] on
+/* Points on both bodies from an element's definition and the design configuration, s[0..1] on a, s[2..3] on
  * b. A particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are checked when
  * they are given). */
-baum_status baum_i_planar_points(const baum_mechanism *mechanism, const void *def,
-                                 const char *label, double s[4]);
+baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
+                                 double s[4]);
 
 /* Include the points of a joint's definition; for the `extent` function of types. */
 void baum_i_planar_extent(const baum_mechanism *mechanism, const baum_i_joint *joint,

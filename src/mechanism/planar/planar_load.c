@@ -151,26 +151,20 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    load l = load_at(group->forces[i], point);
-    if (l.has_potential) {
-      *sum -= l.force[0] * l.at.r[0] + l.force[1] * l.at.r[1];
-    }
-  }
+  load l = load_at(element, point);
+  *sum -= l.has_potential ? l.force[0] * l.at.r[0] + l.force[1] * l.at.r[1] : 0.0;
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    load l = load_at(group->forces[i], point);
-    if (!l.has_potential) {
-      sum[BAUM_I_POWER_LOADS] +=
-        l.force[0] * l.at.dr[0] + l.force[1] * l.at.dr[1] + l.torque * l.at.w;
-    }
+  load l = load_at(element, point);
+  if (!l.has_potential) {
+    sum[BAUM_I_POWER_LOADS] +=
+      l.force[0] * l.at.dr[0] + l.force[1] * l.at.dr[1] + l.torque * l.at.w;
   }
   return BAUM_OK;
 }

@@ -32,7 +32,5 @@ void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, d
 baum_status baum_i_planar_lower_points(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                        double *parameters)
 {
-  char label[BAUM_I_LABEL_SIZE];
-  return baum_i_planar_points(mechanism, joint->element.def,
-                              baum_i_label(&joint->element, "joint", label), parameters);
+  return baum_i_planar_points(mechanism, &joint->element, parameters);
 }

@@ -45,9 +45,7 @@ static baum_status lower(const baum_mechanism *mechanism, const baum_i_force *fo
                          double *parameters)
 {
   const baum_planar_spring_def *def = force->element.def;
-  char label[BAUM_I_LABEL_SIZE];
-  BAUM_I_TRY(baum_i_planar_points(mechanism, def, baum_i_label(&force->element, "force", label),
-                                  parameters));
+  BAUM_I_TRY(baum_i_planar_points(mechanism, &force->element, parameters));
   double *numbers = parameters + LAW;
   numbers[BAUM_I_STIFFNESS] = def->stiffness;
   numbers[BAUM_I_DAMPING] = def->damping;
@@ -171,27 +169,19 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_force *element = group->forces[i];
-    baum_i_spring_law law = law_of(element, point);
-    *sum += baum_i_spring_potential(&law, spring_at(element, point).length);
-  }
+  baum_i_spring_law law = law_of(element, point);
+  *sum += baum_i_spring_potential(&law, spring_at(element, point).length);
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    spring s = spring_at(group->forces[i], point);
-    baum_i_spring_law law = law_of(group->forces[i], point);
-    if (s.length > 0.0) {
-      BAUM_I_TRY(baum_i_spring_power(&law, point, s.length, s.rate, sum));
-    }
-  }
-  return BAUM_OK;
+  spring s = spring_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return s.length > 0.0 ? baum_i_spring_power(&law, point, s.length, s.rate, sum) : BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,

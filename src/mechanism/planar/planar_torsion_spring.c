@@ -116,25 +116,19 @@ static baum_status force(const baum_i_force_group *group, baum_i_point *point, d
   return BAUM_OK;
 }
 
-static baum_status potential(const baum_i_force_group *group, baum_i_point *point, double *sum)
+static baum_status potential(const baum_i_force *element, baum_i_point *point, double *sum)
 {
-  for (int i = 0; i < group->count; i++) {
-    const baum_i_force *element = group->forces[i];
-    baum_i_spring_law law = law_of(element, point);
-    *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
-  }
+  baum_i_spring_law law = law_of(element, point);
+  *sum += baum_i_spring_potential(&law, twist_at(element, point).angle);
   return BAUM_OK;
 }
 
-static baum_status power(const baum_i_force_group *group, baum_i_point *point,
+static baum_status power(const baum_i_force *element, baum_i_point *point,
                          double sum[BAUM_I_POWERS])
 {
-  for (int i = 0; i < group->count; i++) {
-    twist now = twist_at(group->forces[i], point);
-    baum_i_spring_law law = law_of(group->forces[i], point);
-    BAUM_I_TRY(baum_i_spring_power(&law, point, now.angle, now.rate, sum));
-  }
-  return BAUM_OK;
+  twist now = twist_at(element, point);
+  baum_i_spring_law law = law_of(element, point);
+  return baum_i_spring_power(&law, point, now.angle, now.rate, sum);
 }
 
 static baum_status linearize(const baum_i_force *element, baum_i_point *point,
