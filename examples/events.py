@@ -9,7 +9,7 @@ import baum
 from support.report import Report
 
 LENGTH = 1.0  # [m] of a uniform rod of 1 kg
-ANGLE = 1.0  # [rad] at which it is let go
+ANGLE = 1.0  # [rad] at which it is released
 STOP = 0.0  # [rad] straight below the pin
 RESTITUTION = 0.9  # of the speed that a bounce leaves
 BOUNCES = 8

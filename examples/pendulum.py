@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pendulum by one function: 1 kg on a massless rod of 1 m, let go from the horizontal."""
+"""A pendulum by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
 
 import sys
 
@@ -23,7 +23,7 @@ COLUMNS = {
 
 
 def pendulum():
-    """Phi(q) = x^2 + y^2 - 1: all that the library has to be told about the rod."""
+    """Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint("rod", [bob], rows=1, phi=lambda t, q: q @ q - 1)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs, from Python: a study of the slider-crank, let go at 150 rad/s, and the
+"""What accuracy costs, from Python: a study of the slider-crank, released at 150 rad/s, and the
 settings that it recommends, tried."""
 import sys
 
@@ -59,7 +59,7 @@ def main():
     least = study.reference.uncertainty
     report.expect("no entry is graded better than the reference", least, min(exact))
     if report.options.page:
-        study.write(report.options.page, "Slider-crank, let go at 150 rad/s")
+        study.write(report.options.page, "Slider-crank, released at 150 rad/s")
     return report.end()
 
 
