@@ -194,7 +194,7 @@ static void build(baum_i_parts *parts, const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[1] = {
-  {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_CATALOG_ANY},
+  {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_ANY},
 };
 
 const baum_i_catalog_mechanism baum_i_andrews_angles = {
@@ -207,11 +207,8 @@ const baum_i_catalog_mechanism baum_i_andrews_angles = {
   .parameters = PARAMETERS,
   .defaults = (const double[1]){ANDREWS_START},
   .end = 0.03,
-  .digits_q = 15,
-  .digits_v = 15,
-  .smooth = true,
   .build = build,
   .units = "uuuuuuu",
   .bodies = 1,
-  BAUM_I_CATALOG_STORED(ANDREWS),
+  BAUM_I_CATALOG_STORED(ANDREWS, 15),
 };

@@ -139,15 +139,15 @@ static void build(baum_i_parts *parts, const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [BETA] = {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_CATALOG_ANY},
-  [MOMENT] = {"moment", "N m", "of the motor on K1", BAUM_I_CATALOG_ANY},
-  [STIFFNESS] = {"stiffness", "N/m", "of the spring on K3", BAUM_I_CATALOG_POSITIVE},
-  [FREE_LENGTH] = {"free_length", "m", "of the spring", BAUM_I_CATALOG_POSITIVE},
+  [BETA] = {"beta", "rad", "angle of the crank K1 at start, at rest", BAUM_I_ANY},
+  [MOMENT] = {"moment", "N m", "of the motor on K1", BAUM_I_ANY},
+  [STIFFNESS] = {"stiffness", "N/m", "of the spring on K3", BAUM_I_POSITIVE},
+  [FREE_LENGTH] = {"free_length", "m", "of the spring", BAUM_I_POSITIVE},
 };
 
-#define BODIES                                                                        \
-  .parameter_count = COUNT, .parameters = PARAMETERS, .smooth = true, .build = build, \
-  .units = "mmr", .bodies = 7, .state = state
+#define BODIES                                                                                     \
+  .parameter_count = COUNT, .parameters = PARAMETERS, .build = build, .units = "mmr", .bodies = 7, \
+  .state = state
 
 const baum_i_catalog_mechanism baum_i_andrews_bodies = {
   BODIES,
@@ -158,9 +158,7 @@ const baum_i_catalog_mechanism baum_i_andrews_bodies = {
   .note = "angular velocities up to 1500 rad/s within 0.03 s",
   .defaults = (const double[COUNT]){ANDREWS_START, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
   .end = 0.03,
-  .digits_q = 15,
-  .digits_v = 15,
-  BAUM_I_CATALOG_STORED(ANDREWS),
+  BAUM_I_CATALOG_STORED(ANDREWS, 15),
 };
 
 const baum_i_catalog_mechanism baum_i_andrews_a03 = {
@@ -172,7 +170,5 @@ const baum_i_catalog_mechanism baum_i_andrews_a03 = {
   .note = "published as a plot only",
   .defaults = (const double[COUNT]){-0.062, ANDREWS_MOMENT, ANDREWS_C0, ANDREWS_L0},
   .end = 0.05,
-  .digits_q = 14,
-  .digits_v = 14,
-  BAUM_I_CATALOG_STORED(ANDREWS_A03),
+  BAUM_I_CATALOG_STORED(ANDREWS_A03, 14),
 };

@@ -129,11 +129,8 @@ const baum_i_catalog_mechanism baum_i_car_axis = {
     "at 3 s have 12 to 14 digits",
   .note = "coordinates xl, yl, xr, yr; multipliers have the opposite sign of those of the source",
   .end = 3.0,
-  .digits_q = 15,
-  .digits_v = 15,
-  .smooth = true,
   .build = build,
   .units = "uuuu",
   .bodies = 1,
-  BAUM_I_CATALOG_STORED(CAR_AXIS),
+  BAUM_I_CATALOG_STORED(CAR_AXIS, 15),
 };

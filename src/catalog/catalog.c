@@ -70,14 +70,14 @@ static baum_status give_entry(const baum_i_catalog_mechanism *of, baum_catalog_e
                                     .title = of->title,
                                     .source = of->source,
                                     .provenance = of->provenance,
-                                    .note = of->note,
+                                    .note = of->note ? of->note : "",
                                     .parameter_count = of->parameter_count,
                                     .sample_count = of->samples,
                                     .end_time = of->end,
                                     .digits_q = of->samples > 0 ? of->digits_q : (double)NAN,
                                     .digits_v = of->samples > 0 ? of->digits_v : (double)NAN,
                                     .exact = of->solution != NULL,
-                                    .smooth = of->smooth};
+                                    .smooth = !of->branches};
   return baum_i_catalog_give(out, caller_size, &entry, sizeof entry);
 }
 
@@ -128,8 +128,8 @@ baum_status baum_catalog_parameter_at(const char *name, int32_t k, baum_catalog_
                                         .unit = parameter->unit,
                                         .meaning = parameter->meaning,
                                         .value = of->defaults[k],
-                                        .positive = parameter->range != BAUM_I_CATALOG_ANY,
-                                        .whole = parameter->range == BAUM_I_CATALOG_WHOLE};
+                                        .positive = parameter->range != BAUM_I_ANY,
+                                        .whole = parameter->range == BAUM_I_WHOLE};
   return baum_i_catalog_give(out, caller_size, &whole, sizeof whole);
 }
 
@@ -160,9 +160,9 @@ static baum_status set(const baum_i_catalog_mechanism *of, const baum_catalog_se
   const char *wrong = NULL;
   if (!isfinite(value)) {
     wrong = "finite";
-  } else if (parameter->range != BAUM_I_CATALOG_ANY && value <= 0.0) {
+  } else if (parameter->range != BAUM_I_ANY && value <= 0.0) {
     wrong = "positive";
-  } else if (parameter->range == BAUM_I_CATALOG_WHOLE && (value != floor(value) || value > 1e6)) {
+  } else if (parameter->range == BAUM_I_WHOLE && (value != floor(value) || value > 1e6)) {
     wrong = "a whole number up to 1e6";
   }
   if (wrong) {
@@ -194,11 +194,10 @@ baum_status baum_i_catalog_resolve(const baum_catalog_choice *choice,
   for (int k = 0; k < (*out)->parameter_count; k++) {
     p[k] = (*out)->defaults[k];
   }
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < choice->setting_count && status == BAUM_OK; k++) {
-    status = set(*out, &choice->settings[k], p);
+  for (int k = 0; k < choice->setting_count; k++) {
+    BAUM_I_CATALOG_TRY(set(*out, &choice->settings[k], p));
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- mechanisms ---- */
@@ -216,10 +215,7 @@ baum_status baum_catalog_build(const baum_catalog_choice *choice, baum_mechanism
   *out = NULL;
   const baum_i_catalog_mechanism *which = NULL;
   double p[BAUM_I_CATALOG_PARAMETERS];
-  baum_status status = baum_i_catalog_resolve(choice, &which, p);
-  if (status != BAUM_OK || !which) {
-    return status;
-  }
+  BAUM_I_CATALOG_TRY(baum_i_catalog_resolve(choice, &which, p));
   baum_i_parts parts = baum_i_parts_begin();
   which->build(&parts, p);
   return baum_i_parts_finish(&parts, out);

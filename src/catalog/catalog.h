@@ -15,9 +15,9 @@ enum {
 };
 
 typedef enum baum_i_catalog_range {
-  BAUM_I_CATALOG_ANY,
-  BAUM_I_CATALOG_POSITIVE,
-  BAUM_I_CATALOG_WHOLE /* > 0, too */
+  BAUM_I_ANY,
+  BAUM_I_POSITIVE,
+  BAUM_I_WHOLE /* > 0, too */
 } baum_i_catalog_range;
 
 typedef struct baum_i_catalog_parameter {
@@ -33,14 +33,14 @@ typedef struct baum_i_catalog_mechanism {
   const char *title;
   const char *source;
   const char *provenance; /* "" without a reference */
-  const char *note;
+  const char *note;       /* or NULL */
   int parameter_count;
   const baum_i_catalog_parameter *parameters;
   const double *defaults;
   double end;
   double digits_q;
   double digits_v;
-  bool smooth;
+  bool branches; /* passes configurations where its motion does */
   void (*build)(baum_i_parts *parts, const double *p); /* adds all of it */
 
   const char *units; /* coordinates of a body: m length, r angle, u the user's */
@@ -63,9 +63,14 @@ typedef struct baum_i_catalog_mechanism {
 } baum_i_catalog_mechanism;
 
 /* The reference stored in data/. */
-#define BAUM_I_CATALOG_STORED(NAME)                                                    \
+#define BAUM_I_CATALOG_STORED(NAME, DIGITS)                                            \
   .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = NAME##_WIDTH, .q = NAME##_Q[0], \
-  .v = NAME##_V[0]
+  .v = NAME##_V[0], .digits_q = DIGITS, .digits_v = DIGITS
+
+/* The same of one column. */
+#define BAUM_I_CATALOG_SERIES(NAME, DIGITS_Q, DIGITS_V)                                 \
+  .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = 1, .q = NAME##_Q, .v = NAME##_V, \
+  .digits_q = DIGITS_Q, .digits_v = DIGITS_V
 
 extern const baum_i_catalog_mechanism baum_i_pendulum_a01;
 extern const baum_i_catalog_mechanism baum_i_pendulum_sundials;
@@ -83,6 +88,15 @@ extern const baum_i_catalog_mechanism baum_i_andrews_a03;
 extern const baum_i_catalog_mechanism baum_i_car_axis;
 extern const baum_i_catalog_mechanism baum_i_chain_of_3;
 extern const baum_i_catalog_mechanism baum_i_chain_of_n;
+
+/* Return the status of a call that is not BAUM_OK. */
+#define BAUM_I_CATALOG_TRY(call) \
+  do {                           \
+    baum_status tried_ = (call); \
+    if (tried_ != BAUM_OK) {     \
+      return tried_;             \
+    }                            \
+  } while (0)
 
 /* Set this thread's message and return the status. */
 #if defined(__GNUC__)

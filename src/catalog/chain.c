@@ -43,8 +43,7 @@ static void add_link(baum_i_parts *parts, const baum_i_chain *data, int k, tip *
   baum_i_mover_state(&from->at, angle, rate, q, v);
   baum_i_mover_go(&from->at, angle, rate, length / 2, 0.0);
   baum_body_id link = baum_i_parts_body(parts, &def, q, v);
-  baum_i_parts_pin(parts, NULL, (baum_i_spot){from->body, {from->length / 2, 0.0}},
-                   (baum_i_spot){link, {-length / 2, 0.0}});
+  baum_i_parts_hinge(parts, NULL, from->body, from->length / 2, link, -length / 2);
   from->body = link;
   from->length = length;
 }
@@ -65,8 +64,20 @@ static void build_3(baum_i_parts *parts, const double *p)
   baum_i_chain_add(parts, &baum_i_chain_3);
 }
 
+static void state_3(const double *p, const double *q, const double *v, int body, double *body_q,
+                    double *body_v)
+{
+  (void)p;
+  baum_i_mover at = {{0.0, 0.0}, {0.0, 0.0}};
+  for (int k = 0; k < body; k++) {
+    baum_i_mover_go(&at, q[k], v[k], LENGTH_3[k], 0.0);
+  }
+  baum_i_mover_go(&at, q[body], v[body], LENGTH_3[body] / 2, 0.0);
+  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
+}
+
 static const baum_i_catalog_parameter PARAMETERS_3[1] = {
-  {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
+  {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
 };
 
 const baum_i_catalog_mechanism baum_i_chain_of_3 = {
@@ -75,18 +86,15 @@ const baum_i_catalog_mechanism baum_i_chain_of_3 = {
   .source = "ours",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 19 digits, another model in "
                 "double precision to 14.1",
-  .note = "",
   .parameter_count = 1,
   .parameters = PARAMETERS_3,
   .defaults = (const double[1]){9.81},
   .end = 2.0,
-  .digits_q = 15,
-  .digits_v = 15,
-  .smooth = true,
   .build = build_3,
   .units = "mmr",
   .bodies = 3,
-  BAUM_I_CATALOG_STORED(CHAIN),
+  .state = state_3,
+  BAUM_I_CATALOG_STORED(CHAIN, 15),
 };
 
 enum { LINKS, MASS, LENGTH, ANGLE, RATE, GRAVITY, COUNT };
@@ -105,12 +113,12 @@ static int count(const double *p)
 }
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [LINKS] = {"links", "-", "N, number of rods", BAUM_I_CATALOG_WHOLE},
-  [MASS] = {"mass", "kg", "of each link", BAUM_I_CATALOG_POSITIVE},
-  [LENGTH] = {"length", "m", "of each link", BAUM_I_CATALOG_POSITIVE},
-  [ANGLE] = {"angle", "rad", "of all links at start", BAUM_I_CATALOG_ANY},
-  [RATE] = {"rate", "rad/s", "of all links at start", BAUM_I_CATALOG_ANY},
-  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
+  [LINKS] = {"links", "-", "N, number of rods", BAUM_I_WHOLE},
+  [MASS] = {"mass", "kg", "of each link", BAUM_I_POSITIVE},
+  [LENGTH] = {"length", "m", "of each link", BAUM_I_POSITIVE},
+  [ANGLE] = {"angle", "rad", "of all links at start", BAUM_I_ANY},
+  [RATE] = {"rate", "rad/s", "of all links at start", BAUM_I_ANY},
+  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
 };
 
 const baum_i_catalog_mechanism baum_i_chain_of_n = {
@@ -123,7 +131,6 @@ const baum_i_catalog_mechanism baum_i_chain_of_n = {
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT]){10.0, 1.0, 1.0, 0.0, 0.0, 9.81},
   .end = 1.0,
-  .smooth = true,
   .build = build,
   .units = "mmr",
   .count = count,

@@ -25,58 +25,62 @@ enum {
 };
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [CRANK] = {"crank", "m", "length of the crank", BAUM_I_CATALOG_POSITIVE},
-  [COUPLER] = {"coupler", "m", "length of the coupler", BAUM_I_CATALOG_POSITIVE},
-  [ROCKER] = {"rocker", "m", "length of the rocker", BAUM_I_CATALOG_POSITIVE},
-  [FRAME] = {"frame", "m", "between the pins on the ground", BAUM_I_CATALOG_POSITIVE},
-  [CRANK_MASS] = {"crank_mass", "kg", "of the crank", BAUM_I_CATALOG_POSITIVE},
-  [COUPLER_MASS] = {"coupler_mass", "kg", "of the coupler", BAUM_I_CATALOG_POSITIVE},
-  [ROCKER_MASS] = {"rocker_mass", "kg", "of the rocker", BAUM_I_CATALOG_POSITIVE},
-  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
-  [ANGLE] = {"angle", "rad", "of the crank at start", BAUM_I_CATALOG_ANY},
-  [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_CATALOG_ANY},
+  [CRANK] = {"crank", "m", "length of the crank", BAUM_I_POSITIVE},
+  [COUPLER] = {"coupler", "m", "length of the coupler", BAUM_I_POSITIVE},
+  [ROCKER] = {"rocker", "m", "length of the rocker", BAUM_I_POSITIVE},
+  [FRAME] = {"frame", "m", "between the pins on the ground", BAUM_I_POSITIVE},
+  [CRANK_MASS] = {"crank_mass", "kg", "of the crank", BAUM_I_POSITIVE},
+  [COUPLER_MASS] = {"coupler_mass", "kg", "of the coupler", BAUM_I_POSITIVE},
+  [ROCKER_MASS] = {"rocker_mass", "kg", "of the rocker", BAUM_I_POSITIVE},
+  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
+  [ANGLE] = {"angle", "rad", "of the crank at start", BAUM_I_ANY},
+  [SPEED] = {"speed", "rad/s", "of the crank at start", BAUM_I_ANY},
 };
 
-/* A uniform rod between two points. */
-static baum_planar_body_def rod(const char *name, double mass, double length, const double from[2],
-                                const double to[2])
+/* From the angles of crank, coupler and rocker. */
+static void state(const double *p, const double *q, const double *v, int body, double *body_q,
+                  double *body_v)
 {
-  baum_planar_body_def def = baum_planar_body_def_default();
-  def.name = name;
-  def.mass = mass;
-  def.inertia = mass * length * length / 12;
-  def.position[0] = (from[0] + to[0]) / 2;
-  def.position[1] = (from[1] + to[1]) / 2;
-  def.angle = atan2(to[1] - from[1], to[0] - from[0]);
-  return def;
+  baum_i_mover at = {{body == 2 ? p[FRAME] : 0.0, 0.0}, {0.0, 0.0}};
+  if (body == 1) {
+    baum_i_mover_go(&at, q[0], v[0], p[CRANK], 0.0);
+  }
+  baum_i_mover_go(&at, q[body], v[body], p[CRANK + body] / 2, 0.0);
+  baum_i_mover_state(&at, q[body], v[body], body_q, body_v);
 }
 
 static void build(baum_i_parts *parts, const double *p)
 {
+  static const char *const names[3] = {"crank", "coupler", "rocker"};
   const double origin[2] = {0.0, 0.0};
   const double far[2] = {p[FRAME], 0.0};
-  double tip[2] = {p[CRANK] * cos(p[ANGLE]), p[CRANK] * sin(p[ANGLE])};
+  const double tip[2] = {p[CRANK] * cos(p[ANGLE]), p[CRANK] * sin(p[ANGLE])};
   double joint[2];
   baum_i_meet(tip, p[COUPLER], far, p[ROCKER], 1.0, joint);
-  baum_planar_body_def crank = rod("crank", p[CRANK_MASS], p[CRANK], origin, tip);
-  crank.angle = p[ANGLE];
-  crank.angular_velocity = p[SPEED];
-  crank.held = true;
-  baum_planar_body_def coupler = rod("coupler", p[COUPLER_MASS], p[COUPLER], tip, joint);
-  baum_planar_body_def rocker = rod("rocker", p[ROCKER_MASS], p[ROCKER], far, joint);
-
+  const double *const ends[3][2] = {{origin, tip}, {tip, joint}, {far, joint}};
+  baum_body_id id[3];
   baum_i_parts_gravity(parts, p[GRAVITY]);
-  baum_body_id a = baum_i_parts_body(parts, &crank, NULL, NULL);
-  baum_body_id b = baum_i_parts_body(parts, &coupler, NULL, NULL);
-  baum_body_id c = baum_i_parts_body(parts, &rocker, NULL, NULL);
-  baum_i_parts_pin(parts, "A", (baum_i_spot){.body = BAUM_GROUND},
-                   (baum_i_spot){a, {-p[CRANK] / 2, 0.0}});
-  baum_i_parts_pin(parts, "B", (baum_i_spot){a, {p[CRANK] / 2, 0.0}},
-                   (baum_i_spot){b, {-p[COUPLER] / 2, 0.0}});
-  baum_i_parts_pin(parts, "C", (baum_i_spot){b, {p[COUPLER] / 2, 0.0}},
-                   (baum_i_spot){c, {p[ROCKER] / 2, 0.0}});
-  baum_i_parts_pin(parts, "D", (baum_i_spot){BAUM_GROUND, {p[FRAME], 0.0}},
-                   (baum_i_spot){c, {-p[ROCKER] / 2, 0.0}});
+  for (int k = 0; k < 3; k++) {
+    const double *from = ends[k][0];
+    const double *to = ends[k][1];
+    double length = p[CRANK + k];
+    baum_planar_body_def def = baum_planar_body_def_default();
+    def.name = names[k];
+    def.mass = p[CRANK_MASS + k];
+    def.inertia = def.mass * length * length / 12;
+    def.position[0] = (from[0] + to[0]) / 2;
+    def.position[1] = (from[1] + to[1]) / 2;
+    def.angle = k == 0 ? p[ANGLE] : atan2(to[1] - from[1], to[0] - from[0]);
+    if (k == 0) {
+      def.angular_velocity = p[SPEED];
+      def.held = true;
+    }
+    id[k] = baum_i_parts_body(parts, &def, NULL, NULL);
+  }
+  baum_i_parts_hinge(parts, "A", BAUM_GROUND, 0.0, id[0], -p[CRANK] / 2);
+  baum_i_parts_hinge(parts, "B", id[0], p[CRANK] / 2, id[1], -p[COUPLER] / 2);
+  baum_i_parts_hinge(parts, "C", id[1], p[COUPLER] / 2, id[2], p[ROCKER] / 2);
+  baum_i_parts_hinge(parts, "D", BAUM_GROUND, p[FRAME], id[2], -p[ROCKER] / 2);
 }
 
 const baum_i_catalog_mechanism baum_i_four_bar = {
@@ -85,16 +89,13 @@ const baum_i_catalog_mechanism baum_i_four_bar = {
   .source = "ours",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 17 digits, another model in "
                 "double precision to 12.4",
-  .note = "",
   .parameter_count = COUNT,
   .parameters = PARAMETERS,
   .defaults = (const double[COUNT]){1.0, 3.0, 2.5, 2.8, 1.0, 2.0, 1.5, 9.81, 1.0, 2.0},
   .end = 5.0,
-  .digits_q = 15,
-  .digits_v = 15,
-  .smooth = true,
   .build = build,
   .units = "mmr",
   .bodies = 3,
-  BAUM_I_CATALOG_STORED(FOUR_BAR),
+  .state = state,
+  BAUM_I_CATALOG_STORED(FOUR_BAR, 15),
 };

@@ -20,14 +20,13 @@
 enum { WINDOWS, ANGLE, RATE, LENGTH, CRANK_MASS, COUPLER_MASS, GRAVITY, COUNT };
 
 static const baum_i_catalog_parameter PARAMETERS[COUNT] = {
-  [WINDOWS] = {"windows", "-", "N, of two cranks and a coupler each", BAUM_I_CATALOG_WHOLE},
-  [ANGLE] = {"angle", "rad", "of all cranks at start; flat, which is singular, at 0",
-             BAUM_I_CATALOG_ANY},
-  [RATE] = {"rate", "rad/s", "of all cranks at start", BAUM_I_CATALOG_ANY},
-  [LENGTH] = {"length", "m", "of all rods", BAUM_I_CATALOG_POSITIVE},
-  [CRANK_MASS] = {"crank_mass", "kg", "of each crank", BAUM_I_CATALOG_POSITIVE},
-  [COUPLER_MASS] = {"coupler_mass", "kg", "of each coupler", BAUM_I_CATALOG_POSITIVE},
-  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
+  [WINDOWS] = {"windows", "-", "N, of two cranks and a coupler each", BAUM_I_WHOLE},
+  [ANGLE] = {"angle", "rad", "of all cranks at start; flat, which is singular, at 0", BAUM_I_ANY},
+  [RATE] = {"rate", "rad/s", "of all cranks at start", BAUM_I_ANY},
+  [LENGTH] = {"length", "m", "of all rods", BAUM_I_POSITIVE},
+  [CRANK_MASS] = {"crank_mass", "kg", "of each crank", BAUM_I_POSITIVE},
+  [COUPLER_MASS] = {"coupler_mass", "kg", "of each coupler", BAUM_I_POSITIVE},
+  [GRAVITY] = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
 };
 
 static int count(const double *p)
@@ -73,30 +72,18 @@ static baum_body_id add_rod(baum_i_parts *parts, const double *p, int k)
   return baum_i_parts_body(parts, &def, q, v);
 }
 
-static void pin_to_ground(baum_i_parts *parts, const double *p, baum_body_id crank, int k)
-{
-  baum_i_parts_pin(parts, NULL, (baum_i_spot){BAUM_GROUND, {k * p[LENGTH], 0.0}},
-                   (baum_i_spot){crank, {-p[LENGTH] / 2, 0.0}});
-}
-
-static void pin_tip(baum_i_parts *parts, const double *p, baum_body_id crank, baum_body_id coupler,
-                    double end)
-{
-  baum_i_parts_pin(parts, NULL, (baum_i_spot){crank, {p[LENGTH] / 2, 0.0}},
-                   (baum_i_spot){coupler, {end * p[LENGTH] / 2, 0.0}});
-}
-
 static void build(baum_i_parts *parts, const double *p)
 {
+  double half = p[LENGTH] / 2;
   baum_i_parts_gravity(parts, p[GRAVITY]);
   baum_body_id crank = add_rod(parts, p, 0);
-  pin_to_ground(parts, p, crank, 0);
+  baum_i_parts_hinge(parts, NULL, BAUM_GROUND, 0.0, crank, -half);
   for (int k = 1; k < count(p) && parts->status == BAUM_OK; k += 2) {
     baum_body_id coupler = add_rod(parts, p, k);
-    pin_tip(parts, p, crank, coupler, -1.0);
+    baum_i_parts_hinge(parts, NULL, crank, half, coupler, -half);
     crank = add_rod(parts, p, k + 1);
-    pin_to_ground(parts, p, crank, k / 2 + 1);
-    pin_tip(parts, p, crank, coupler, 1.0);
+    baum_i_parts_hinge(parts, NULL, BAUM_GROUND, (k / 2 + 1) * p[LENGTH], crank, -half);
+    baum_i_parts_hinge(parts, NULL, crank, half, coupler, half);
   }
 }
 
@@ -114,6 +101,7 @@ const baum_i_catalog_mechanism baum_i_n_four_bar = {
   .end = 10.0,
   .digits_q = 11,
   .digits_v = 11,
+  .branches = true,
   .build = build,
   .units = "mmr",
   .count = count,

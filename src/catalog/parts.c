@@ -94,6 +94,12 @@ baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spo
   return id;
 }
 
+baum_joint_id baum_i_parts_hinge(baum_i_parts *parts, const char *name, baum_body_id a, double xa,
+                                 baum_body_id b, double xb)
+{
+  return baum_i_parts_pin(parts, name, (baum_i_spot){a, {xa, 0.0}}, (baum_i_spot){b, {xb, 0.0}});
+}
+
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,
                         double along)
 {

@@ -44,6 +44,9 @@ baum_body_id baum_i_parts_body(baum_i_parts *parts, const baum_planar_body_def *
                                const double *q, const double *v);
 baum_body_id baum_i_parts_coordinates(baum_i_parts *parts, const baum_coordinates_def *def);
 baum_joint_id baum_i_parts_pin(baum_i_parts *parts, const char *name, baum_i_spot a, baum_i_spot b);
+/* A pin at (xa, 0) of body a and (xb, 0) of body b. */
+baum_joint_id baum_i_parts_hinge(baum_i_parts *parts, const char *name, baum_body_id a, double xa,
+                                 baum_body_id b, double xb);
 /* A slider on the line y = height of the ground through its centre of mass; `along` moves both
  * points of the guide along it. */
 void baum_i_parts_guide(baum_i_parts *parts, const char *name, baum_body_id slider, double height,

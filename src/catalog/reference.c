@@ -36,11 +36,11 @@ baum_status baum_catalog_times(const char *name, double *times)
   if (!times) {
     return baum_fail(BAUM_ERR_ARGUMENT, "baum_catalog_times: times is NULL");
   }
-  baum_status status = check_known(of);
-  for (int k = 0; k < of->samples && status == BAUM_OK; k++) {
+  BAUM_I_CATALOG_TRY(check_known(of));
+  for (int k = 0; k < of->samples; k++) {
     times[k] = time_of(of, k);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Stored samples hold for the parameters that they were made with. */
@@ -60,11 +60,9 @@ static baum_status check_parameters(const sample *at)
 
 static baum_status resolve(const baum_catalog_choice *choice, sample *at)
 {
-  baum_status status = baum_i_catalog_resolve(choice, &at->of, at->p);
-  if (status == BAUM_OK) {
-    status = check_known(at->of);
-  }
-  return status == BAUM_OK ? check_parameters(at) : status;
+  BAUM_I_CATALOG_TRY(baum_i_catalog_resolve(choice, &at->of, at->p));
+  BAUM_I_CATALOG_TRY(check_known(at->of));
+  return check_parameters(at);
 }
 
 /* Formulas are rounded, too: what grows of that is no reference any more. */
@@ -143,22 +141,20 @@ static baum_status check_finite(const sample *at, double t)
 
 static baum_status look_up(sample *at, double t)
 {
-  baum_status status = find_sample(at, t);
-  return status == BAUM_OK ? check_finite(at, t) : status;
+  BAUM_I_CATALOG_TRY(find_sample(at, t));
+  return check_finite(at, t);
 }
 
 baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, double *q,
                                    double *v)
 {
   sample at;
-  baum_status status = resolve(choice, &at);
-  if (status == BAUM_OK) {
-    status = look_up(&at, t);
-  }
-  for (int body = 0; status == BAUM_OK && body < baum_i_catalog_bodies(at.of, at.p); body++) {
+  BAUM_I_CATALOG_TRY(resolve(choice, &at));
+  BAUM_I_CATALOG_TRY(look_up(&at, t));
+  int count = width(at.of);
+  for (int body = 0; body < baum_i_catalog_bodies(at.of, at.p); body++) {
     double body_q[BAUM_I_CATALOG_WIDTH];
     double body_v[BAUM_I_CATALOG_WIDTH];
-    int count = width(at.of);
     state_of(&at, body, body_q, body_v);
     if (q) {
       memcpy(q + body * count, body_q, (size_t)count * sizeof *q);
@@ -167,7 +163,7 @@ baum_status baum_catalog_reference(const baum_catalog_choice *choice, double t, 
       memcpy(v + body * count, body_v, (size_t)count * sizeof *v);
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* NOLINTNEXTLINE(readability-non-const-parameter): it is a baum_study_solution_fn. */
@@ -223,21 +219,17 @@ static measure measure_state(const sample *at, double scale, const double *q, co
 /* Over all samples: the size of velocities that their errors are measured by, and the floors. */
 static baum_status measure_reference(sample *at, double scale, measure *out)
 {
-  baum_status status = BAUM_OK;
   *out = (measure){0};
-  for (int k = 0; k < at->of->samples && status == BAUM_OK; k++) {
-    double t = time_of(at->of, k);
-    status = look_up(at, t);
-    if (status == BAUM_OK) {
-      measure one = measure_state(at, scale, NULL, NULL);
-      out->size_v = most(out->size_v, one.size_v);
-      out->floor_q = most(out->floor_q, one.floor_q);
-      out->floor_v = most(out->floor_v, one.floor_v);
-    }
+  for (int k = 0; k < at->of->samples; k++) {
+    BAUM_I_CATALOG_TRY(look_up(at, time_of(at->of, k)));
+    measure one = measure_state(at, scale, NULL, NULL);
+    out->size_v = most(out->size_v, one.size_v);
+    out->floor_q = most(out->floor_q, one.floor_q);
+    out->floor_v = most(out->floor_v, one.floor_v);
   }
   /* What never moves is measured by 1 m/s of 1 m, and 1 rad/s. */
   out->size_v = out->size_v > 0.0 ? out->size_v : 1.0;
-  return status;
+  return BAUM_OK;
 }
 
 static void keep_worst(double error, double t, double *worst, double *when)
@@ -248,16 +240,16 @@ static void keep_worst(double error, double t, double *worst, double *when)
   }
 }
 
-static baum_status check_sizes(const sample *at, const baum_mechanism *mechanism, int32_t *nq)
+static baum_status check_sizes(const sample *at, const baum_mechanism *mechanism)
 {
-  baum_status status = baum_mechanism_sizes(mechanism, nq, NULL, NULL);
+  int32_t nq = 0;
+  BAUM_I_CATALOG_TRY(baum_mechanism_sizes(mechanism, &nq, NULL, NULL));
   int wanted = baum_i_catalog_bodies(at->of, at->p) * width(at->of);
-  if (status == BAUM_OK && *nq != wanted) {
-    status = baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
+  return nq == wanted
+           ? BAUM_OK
+           : baum_i_catalog_fail(BAUM_ERR_ARGUMENT,
                                  "catalogue: the mechanism has %d coordinates, \"%s\" has %d",
-                                 (int)*nq, at->of->name, wanted);
-  }
-  return status;
+                                 (int)nq, at->of->name, wanted);
 }
 
 static baum_status compare_all(sample *at, double scale, const double *times, int64_t n,
@@ -265,21 +257,19 @@ static baum_status compare_all(sample *at, double scale, const double *times, in
 {
   measure whole;
   size_t nq = (size_t)baum_i_catalog_bodies(at->of, at->p) * (size_t)width(at->of);
-  baum_status status = measure_reference(at, scale, &whole);
-  for (int64_t i = 0; i < n && status == BAUM_OK; i++) {
-    status = look_up(at, times[i]);
-    if (status == BAUM_OK) {
-      size_t first = (size_t)i * nq;
-      measure one = measure_state(at, scale, q + first, v ? v + first : NULL);
-      error->q_final = one.q;
-      error->v_final = one.v / whole.size_v;
-      keep_worst(error->q_final, times[i], &error->q, &error->q_time);
-      keep_worst(error->v_final, times[i], &error->v, &error->v_time);
-    }
+  BAUM_I_CATALOG_TRY(measure_reference(at, scale, &whole));
+  for (int64_t i = 0; i < n; i++) {
+    size_t first = (size_t)i * nq;
+    BAUM_I_CATALOG_TRY(look_up(at, times[i]));
+    measure one = measure_state(at, scale, q + first, v ? v + first : NULL);
+    error->q_final = one.q;
+    error->v_final = one.v / whole.size_v;
+    keep_worst(error->q_final, times[i], &error->q, &error->q_time);
+    keep_worst(error->v_final, times[i], &error->v, &error->v_time);
   }
   error->q_floor = whole.floor_q;
   error->v_floor = whole.floor_v / whole.size_v;
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_catalog_compare(const baum_catalog_choice *choice, const baum_mechanism *mechanism,
@@ -287,7 +277,6 @@ baum_status baum_catalog_compare(const baum_catalog_choice *choice, const baum_m
                                  baum_catalog_error *out, size_t caller_size)
 {
   sample at;
-  int32_t nq = 0;
   double scale = (double)NAN;
   baum_catalog_error error = {.q_time = (double)NAN, .v_time = (double)NAN};
   if (!times || !q || n <= 0) {
@@ -296,15 +285,9 @@ baum_status baum_catalog_compare(const baum_catalog_choice *choice, const baum_m
                                : !times ? "times is NULL"
                                         : "q is NULL");
   }
-  baum_status status = resolve(choice, &at);
-  if (status == BAUM_OK) {
-    status = check_sizes(&at, mechanism, &nq);
-  }
-  if (status == BAUM_OK) {
-    status = baum_mechanism_get_characteristic_length(mechanism, &scale);
-  }
-  if (status == BAUM_OK) {
-    status = compare_all(&at, scale, times, n, q, v, &error);
-  }
-  return status == BAUM_OK ? baum_i_catalog_give(out, caller_size, &error, sizeof error) : status;
+  BAUM_I_CATALOG_TRY(resolve(choice, &at));
+  BAUM_I_CATALOG_TRY(check_sizes(&at, mechanism));
+  BAUM_I_CATALOG_TRY(baum_mechanism_get_characteristic_length(mechanism, &scale));
+  BAUM_I_CATALOG_TRY(compare_all(&at, scale, times, n, q, v, &error));
+  return baum_i_catalog_give(out, caller_size, &error, sizeof error);
 }

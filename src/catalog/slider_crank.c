@@ -19,23 +19,21 @@
 #define AT(name) [BAUM_I_SLIDER_CRANK_##name]
 
 static const baum_i_catalog_parameter PARAMETERS[BAUM_I_SLIDER_CRANK_COUNT] = {
-  AT(CRANK) = {"crank", "m", "length of the crank", BAUM_I_CATALOG_POSITIVE},
-  AT(ROD) = {"rod", "m", "length of the rod", BAUM_I_CATALOG_POSITIVE},
-  AT(ECCENTRICITY) = {"eccentricity", "m", "height of the guide above the crank's pin",
-                      BAUM_I_CATALOG_ANY},
-  AT(CRANK_MASS) = {"crank_mass", "kg", "of the crank", BAUM_I_CATALOG_POSITIVE},
-  AT(ROD_MASS) = {"rod_mass", "kg", "of the rod", BAUM_I_CATALOG_POSITIVE},
-  AT(SLIDER_MASS) = {"slider_mass", "kg", "of the slider", BAUM_I_CATALOG_POSITIVE},
+  AT(CRANK) = {"crank", "m", "length of the crank", BAUM_I_POSITIVE},
+  AT(ROD) = {"rod", "m", "length of the rod", BAUM_I_POSITIVE},
+  AT(ECCENTRICITY) = {"eccentricity", "m", "height of the guide above the crank's pin", BAUM_I_ANY},
+  AT(CRANK_MASS) = {"crank_mass", "kg", "of the crank", BAUM_I_POSITIVE},
+  AT(ROD_MASS) = {"rod_mass", "kg", "of the rod", BAUM_I_POSITIVE},
+  AT(SLIDER_MASS) = {"slider_mass", "kg", "of the slider", BAUM_I_POSITIVE},
   AT(CRANK_INERTIA) = {"crank_inertia", "kg m^2", "of the crank about its centre of mass",
-                       BAUM_I_CATALOG_POSITIVE},
+                       BAUM_I_POSITIVE},
   AT(ROD_INERTIA) = {"rod_inertia", "kg m^2", "of the rod about its centre of mass",
-                     BAUM_I_CATALOG_POSITIVE},
+                     BAUM_I_POSITIVE},
   AT(SLIDER_INERTIA) = {"slider_inertia", "kg m^2", "of the slider, which does not turn",
-                        BAUM_I_CATALOG_POSITIVE},
-  AT(GRAVITY) = {"gravity", "m/s^2", "downwards", BAUM_I_CATALOG_ANY},
-  AT(ANGLE) = {"angle", "rad", "of the crank at start", BAUM_I_CATALOG_ANY},
-  AT(SPEED) = {"speed", "rad/s", "of the crank: at start, or for ever if driven",
-               BAUM_I_CATALOG_ANY},
+                        BAUM_I_POSITIVE},
+  AT(GRAVITY) = {"gravity", "m/s^2", "downwards", BAUM_I_ANY},
+  AT(ANGLE) = {"angle", "rad", "of the crank at start", BAUM_I_ANY},
+  AT(SPEED) = {"speed", "rad/s", "of the crank: at start, or for ever if driven", BAUM_I_ANY},
 };
 
 const double baum_i_slider_crank_data[BAUM_I_SLIDER_CRANK_COUNT] = {
@@ -104,12 +102,9 @@ void baum_i_slider_crank_add_joints(baum_i_parts *parts, const double *p,
                                     bool driven)
 {
   const baum_body_id *id = bodies->id;
-  baum_joint_id pin = baum_i_parts_pin(parts, "A", (baum_i_spot){frame, {0.0, 0.0}},
-                                       (baum_i_spot){id[0], {-P(CRANK) / 2, 0.0}});
-  baum_i_parts_pin(parts, "B", (baum_i_spot){id[0], {P(CRANK) / 2, 0.0}},
-                   (baum_i_spot){id[1], {-P(ROD) / 2, 0.0}});
-  baum_i_parts_pin(parts, "C", (baum_i_spot){id[1], {P(ROD) / 2, 0.0}},
-                   (baum_i_spot){id[2], {0.0, 0.0}});
+  baum_joint_id pin = baum_i_parts_hinge(parts, "A", frame, 0.0, id[0], -P(CRANK) / 2);
+  baum_i_parts_hinge(parts, "B", id[0], P(CRANK) / 2, id[1], -P(ROD) / 2);
+  baum_i_parts_hinge(parts, "C", id[1], P(ROD) / 2, id[2], 0.0);
   baum_i_parts_guide(parts, "guide", id[2], P(ECCENTRICITY), 0.0);
   if (driven) {
     baum_driver_def motor = baum_driver_def_default();
@@ -146,39 +141,36 @@ static void build_driven(baum_i_parts *parts, const double *p)
 
 #define SLIDER_CRANK                                                                      \
   .parameter_count = BAUM_I_SLIDER_CRANK_COUNT, .parameters = PARAMETERS, .units = "mmr", \
-  .bodies = 3, .smooth = true
+  .bodies = 3, .state = baum_i_slider_crank_state
 
-#define STORED(NAME)                                                                         \
-  SLIDER_CRANK, .build = build_free, .samples = NAME##_SAMPLES, .t = NAME##_T,               \
-                .columns = NAME##_WIDTH, .q = NAME##_Q[0], .v = NAME##_V[0], .digits_q = 15, \
-                .digits_v = 15, .end = 0.2
+#define FREE SLIDER_CRANK, .build = build_free, .end = 0.2
 
 #define DRIVEN                                                                                   \
   SLIDER_CRANK, .build = build_driven, .samples = 21, .columns = 1, .solution = driven_solution, \
-                .state = baum_i_slider_crank_state, .digits_q = 13, .digits_v = 13,              \
+                .digits_q = 13, .digits_v = 13,                                                  \
                 .provenance = "closed form; agrees with extrapolation in 160 bits",              \
                 .note = "no freedom left: solved by kinematics, too. Its formulas need "         \
                         "rod > crank + |eccentricity|"
 
 const baum_i_catalog_mechanism baum_i_slider_crank = {
-  STORED(SLIDER_CRANK),
+  FREE,
+  BAUM_I_CATALOG_SERIES(SLIDER_CRANK, 15, 14),
   .name = "slider_crank",
   .title = "slider-crank, centric, the crank free from 150 rad/s",
   .source = FLORES,
   .provenance = "extrapolation in 160 bits, two tolerances agree to 18 digits, another model "
                 "in double precision to 12.8",
-  .note = "",
   .defaults = CENTRIC,
 };
 
 const baum_i_catalog_mechanism baum_i_slider_crank_eccentric = {
-  STORED(SLIDER_CRANK_ECCENTRIC),
+  FREE,
+  BAUM_I_CATALOG_SERIES(SLIDER_CRANK_ECCENTRIC, 15, 14),
   .name = "slider_crank_eccentric",
   .title = "slider-crank, eccentric, the crank free from 150 rad/s",
   .source = FLORES "; the eccentricity is our choice",
   .provenance = "extrapolation in 160 bits, two tolerances agree to 17 digits, another model "
                 "in double precision to 12.8",
-  .note = "",
   .defaults = baum_i_slider_crank_data,
 };
 

@@ -4,11 +4,14 @@
  *   [ M  J^T ] [ a      ]   [ g                                   ]
  *   [ J   0  ] [ lambda ] = [ gamma - 2 alpha Phi' - beta^2 Phi ]
  *
- * Flores et al. 2008 (7); (5) with alpha = beta = 0.
+ * Flores et al. 2008 (7); (5) with alpha = beta = 0. Projections solve the same matrix with other
+ * right sides.
  *
- * Rows that permanently depend on others are left out. Their multipliers are then zero, which is
+ * Rows that permanently depend on others are omitted. Their multipliers are then zero, which is
  * one of many solutions; what is reported to users is the one of least norm (least_multipliers.c).
  */
+#include <string.h>
+
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
@@ -29,27 +32,6 @@ static baum_status fail_singular(const baum_workspace *w)
     w->point.t, label);
 }
 
-static baum_status translate(baum_workspace *w, baum_status status)
-{
-  switch ((int)status) {
-  case BAUM_ERR_SINGULAR: return fail_singular(w);
-  case BAUM_ERR_NOT_FINITE: w->point.retry = true; return baum_i_fail_not_finite(w);
-  default: return status;
-  }
-}
-
-static baum_status solve(baum_workspace *w)
-{
-  const baum_i_kkt_values values = {
-    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
-  baum_status status =
-    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
-  w->solved_by = NULL;
-  w->evaluations++;
-  w->near_singular += baum_i_kkt_get_quality(w->kkt) != BAUM_I_KKT_GOOD ? 1 : 0;
-  return translate(w, status);
-}
-
 static baum_status fail_blocks(const baum_workspace *w)
 {
   int joint = -1;
@@ -66,32 +48,92 @@ static baum_status fail_blocks(const baum_workspace *w)
     w->point.t, label);
 }
 
-/* By the solver of the whole system. */
-static baum_status accelerate(baum_workspace *w, double t, const double *q, const double *v,
-                              double alpha, double beta)
+/* ---- the solver of the whole system ---- */
+
+/* What the right side is made of; without forces there is no gamma. */
+static baum_status evaluate_stage(baum_workspace *w, double t, const double *q, const double *v,
+                                  bool force)
 {
-  BAUM_I_TRY(baum_i_velocity_stage(w, t, q, v));
+  if (force) {
+    return baum_i_velocity_stage(w, t, q, v);
+  }
+  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
+  if (!v) {
+    return baum_i_position_stage(w, t, q);
+  }
+  BAUM_I_TRY(baum_i_violation(w, t, q, v));
+  return baum_i_evaluate_mass(w);
+}
+
+static void set_right_side(const baum_workspace *w, const baum_i_right_side *right)
+{
   for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = w->gamma[i] - 2.0 * alpha * w->phi_rate[i] - beta * beta * w->phi[i];
+    double f = right->row_gains ? right->row_gains[i] : 1.0;
+    w->rhs[i] = right->bending != 0.0 ? right->bending * w->gamma[i] : 0.0;
+    w->rhs[i] -= right->damping != 0.0 ? f * right->damping * w->phi_rate[i] : 0.0;
+    w->rhs[i] -= right->stiffness != 0.0 ? f * f * right->stiffness * w->phi[i] : 0.0;
   }
-  for (int i = 0; w->row_gains && i < w->mechanism->nc; i++) {
-    double f = w->row_gains[i];
-    w->rhs[i] -= 2.0 * alpha * (f - 1.0) * w->phi_rate[i];
-    w->rhs[i] -= beta * beta * (f * f - 1.0) * w->phi[i];
+}
+
+/* Of the present stage. */
+static baum_status solve_whole(baum_workspace *w, const baum_i_right_side *right)
+{
+  const baum_i_kkt_values values = baum_i_kkt_values_of(w);
+  set_right_side(w, right);
+  baum_status status =
+    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
+  w->solved_by = NULL;
+  return status;
+}
+
+baum_status baum_i_report_constraints(const baum_workspace *w, baum_status status)
+{
+  switch ((int)status) {
+  case BAUM_ERR_SINGULAR:
+    return baum_i_fail(status, "t = %.9g s: the constraints are singular here", w->point.t);
+  case BAUM_ERR_NOT_FINITE: return baum_i_fail_not_finite(w);
+  default: return status;
   }
-  return solve(w);
+}
+
+baum_status baum_i_solve_motion(baum_workspace *w, double t, const double *q, const double *v,
+                                const baum_i_right_side *right)
+{
+  baum_status status =
+    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, v, right) : BAUM_ERR_SINGULAR;
+  if (status != BAUM_ERR_SINGULAR) {
+    return status;
+  }
+  BAUM_I_TRY(evaluate_stage(w, t, q, v, right->force));
+  BAUM_I_TRY(baum_i_report_constraints(w, solve_whole(w, right)));
+  baum_i_rest_fixed_bodies(w->mechanism, w->a);
+  return BAUM_OK;
+}
+
+/* ---- accelerations ---- */
+
+static baum_status accelerate_whole(baum_workspace *w, const baum_i_right_side *right)
+{
+  baum_status status = solve_whole(w, right);
+  w->evaluations++;
+  w->near_singular += baum_i_kkt_get_quality(w->kkt) != BAUM_I_KKT_GOOD ? 1 : 0;
+  if (status == BAUM_ERR_NOT_FINITE) {
+    w->point.retry = true;
+    return baum_i_fail_not_finite(w);
+  }
+  return status == BAUM_ERR_SINGULAR ? fail_singular(w) : status;
 }
 
 /* By a path, or where that is NULL or hands over by the solver of the whole system. */
 static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, double t,
                                  const double *q, const double *v, double alpha, double beta)
 {
+  const baum_i_right_side right = {.bending = 1.0,
+                                   .damping = 2.0 * alpha,
+                                   .stiffness = beta * beta,
+                                   .force = true,
+                                   .row_gains = w->row_gains};
   if (path) {
-    const baum_i_right_side right = {.bending = 1.0,
-                                     .damping = 2.0 * alpha,
-                                     .stiffness = beta * beta,
-                                     .force = true,
-                                     .row_gains = w->row_gains};
     baum_status status = baum_i_block_path_solve(w, path, t, q, v, &right);
     if (status != BAUM_ERR_SINGULAR) {
       w->evaluations += status == BAUM_OK ? 1 : 0;
@@ -101,7 +143,8 @@ static baum_status accelerate_by(baum_workspace *w, baum_i_block_path *path, dou
       return fail_blocks(w);
     }
   }
-  return accelerate(w, t, q, v, alpha, beta);
+  BAUM_I_TRY(baum_i_velocity_stage(w, t, q, v));
+  return accelerate_whole(w, &right);
 }
 
 baum_status baum_i_acceleration(baum_workspace *w, double t, const double *q, const double *v,

@@ -225,17 +225,16 @@ static baum_status assemble_positions(assembly *s)
   double size = (double)INFINITY;
   bool fell = true;
   for (int k = 0; k < ITERATIONS && fell && size > CONVERGED; k++) {
-    baum_status status = newton_step(s, &size, &fell);
-    if (status != BAUM_OK || s->fits) {
-      return status;
+    BAUM_I_TRY(newton_step(s, &size, &fell));
+    if (s->fits) {
+      return BAUM_OK;
     }
   }
-  baum_status status = baum_i_position_stage(s->w, s->t, s->q);
-  if (status == BAUM_OK && !(worst_displacement(s, s->w->phi) <= CONSISTENT)) {
-    return fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
-                             "left");
-  }
-  return status;
+  BAUM_I_TRY(baum_i_position_stage(s->w, s->t, s->q));
+  return worst_displacement(s, s->w->phi) <= CONSISTENT
+           ? BAUM_OK
+           : fail_inconsistent(s, s->w->phi, "the constraints, or constraints and held bodies,",
+                               "left");
 }
 
 /* ---- velocities ---- */
@@ -256,11 +255,11 @@ static baum_status find_rate(const assembly *s, const double *v, double *worst)
 
 static baum_status correct_velocities(const assembly *s, double *v)
 {
-  baum_status status = least_change(s);
-  for (int i = 0; i < s->w->mechanism->nv && status == BAUM_OK; i++) {
+  BAUM_I_TRY(least_change(s));
+  for (int i = 0; i < s->w->mechanism->nv; i++) {
     v[i] += is_held(s->held, i) ? 0.0 : s->w->a[i];
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Held are the velocities that were given; free ones arrive as zero. The matrix is that of the
@@ -269,24 +268,21 @@ static baum_status assemble_velocities(const assembly *s, double *v)
 {
   double last = (double)INFINITY;
   double worst = 0.0;
-  baum_status status = find_rate(s, v, &worst);
-  if (status != BAUM_OK || !(worst > 0.0)) {
-    return status;
+  BAUM_I_TRY(find_rate(s, v, &worst));
+  if (!(worst > 0.0)) {
+    return BAUM_OK;
   }
-  status = baum_i_evaluate_mass(s->w);
-  if (status == BAUM_OK) {
-    status = factor(s);
-  }
-  for (int k = 0; k < CORRECTIONS && status == BAUM_OK && worst > 0.0 && worst < 0.5 * last; k++) {
+  BAUM_I_TRY(baum_i_evaluate_mass(s->w));
+  BAUM_I_TRY(factor(s));
+  for (int k = 0; k < CORRECTIONS && worst > 0.0 && worst < 0.5 * last; k++) {
     last = worst;
-    status = correct_velocities(s, v);
-    if (status == BAUM_OK) {
-      status = find_rate(s, v, &worst);
-    }
+    BAUM_I_TRY(correct_velocities(s, v));
+    BAUM_I_TRY(find_rate(s, v, &worst));
   }
-  return status;
+  return BAUM_OK;
 }
 
+/* v (nv): given or NaN, then completed. */
 static baum_status complete_velocities(assembly *s, double *v, bool *given)
 {
   baum_workspace *w = s->w;

@@ -152,12 +152,12 @@ static baum_status prepare_forces(baum_workspace *w, baum_i_block_path *path)
     return BAUM_ERR_MEMORY;
   }
   path->force_is_constant = baum_i_has_constant_force(m);
-  baum_status status = baum_i_mechanism_add_body_forces(&w->point, true, path->constant_force);
-  if (status == BAUM_OK && path->force_is_constant) {
+  BAUM_I_TRY(baum_i_mechanism_add_body_forces(&w->point, true, path->constant_force));
+  if (path->force_is_constant) {
     memcpy(w->force, path->constant_force, (size_t)m->nv * sizeof *w->force);
     path->sides_kernel->set_force(path->block, w->force);
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* The first body whose M has no factor L L^T, or 0. */
@@ -231,19 +231,13 @@ static bool is_uneven(const baum_i_block_path *path)
 static baum_status fill(baum_workspace *w, bool for_motion, baum_i_block_verdict *verdict,
                         baum_i_block_path *path)
 {
-  baum_status status = make_block(w, for_motion, verdict, path);
-  if (status == BAUM_OK) {
-    status = arrange_joints(w, for_motion, path);
-  }
-  if (status == BAUM_OK) {
-    status = prepare_masses(w, verdict, path);
-  }
-  if (status == BAUM_OK) {
-    status = prepare_forces(w, path);
-  }
-  path->uneven = status == BAUM_OK && is_uneven(path);
-  path->always_check = path->block && path->block->node_count > FEW_NODES;
-  return status;
+  BAUM_I_TRY(make_block(w, for_motion, verdict, path));
+  BAUM_I_TRY(arrange_joints(w, for_motion, path));
+  BAUM_I_TRY(prepare_masses(w, verdict, path));
+  BAUM_I_TRY(prepare_forces(w, path));
+  path->uneven = is_uneven(path);
+  path->always_check = path->block->node_count > FEW_NODES;
+  return BAUM_OK;
 }
 
 baum_status baum_i_block_path_create(baum_workspace *w, bool for_motion,
@@ -318,11 +312,10 @@ static baum_status evaluate_joints(baum_workspace *w, const baum_i_block_path *p
   if (!bending) {
     memset(w->gamma, 0, (size_t)w->mechanism->nc * sizeof *w->gamma);
   }
-  baum_status status = BAUM_OK;
-  for (int k = 0; k < path->group_count && status == BAUM_OK; k++) {
-    status = path->groups[k].type->evaluate(&path->groups[k], &w->point, &rows);
+  for (int k = 0; k < path->group_count; k++) {
+    BAUM_I_TRY(path->groups[k].type->evaluate(&path->groups[k], &w->point, &rows));
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status evaluate_forces(baum_workspace *w, const baum_i_block_path *path, bool wanted)
@@ -342,11 +335,8 @@ static baum_status evaluate_masses(baum_workspace *w, const baum_i_block_path *p
   if (path->mass_is_constant) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_evaluate_mass(w);
-  if (status == BAUM_OK && !baum_i_block_factor_dense(path->block, w->mass)) {
-    return BAUM_ERR_SINGULAR;
-  }
-  return status;
+  BAUM_I_TRY(baum_i_evaluate_mass(w));
+  return baum_i_block_factor_dense(path->block, w->mass) ? BAUM_OK : BAUM_ERR_SINGULAR;
 }
 
 /* Phi' = J v - nu (3) of rows that are left out, which no node sets. */

@@ -65,6 +65,14 @@ baum_status baum_i_block_path_solve(baum_workspace *workspace, baum_i_block_path
                                     const double *q, const double *v,
                                     const baum_i_right_side *right);
 
+/* acceleration.c: a (0 of fixed bodies) and lambda with any right side, by the path of the motion
+ * or else by the solver of the whole system. Also BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+baum_status baum_i_solve_motion(baum_workspace *workspace, double t, const double *q,
+                                const double *v, const baum_i_right_side *right);
+
+/* The message of a status of the workspace's solver; returns the status. */
+baum_status baum_i_report_constraints(const baum_workspace *workspace, baum_status status);
+
 /* Pivots alone, also where they are bad. */
 baum_status baum_i_block_path_factor(baum_workspace *workspace, baum_i_block_path *path, double t,
                                      const double *q);

@@ -18,29 +18,13 @@
 #include "base/message.h"
 #include "dynamics/block_path.h"
 
-static baum_i_kkt_values values_of(const baum_workspace *w)
-{
-  return (baum_i_kkt_values){
-    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
-}
-
-static baum_status translate(const baum_workspace *w, baum_status status)
-{
-  switch ((int)status) {
-  case BAUM_ERR_SINGULAR:
-    return baum_i_fail(status, "t = %.9g s: the constraints are singular here", w->point.t);
-  case BAUM_ERR_NOT_FINITE: return baum_i_fail_not_finite(w);
-  default: return status;
-  }
-}
-
 /* ---- positions ---- */
 
 static baum_status factor_whole(baum_workspace *w, double t, const double *q)
 {
-  const baum_i_kkt_values values = values_of(w);
+  const baum_i_kkt_values values = baum_i_kkt_values_of(w);
   BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  return translate(w, baum_i_kkt_factor(w->kkt, &values));
+  return baum_i_report_constraints(w, baum_i_kkt_factor(w->kkt, &values));
 }
 
 baum_status baum_i_chord_begin(baum_workspace *w, double t, const double *q, baum_i_chord *out)
@@ -62,13 +46,14 @@ static baum_status change_by_blocks(baum_workspace *w, const baum_i_block_path *
   baum_i_block_set_rest(path->block, w->rhs);
   (void)path->kernel->correct(path->block);
   bool finite = path->kernel->read_motion(path->block, w->a);
-  return finite ? BAUM_OK : translate(w, BAUM_ERR_NOT_FINITE);
+  return finite ? BAUM_OK : baum_i_report_constraints(w, BAUM_ERR_NOT_FINITE);
 }
 
 static baum_status change_by_whole(baum_workspace *w)
 {
   memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  BAUM_I_TRY(translate(w, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda)));
+  BAUM_I_TRY(
+    baum_i_report_constraints(w, baum_i_kkt_solve(w->kkt, w->force, w->rhs, w->a, w->lambda)));
   baum_i_rest_fixed_bodies(w->mechanism, w->a);
   return BAUM_OK;
 }
@@ -86,28 +71,10 @@ baum_status baum_i_chord_change(baum_workspace *w, const baum_i_chord *chord, do
 
 /* ---- velocities ---- */
 
-static baum_status hold_by_whole(baum_workspace *w, double t, const double *q, const double *v,
-                                 double rate)
-{
-  const baum_i_kkt_values values = values_of(w);
-  BAUM_I_TRY(baum_i_velocity_stage(w, t, q, v));
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = -rate * w->phi_rate[i];
-  }
-  return translate(w,
-                   baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda));
-}
-
 baum_status baum_i_hold_velocities(baum_workspace *w, double t, const double *q, const double *v,
                                    double rate)
 {
   const baum_i_right_side right = {.damping = rate, .force = true};
-  baum_status status =
-    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, v, &right) : BAUM_ERR_SINGULAR;
   w->evaluations++;
-  if (status == BAUM_ERR_SINGULAR) {
-    status = hold_by_whole(w, t, q, v, rate);
-    baum_i_rest_fixed_bodies(w->mechanism, w->a);
-  }
-  return status;
+  return baum_i_solve_motion(w, t, q, v, &right);
 }

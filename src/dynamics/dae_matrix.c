@@ -345,18 +345,15 @@ static baum_status linearize_joints(baum_workspace *w, const baum_dae *dae, cons
   const double *lambda = v + m->nv;
   double *direction = w->work_v;
   baum_i_joint_blocks blocks = {w->jw_q, w->jtm_q, w->gamma_q, w->gamma_v, w->nu_q};
-  baum_status status = BAUM_OK;
   choose_direction(dae, m->nv, v, dv, direction);
   if (dae->index == BAUM_RESIDUAL_GGL) {
-    status = baum_i_mechanism_linearize_joints(&w->point, direction, lambda + m->nc, &blocks);
+    BAUM_I_TRY(baum_i_mechanism_linearize_joints(&w->point, direction, lambda + m->nc, &blocks));
   }
   if (dae->index == BAUM_RESIDUAL_INDEX1 && w->row_gains) {
-    status = linearize_rates(w, v, lambda);
+    BAUM_I_TRY(linearize_rates(w, v, lambda));
   }
   blocks.jtl_q = w->jtl_q;
-  return status == BAUM_OK
-           ? baum_i_mechanism_linearize_joints(&w->point, direction, lambda, &blocks)
-           : status;
+  return baum_i_mechanism_linearize_joints(&w->point, direction, lambda, &blocks);
 }
 
 static baum_status linearize(baum_workspace *w, const baum_dae *dae, double t, const double *y,

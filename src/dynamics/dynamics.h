@@ -146,6 +146,13 @@ static inline const unsigned char *baum_i_omitted_rows(const baum_workspace *wor
   return workspace->rows.count > 0 ? workspace->rows.omitted : NULL;
 }
 
+/* M, J and the omitted rows of the workspace, for its solver. */
+static inline baum_i_kkt_values baum_i_kkt_values_of(const baum_workspace *w)
+{
+  return (baum_i_kkt_values){
+    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
+}
+
 /* ---- stages.c, acceleration.c ---- */
 
 baum_status baum_i_position_stage(baum_workspace *workspace, double t, const double *q);

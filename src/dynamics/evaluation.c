@@ -39,11 +39,9 @@ static baum_status check_point(const char *call, const baum_workspace *w, double
   if (!out) {
     return fail_null(call, "the output");
   }
-  baum_status status = baum_i_check_finite(call, "t", "s", t);
-  if (status == BAUM_OK) {
-    status = check_finite(call, "q", q, w->mechanism->nq);
-  }
-  return status == BAUM_OK ? baum_i_check_idle(w, call, "the workspace") : status;
+  BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
+  BAUM_I_TRY(check_finite(call, "q", q, w->mechanism->nq));
+  return baum_i_check_idle(w, call, "the workspace");
 }
 
 static baum_status check_state(const char *call, const baum_workspace *w, double t, const double *q,
@@ -51,6 +49,14 @@ static baum_status check_state(const char *call, const baum_workspace *w, double
 {
   BAUM_I_TRY(check_point(call, w, t, q, out));
   return check_finite(call, "v", v, w->mechanism->nv);
+}
+
+/* Copy to where the caller wants it, unless that is NULL. */
+static void give(const double *values, double *out, int count)
+{
+  if (out) {
+    memcpy(out, values, (size_t)count * sizeof *out);
+  }
 }
 
 /* ---- life ---- */
@@ -62,8 +68,8 @@ static baum_status learn_redundancy(baum_workspace *w)
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_status status = baum_i_find_rows(w, 0.0, w->mechanism->design_q);
-  status = status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept);
-  return status == BAUM_OK ? baum_i_use_blocks(w) : status;
+  BAUM_I_TRY(status == BAUM_ERR_MEMORY ? status : baum_i_message_settle(BAUM_OK, &kept));
+  return baum_i_use_blocks(w);
 }
 
 baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspace **out)
@@ -72,13 +78,9 @@ baum_status baum_workspace_create(const baum_mechanism *mechanism, baum_workspac
     return fail_null("baum_workspace_create", "out");
   }
   *out = NULL;
-  baum_status status = baum_i_check_frozen(mechanism, "baum_workspace_create");
-  if (status == BAUM_OK) {
-    status = baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out);
-  }
-  if (status == BAUM_OK) {
-    status = learn_redundancy(*out);
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, "baum_workspace_create"));
+  BAUM_I_TRY(baum_i_workspace_create(mechanism, BAUM_I_KKT_AUTO, out));
+  baum_status status = learn_redundancy(*out);
   if (status != BAUM_OK) {
     baum_workspace_destroy(*out);
     *out = NULL;
@@ -91,13 +93,8 @@ baum_status baum_workspace_design(baum_workspace *workspace, double *q, double *
   if (!workspace) {
     return fail_null("baum_workspace_design", "the workspace");
   }
-  const baum_mechanism *m = workspace->mechanism;
-  if (q) {
-    memcpy(q, m->design_q, (size_t)m->nq * sizeof *q);
-  }
-  if (v) {
-    memcpy(v, m->design_v, (size_t)m->nv * sizeof *v);
-  }
+  give(workspace->mechanism->design_q, q, workspace->mechanism->nq);
+  give(workspace->mechanism->design_v, v, workspace->mechanism->nv);
   return BAUM_OK;
 }
 
@@ -138,7 +135,7 @@ baum_status baum_workspace_phi(baum_workspace *workspace, double t, const double
   baum_i_point_set(&workspace->point, t, q, NULL);
   BAUM_I_TRY(baum_i_mechanism_phi(&workspace->point, workspace->phi));
   BAUM_I_TRY(baum_i_check_rows(workspace, "Phi", workspace->phi));
-  memcpy(phi, workspace->phi, (size_t)workspace->mechanism->nc * sizeof *phi);
+  give(workspace->phi, phi, workspace->mechanism->nc);
   return BAUM_OK;
 }
 
@@ -169,7 +166,7 @@ baum_status baum_workspace_nu(baum_workspace *workspace, double t, const double 
   baum_i_point_set(&workspace->point, t, q, NULL);
   BAUM_I_TRY(baum_i_mechanism_nu(&workspace->point, workspace->nu));
   BAUM_I_TRY(baum_i_check_rows(workspace, "nu", workspace->nu));
-  memcpy(nu, workspace->nu, (size_t)workspace->mechanism->nc * sizeof *nu);
+  give(workspace->nu, nu, workspace->mechanism->nc);
   return BAUM_OK;
 }
 
@@ -199,7 +196,7 @@ baum_status baum_workspace_gamma(baum_workspace *workspace, double t, const doub
   baum_i_point_set(&workspace->point, t, q, v);
   BAUM_I_TRY(baum_i_mechanism_gamma(&workspace->point, workspace->gamma));
   BAUM_I_TRY(baum_i_check_rows(workspace, "gamma", workspace->gamma));
-  memcpy(gamma, workspace->gamma, (size_t)workspace->mechanism->nc * sizeof *gamma);
+  give(workspace->gamma, gamma, workspace->mechanism->nc);
   return BAUM_OK;
 }
 
@@ -210,7 +207,7 @@ baum_status baum_workspace_force(baum_workspace *workspace, double t, const doub
   baum_i_point_set(&workspace->point, t, q, v);
   BAUM_I_TRY(baum_i_mechanism_force(&workspace->point, workspace->force));
   BAUM_I_TRY(baum_i_check_velocities(workspace, "force", workspace->force));
-  memcpy(force, workspace->force, (size_t)workspace->mechanism->nv * sizeof *force);
+  give(workspace->force, force, workspace->mechanism->nv);
   return BAUM_OK;
 }
 
@@ -218,22 +215,16 @@ baum_status baum_workspace_energy(baum_workspace *workspace, double t, const dou
                                   const double *v, double *kinetic, double *potential)
 {
   double found[2] = {0.0, 0.0};
-  baum_status status = check_state("baum_workspace_energy", workspace, t, q, v, found);
-  if (status == BAUM_OK) {
-    status = baum_i_energy(workspace, t, q, v, &found[0], &found[1]);
+  BAUM_I_TRY(check_state("baum_workspace_energy", workspace, t, q, v, found));
+  BAUM_I_TRY(baum_i_energy(workspace, t, q, v, &found[0], &found[1]));
+  if (!isfinite(found[0]) || !isfinite(found[1])) {
+    return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                       "t = %.9g s: the kinetic energy is %g J, the potential energy %g J", t,
+                       found[0], found[1]);
   }
-  if (status == BAUM_OK && !(isfinite(found[0]) && isfinite(found[1]))) {
-    status = baum_i_fail(BAUM_ERR_NOT_FINITE,
-                         "t = %.9g s: the kinetic energy is %g J, the potential energy %g J", t,
-                         found[0], found[1]);
-  }
-  if (status == BAUM_OK && kinetic) {
-    *kinetic = found[0];
-  }
-  if (status == BAUM_OK && potential) {
-    *potential = found[1];
-  }
-  return status;
+  give(&found[0], kinetic, 1);
+  give(&found[1], potential, 1);
+  return BAUM_OK;
 }
 
 /* ---- solutions ---- */
@@ -263,24 +254,16 @@ baum_status baum_workspace_acceleration(baum_workspace *workspace, double t, con
                                         double *lambda)
 {
   const char *call = "baum_workspace_acceleration";
-  baum_status status = check_state(call, workspace, t, q, v, &t); /* a and lambda may be NULL */
-  if (status == BAUM_OK) {
-    status = check_gains(call, alpha, beta);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
-  status = accelerate(workspace, t, q, v, alpha, beta);
+  BAUM_I_TRY(check_state(call, workspace, t, q, v, &t)); /* a and lambda may be NULL */
+  BAUM_I_TRY(check_gains(call, alpha, beta));
+  baum_status status = accelerate(workspace, t, q, v, alpha, beta);
   if (has_chosen_rows(workspace, status, t, q)) {
     status = accelerate(workspace, t, q, v, alpha, beta);
   }
-  if (status == BAUM_OK && a) {
-    memcpy(a, workspace->a, (size_t)workspace->mechanism->nv * sizeof *a);
-  }
-  if (status == BAUM_OK && lambda) {
-    memcpy(lambda, workspace->lambda, (size_t)workspace->mechanism->nc * sizeof *lambda);
-  }
-  return status;
+  BAUM_I_TRY(status);
+  give(workspace->a, a, workspace->mechanism->nv);
+  give(workspace->lambda, lambda, workspace->mechanism->nc);
+  return BAUM_OK;
 }
 
 baum_status baum_workspace_reaction(baum_workspace *workspace, double t, const double *q,
@@ -308,17 +291,11 @@ static baum_status check_dae(const char *call, const baum_workspace *w, const ba
                        (int)dae->index);
   }
   int size = baum_i_residual_size(w->mechanism, dae->index);
-  baum_status status = check_gains(call, dae->alpha, dae->beta);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(call, "t", "s", t);
-  }
-  if (status == BAUM_OK) {
-    status = check_finite(call, "y", y, size);
-  }
-  if (status == BAUM_OK) {
-    status = check_finite(call, "dy", dy, size);
-  }
-  return status == BAUM_OK ? baum_i_check_idle(w, call, "the workspace") : status;
+  BAUM_I_TRY(check_gains(call, dae->alpha, dae->beta));
+  BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
+  BAUM_I_TRY(check_finite(call, "y", y, size));
+  BAUM_I_TRY(check_finite(call, "dy", dy, size));
+  return baum_i_check_idle(w, call, "the workspace");
 }
 
 static baum_status need_metric(baum_workspace *w, const baum_dae *dae)
@@ -330,14 +307,10 @@ baum_status baum_workspace_residual(baum_workspace *workspace, const baum_dae *d
                                     const double *y, const double *dy, double *residual)
 {
   const char *call = "baum_workspace_residual";
-  baum_status status = check_dae(call, workspace, dae, t, y, dy);
-  if (status == BAUM_OK && !residual) {
-    status = fail_null(call, "the output");
-  }
-  if (status == BAUM_OK) {
-    status = need_metric(workspace, dae);
-  }
-  return status == BAUM_OK ? baum_i_residual(workspace, dae, t, y, dy, residual) : status;
+  BAUM_I_TRY(check_dae(call, workspace, dae, t, y, dy));
+  BAUM_I_TRY(residual ? BAUM_OK : fail_null(call, "the output"));
+  BAUM_I_TRY(need_metric(workspace, dae));
+  return baum_i_residual(workspace, dae, t, y, dy, residual);
 }
 
 baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const baum_dae *dae,
@@ -345,19 +318,10 @@ baum_status baum_workspace_residual_jacobian(baum_workspace *workspace, const ba
                                              baum_sparse *out)
 {
   const char *call = "baum_workspace_residual_jacobian";
-  if (!out) {
-    return fail_null(call, "the output");
-  }
-  baum_status status = check_dae(call, workspace, dae, t, y, dy);
-  if (status == BAUM_OK) {
-    status = baum_i_check_finite(call, "c", "1/s", c);
-  }
-  if (status == BAUM_OK) {
-    status = need_metric(workspace, dae);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(out ? BAUM_OK : fail_null(call, "the output"));
+  BAUM_I_TRY(check_dae(call, workspace, dae, t, y, dy));
+  BAUM_I_TRY(baum_i_check_finite(call, "c", "1/s", c));
+  BAUM_I_TRY(need_metric(workspace, dae));
   return baum_i_residual_jacobian(workspace, dae, c, t, y, dy, out);
 }
 
@@ -368,10 +332,7 @@ static baum_status mark_held(const baum_mechanism *m, const baum_body_id *held, 
 {
   memcpy(flags, m->held, (size_t)m->nv * sizeof *flags);
   for (int32_t k = 0; k < count; k++) {
-    baum_status status = baum_i_check_body(m, held[k], "baum_workspace_assemble", "held");
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(baum_i_check_body(m, held[k], "baum_workspace_assemble", "held"));
     int index = baum_i_body_index(m, held[k]);
     for (int j = 0; index > 0 && j < m->bodies[index]->nv; j++) {
       flags[m->bodies[index]->v + j] = true;
@@ -401,10 +362,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
                                     const baum_body_id *held, int32_t held_count)
 {
   const char *call = "baum_workspace_assemble";
-  baum_status status = check_guess(call, workspace, t, q, v);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(check_guess(call, workspace, t, q, v));
   if (held_count < 0 || (held_count > 0 && !held)) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: held is NULL or held_count (%d) negative", call,
                        (int)held_count);
@@ -415,7 +373,7 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   }
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
-  status = mark_held(workspace->mechanism, held, held_count, flags);
+  baum_status status = mark_held(workspace->mechanism, held, held_count, flags);
   if (status == BAUM_OK) {
     status = baum_i_assemble(workspace, t, q, v, flags);
   }
@@ -423,44 +381,42 @@ baum_status baum_workspace_assemble(baum_workspace *workspace, double t, double 
   return baum_i_message_settle(status, &kept);
 }
 
+/* Project a copy of (q, v). */
 static baum_status project(baum_workspace *w, double t, const double *q, const double *v,
                            double *copy)
 {
-  size_t nq = (size_t)w->mechanism->nq;
-  memcpy(copy, q, nq * sizeof *q);
-  memcpy(copy + nq, v, (size_t)w->mechanism->nv * sizeof *v);
-  return baum_i_project(w, t, copy, copy + nq);
+  double *v_copy = copy + w->mechanism->nq;
+  give(q, copy, w->mechanism->nq);
+  give(v, v_copy, w->mechanism->nv);
+  return baum_i_project(w, t, copy, v_copy);
+}
+
+static baum_status project_and_check(baum_workspace *w, double t, const double *q, const double *v,
+                                     double *copy)
+{
+  const double *v_copy = copy + w->mechanism->nq;
+  baum_status status = project(w, t, q, v, copy);
+  if (has_chosen_rows(w, status, t, q)) {
+    status = project(w, t, q, v, copy);
+  }
+  BAUM_I_TRY(status);
+  BAUM_I_TRY(baum_i_check_positions(w, "projected pose", copy));
+  BAUM_I_TRY(baum_i_check_velocities(w, "projected velocity", v_copy));
+  return baum_i_check_left_out(w, t, copy, v_copy, baum_i_scaled_size(w->mechanism, v));
 }
 
 baum_status baum_workspace_project(baum_workspace *workspace, double t, double *q, double *v)
 {
-  baum_status status = check_state("baum_workspace_project", workspace, t, q, v, &t);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  size_t nq = (size_t)workspace->mechanism->nq;
-  size_t nv = (size_t)workspace->mechanism->nv;
-  double *copy = baum_i_alloc(nq + nv, sizeof *copy);
+  BAUM_I_TRY(check_state("baum_workspace_project", workspace, t, q, v, &t));
+  const baum_mechanism *m = workspace->mechanism;
+  double *copy = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *copy);
   if (!copy) {
     return baum_i_fail_memory();
   }
-  status = project(workspace, t, q, v, copy);
-  if (has_chosen_rows(workspace, status, t, q)) {
-    status = project(workspace, t, q, v, copy);
-  }
+  baum_status status = project_and_check(workspace, t, q, v, copy);
   if (status == BAUM_OK) {
-    status = baum_i_check_positions(workspace, "projected pose", copy);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_velocities(workspace, "projected velocity", copy + nq);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_left_out(workspace, t, copy, copy + nq,
-                                   baum_i_scaled_size(workspace->mechanism, v));
-  }
-  if (status == BAUM_OK) {
-    memcpy(q, copy, nq * sizeof *q);
-    memcpy(v, copy + nq, nv * sizeof *v);
+    give(copy, q, m->nq);
+    give(copy + m->nq, v, m->nv);
   }
   baum_i_free(copy);
   return status;

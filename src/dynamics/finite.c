@@ -67,18 +67,18 @@ baum_status baum_i_check_positions(const baum_workspace *w, const char *what, co
 baum_status baum_i_check_sizes(const baum_workspace *w, const char *what, const double *values)
 {
   const baum_mechanism *m = w->mechanism;
-  baum_status status = baum_i_check_velocities(w, what, values);
-  for (int i = 0; i < m->nv && status == BAUM_OK; i++) {
+  BAUM_I_TRY(baum_i_check_velocities(w, what, values));
+  for (int i = 0; i < m->nv; i++) {
     if (!isfinite(values[i] / m->scale[i])) {
       char label[BAUM_I_LABEL_SIZE];
       const baum_i_body *body = baum_i_velocity_body(m, i);
-      status = baum_i_fail(
+      return baum_i_fail(
         BAUM_ERR_NOT_FINITE,
         "t = %.9g s: the %s of %s is %g, too large for double precision beside its scale of %g",
         w->point.t, what, baum_i_label(&body->element, label), values[i], m->scale[i]);
     }
   }
-  return status;
+  return BAUM_OK;
 }
 
 baum_status baum_i_check_jacobian(const baum_workspace *w)
@@ -96,16 +96,10 @@ baum_status baum_i_check_jacobian(const baum_workspace *w)
 
 baum_status baum_i_fail_not_finite(const baum_workspace *w)
 {
-  baum_status status = baum_i_check_jacobian(w);
-  if (status == BAUM_OK) {
-    status = baum_i_check_velocities(w, "force", w->force);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_check_rows(w, "right side", w->rhs);
-  }
-  return status != BAUM_OK
-           ? status
-           : baum_i_fail(BAUM_ERR_NOT_FINITE,
-                         "t = %.9g s: numbers of the equations are too large for double precision",
-                         w->point.t);
+  BAUM_I_TRY(baum_i_check_jacobian(w));
+  BAUM_I_TRY(baum_i_check_velocities(w, "force", w->force));
+  BAUM_I_TRY(baum_i_check_rows(w, "right side", w->rhs));
+  return baum_i_fail(BAUM_ERR_NOT_FINITE,
+                     "t = %.9g s: numbers of the equations are too large for double precision",
+                     w->point.t);
 }

@@ -91,3 +91,16 @@ baum_status baum_i_count_islands(const baum_mechanism *m, int *count, baum_i_isl
   baum_i_free(island);
   return status;
 }
+
+baum_status baum_i_count_joints(const baum_mechanism *m, int **joints)
+{
+  int *count = baum_i_alloc((size_t)m->body_count + 1, sizeof *count);
+  *joints = count;
+  for (int k = 0; count && k < m->joint_count; k++) {
+    const baum_i_span *span = &m->joints[k]->span;
+    for (int i = 0; i < span->body_count; i++) {
+      count[span->bodies[i]]++;
+    }
+  }
+  return count ? BAUM_OK : baum_i_fail_memory();
+}

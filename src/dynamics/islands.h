@@ -18,4 +18,8 @@ typedef struct baum_i_island {
 baum_status baum_i_count_islands(const baum_mechanism *mechanism, int *count,
                                  baum_i_island *largest);
 
+/* How many joints each body has (body_count + 1), in memory for the caller to free. BAUM_OK or
+ * BAUM_ERR_MEMORY. */
+baum_status baum_i_count_joints(const baum_mechanism *mechanism, int **joints);
+
 #endif

@@ -76,11 +76,9 @@ static baum_status apply(baum_workspace *w, const double *z, double *out)
   for (int i = 0; i < nv; i++) {
     f[i] = -f[i];
   }
-  baum_status status = baum_i_kkt_solve(w->sharing.kkt, f, w->work_c, f + nv, out);
-  for (int i = 0; i < nc && status == BAUM_OK; i++) {
-    out[i] += z[i];
-  }
-  return status;
+  BAUM_I_TRY(baum_i_kkt_solve(w->sharing.kkt, f, w->work_c, f + nv, out));
+  baum_i_add_scaled(nc, 1.0, z, out);
+  return BAUM_OK;
 }
 
 /* out = N^T u */
@@ -91,14 +89,12 @@ static baum_status apply_transposed(baum_workspace *w, const double *u, double *
   double *f = w->work_v;
   memset(f, 0, (size_t)nv * sizeof *f);
   memset(out, 0, (size_t)nc * sizeof *out);
-  baum_status status = baum_i_kkt_solve(w->sharing.kkt, f, u, f + nv, w->work_c);
-  if (status == BAUM_OK) {
-    baum_i_jacobian_times(&w->structure, w->jacobian, f + nv, out);
-  }
-  for (int i = 0; i < nc && status == BAUM_OK; i++) {
+  BAUM_I_TRY(baum_i_kkt_solve(w->sharing.kkt, f, u, f + nv, w->work_c));
+  baum_i_jacobian_times(&w->structure, w->jacobian, f + nv, out);
+  for (int i = 0; i < nc; i++) {
     out[i] = w->rows.omitted[i] ? u[i] - out[i] : 0.0;
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* ---- least norm ---- */
@@ -126,12 +122,12 @@ static baum_status find_gradient(baum_workspace *w, const search *s, double *siz
   for (int i = 0; i < w->mechanism->nc; i++) {
     s->u[i] = r->mobility[i] * (w->lambda[i] + r->part[i]);
   }
-  baum_status status = apply_transposed(w, s->u, s->gradient);
+  BAUM_I_TRY(apply_transposed(w, s->u, s->gradient));
   *size = 0.0;
   for (int i = 0; i < w->mechanism->nc; i++) {
     *size += s->gradient[i] * s->gradient[i] / r->mobility[i];
   }
-  return status;
+  return BAUM_OK;
 }
 
 /* Minimizes along the new direction, to which `turned` of the last one belongs. */
@@ -142,24 +138,22 @@ static baum_status step(baum_workspace *w, const search *s, double size, double 
   for (int i = 0; i < nc; i++) {
     s->direction[i] = turned * s->direction[i] - s->gradient[i] / r->mobility[i];
   }
-  baum_status status = apply(w, s->direction, s->image);
+  BAUM_I_TRY(apply(w, s->direction, s->image));
   double curvature = 0.0;
   for (int i = 0; i < nc; i++) {
     curvature += r->mobility[i] * s->image[i] * s->image[i];
   }
-  for (int i = 0; i < nc && status == BAUM_OK; i++) {
-    r->part[i] += size / curvature * s->image[i];
-  }
-  return status;
+  baum_i_add_scaled(nc, size / curvature, s->image, r->part);
+  return BAUM_OK;
 }
 
 /* Takes away what rounding of large forces has left in rows that carry little. */
 static baum_status refine_part(baum_workspace *w)
 {
   double *refined = begin(w).image;
-  baum_status status = apply(w, w->sharing.part, refined);
+  BAUM_I_TRY(apply(w, w->sharing.part, refined));
   memcpy(w->sharing.part, refined, (size_t)w->mechanism->nc * sizeof *refined);
-  return status;
+  return BAUM_OK;
 }
 
 /* N z into part. */
@@ -177,17 +171,17 @@ static baum_status find_part(baum_workspace *w)
   for (int i = 0; i < w->mechanism->nc; i++) {
     r->mobility[i] = r->mobility[i] > 0.0 ? r->mobility[i] : 1.0;
   }
-  baum_status status = factor(w, NULL);
-  for (int k = 0; k < most && k < MOST_ITERATIONS && status == BAUM_OK; k++) {
+  BAUM_I_TRY(factor(w, NULL));
+  for (int k = 0; k < most && k < MOST_ITERATIONS; k++) {
     double before = size;
-    status = find_gradient(w, &s, &size);
+    BAUM_I_TRY(find_gradient(w, &s, &size));
     first = k == 0 ? size : first;
-    if (status != BAUM_OK || size <= FOUND * FOUND * first) {
+    if (size <= FOUND * FOUND * first) {
       break;
     }
-    status = step(w, &s, size, k == 0 ? 0.0 : size / before);
+    BAUM_I_TRY(step(w, &s, size, k == 0 ? 0.0 : size / before));
   }
-  return status == BAUM_OK ? refine_part(w) : status;
+  return refine_part(w);
 }
 
 /* ---- balance ---- */
@@ -310,12 +304,9 @@ static baum_status refine_multipliers(baum_workspace *w)
   double *change = begin(w).image;
   balance at = form_solution(w);
   memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
-  baum_status status =
-    baum_i_kkt_solve(w->sharing.kkt, at.residual, w->work_c, w->work_v + nv, change);
-  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
-    w->lambda[i] += change[i];
-  }
-  return status;
+  BAUM_I_TRY(baum_i_kkt_solve(w->sharing.kkt, at.residual, w->work_c, w->work_v + nv, change));
+  baum_i_add_scaled(w->mechanism->nc, 1.0, change, w->lambda);
+  return BAUM_OK;
 }
 
 /* Adds the share of part that keeps the balance, or nothing where rounding prevents that. */
@@ -375,14 +366,10 @@ static baum_status find_reach(baum_workspace *w, double *least)
     z[i] = w->rows.omitted[i] ? baum_i_golden(i + 1) / size[i] : 0.0;
     w->shift[i] = SHIFT * size[i] * size[i];
   }
-  baum_status status = factor(w, w->shift);
-  status = status == BAUM_OK ? apply(w, z, r->part) : status;
-  for (int k = 0; k < 2 && status == BAUM_OK; k++) {
-    status = refine_part(w);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(factor(w, w->shift));
+  BAUM_I_TRY(apply(w, z, r->part));
+  BAUM_I_TRY(refine_part(w));
+  BAUM_I_TRY(refine_part(w));
   balance at = form(w, NULL, NULL, r->part);
   double off = largest_scaled(w, at.residual, 0, w->mechanism->nv) /
                largest_scaled(w, at.size, 0, w->mechanism->nv);
@@ -427,9 +414,9 @@ baum_status baum_i_find_unique_multipliers(baum_workspace *w, bool *unique)
 {
   bool any_shared = w->rows.count > 0;
   double least = 0.0;
-  baum_status status = any_shared ? find_reach(w, &least) : BAUM_OK;
-  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
+  BAUM_I_TRY(any_shared ? find_reach(w, &least) : BAUM_OK);
+  for (int i = 0; i < w->mechanism->nc; i++) {
     unique[i] = !any_shared || fabs(w->sharing.part[i]) <= least;
   }
-  return status;
+  return BAUM_OK;
 }

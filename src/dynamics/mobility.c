@@ -7,31 +7,18 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
+#include "dynamics/islands.h"
 #include "dynamics/snapshot.h"
 
 /* Append to the report's text; what does not fit is cut. */
 #define say(report, ...) baum_i_append((report)->text, sizeof(report)->text, __VA_ARGS__)
 
-/* jointed (body_count + 1) */
-static void mark_jointed(const baum_mechanism *m, bool *jointed)
-{
-  for (int k = 0; k < m->joint_count; k++) {
-    const baum_i_span *span = &m->joints[k]->span;
-    for (int i = 0; i < span->body_count; i++) {
-      jointed[span->bodies[i]] = true;
-    }
-  }
-}
-
 static baum_status report_free_bodies(const baum_mechanism *m, baum_mobility *report)
 {
-  bool *jointed = baum_i_alloc((size_t)m->body_count + 1, sizeof *jointed);
-  if (!jointed) {
-    return baum_i_fail_memory();
-  }
-  mark_jointed(m, jointed);
+  int *joints = NULL;
+  BAUM_I_TRY(baum_i_count_joints(m, &joints));
   for (int i = 1; i <= m->body_count; i++) {
-    if (!jointed[i]) {
+    if (joints[i] == 0) {
       say(report, "%s\"%s\"", report->free_bodies == 0 ? " Bodies without a joint: " : ", ",
           m->bodies[i]->element.name);
       report->free_bodies++;
@@ -40,7 +27,7 @@ static baum_status report_free_bodies(const baum_mechanism *m, baum_mobility *re
   if (report->free_bodies > 0) {
     say(report, ".");
   }
-  baum_i_free(jointed);
+  baum_i_free(joints);
   return BAUM_OK;
 }
 
@@ -71,19 +58,17 @@ static baum_status report_rank(baum_workspace *w, const double *q, baum_mobility
 {
   const baum_mechanism *m = w->mechanism;
   const baum_i_row_set *r = &w->rows;
-  baum_status status = baum_i_find_rows(w, 0.0, q);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_find_rows(w, 0.0, q));
   report->degrees_of_freedom = m->nv - (m->nc > 0 ? r->rank : 0);
   report->redundant_rows = r->count;
   report->near_singular = m->nc > 0 && r->rank_at_start < r->rank;
+  baum_status status = BAUM_OK;
   say(report, "%d %s, %d coordinates, %d constraint rows.", report->degrees_of_freedom,
       report->degrees_of_freedom == 1 ? "degree of freedom" : "degrees of freedom", m->nv, m->nc);
   if (r->count > 0) {
     char names[512] = "";
-    status = baum_i_position_stage(w, 0.0, q);
-    status = status == BAUM_OK ? baum_i_redundancy_text(w, names, sizeof names) : status;
+    BAUM_I_TRY(baum_i_position_stage(w, 0.0, q));
+    status = baum_i_redundancy_text(w, names, sizeof names);
     say(report, " %d redundant %s%s%s.", r->count, r->count == 1 ? "row" : "rows",
         names[0] ? " among " : "", names);
     status = status == BAUM_ERR_SINGULAR ? BAUM_OK : status; /* then without names */

@@ -13,13 +13,13 @@
 #include "dynamics/block_path.h"
 #include "linear/block_pull.h"
 
-static baum_status solve_by_blocks(const baum_i_block_path *path, const double *x, double *out)
+/* out = factor times what corrects the block's right side. */
+static baum_status solve_by_blocks(const baum_i_block_path *path, double factor, double *out)
 {
-  baum_i_block_pull(path->block, x);
   (void)path->kernel->correct(path->block);
   bool finite = path->kernel->read_motion(path->block, out);
   for (int i = 0; i < path->block->structure->nv; i++) {
-    out[i] = -out[i];
+    out[i] *= factor;
   }
   return finite ? BAUM_OK : BAUM_ERR_NOT_FINITE;
 }
@@ -30,27 +30,15 @@ static baum_status solve_whole(baum_workspace *w, const double *rows, double *ou
   return baum_i_kkt_solve(w->kkt, w->work_v, rows, out, w->work_c + w->mechanism->nc);
 }
 
-static baum_status solve_rows_by_blocks(const baum_i_block_path *path, const double *rows,
-                                        double *out)
-{
-  baum_i_block_set_rest(path->block, rows);
-  (void)path->kernel->correct(path->block);
-  return path->kernel->read_motion(path->block, out) ? BAUM_OK : BAUM_ERR_NOT_FINITE;
-}
-
-static baum_status give_nothing(const baum_workspace *w, double *out)
-{
-  memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
-  return BAUM_OK;
-}
-
 baum_status baum_i_normal_part(baum_workspace *w, const double *x, double *out)
 {
   if (w->mechanism->nc == 0) {
-    return give_nothing(w, out);
+    memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
+    return BAUM_OK;
   }
   if (w->solved_by) {
-    return solve_by_blocks(w->solved_by, x, out);
+    baum_i_block_pull(w->solved_by->block, x);
+    return solve_by_blocks(w->solved_by, -1.0, out);
   }
   memset(w->work_c, 0, (size_t)w->mechanism->nc * sizeof *w->work_c);
   baum_i_jacobian_times(&w->structure, w->jacobian, x, w->work_c);
@@ -60,7 +48,12 @@ baum_status baum_i_normal_part(baum_workspace *w, const double *x, double *out)
 baum_status baum_i_least_with_rows(baum_workspace *w, const double *rows, double *out)
 {
   if (w->mechanism->nc == 0) {
-    return give_nothing(w, out);
+    memset(out, 0, (size_t)w->mechanism->nv * sizeof *out);
+    return BAUM_OK;
   }
-  return w->solved_by ? solve_rows_by_blocks(w->solved_by, rows, out) : solve_whole(w, rows, out);
+  if (w->solved_by) {
+    baum_i_block_set_rest(w->solved_by->block, rows);
+    return solve_by_blocks(w->solved_by, 1.0, out);
+  }
+  return solve_whole(w, rows, out);
 }

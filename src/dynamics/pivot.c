@@ -14,26 +14,26 @@
 #include "dynamics/block_path.h"
 
 /* A light rotation lets the diagonal of S alone come and go with the direction of the arm. */
-static double pivot_of_pin(const baum_i_block *block, int k)
+static double size_of_pin(const baum_i_block *block, int k)
 {
   const baum_i_node *node = &block->nodes[block->pins[k].node];
   const double *arm = block->arm + 4 * (ptrdiff_t)k;
   const double *weight = block->pin_weight + 4 * (ptrdiff_t)k;
   double off = weight[1] * arm[0] * arm[1] + weight[3] * arm[2] * arm[3];
-  return 1.0 / fabs(node->inverse * (node->size - off * off));
+  return node->size - off * off;
 }
 
-static double pivot_of_full(const baum_i_block *block, int k)
+/* The pivot of a node, whose share of the matrix was of this size before the elimination; keeps the
+ * smallest and its row. What is no number comes from a zero before. */
+static void compare_pivot(const baum_i_node *node, double size, int first_row, double *smallest,
+                          int *row)
 {
-  const baum_i_node *node = &block->nodes[block->fulls[k].node];
-  return 1.0 / fabs(node->inverse * node->size);
-}
-
-/* What is no number comes from a zero before. */
-static bool is_smaller(double *pivot, double than)
-{
-  *pivot = isnan(*pivot) ? 0.0 : *pivot;
-  return *pivot < than;
+  double pivot = 1.0 / fabs(node->inverse * size);
+  pivot = isnan(pivot) ? 0.0 : pivot;
+  if (pivot < *smallest) {
+    *smallest = pivot;
+    *row = first_row;
+  }
 }
 
 /* And its first row, -1: none below 1. */
@@ -42,18 +42,12 @@ static double smallest_of_blocks(const baum_i_block *block, int *row)
   double smallest = 1.0;
   *row = -1;
   for (int k = 0; k < block->pin_count; k++) {
-    double pivot = pivot_of_pin(block, k);
-    if (is_smaller(&pivot, smallest)) {
-      smallest = pivot;
-      *row = block->pins[k].row;
-    }
+    const baum_i_node *node = &block->nodes[block->pins[k].node];
+    compare_pivot(node, size_of_pin(block, k), block->pins[k].row, &smallest, row);
   }
   for (int k = 0; k < block->full_count; k++) {
-    double pivot = pivot_of_full(block, k);
-    if (is_smaller(&pivot, smallest)) {
-      smallest = pivot;
-      *row = block->fulls[k].row[0];
-    }
+    const baum_i_node *node = &block->nodes[block->fulls[k].node];
+    compare_pivot(node, node->size, block->fulls[k].row[0], &smallest, row);
   }
   return smallest;
 }

@@ -25,64 +25,17 @@ static const double STALLED = 8.0 * DBL_EPSILON;
 /* Such a violation, as a displacement, of the largest coordinate. */
 static const double NOISE = 64.0 * DBL_EPSILON;
 
-/* Solve with right side (0, w->rhs); the change is in w->a. */
-static baum_status least_change(baum_workspace *w)
-{
-  const baum_i_kkt_values values = {
-    .mass = w->mass, .jacobian = w->jacobian, .omitted = baum_i_omitted_rows(w)};
-  memset(w->force, 0, (size_t)w->mechanism->nv * sizeof *w->force);
-  baum_status status =
-    baum_i_kkt_factor_and_solve(w->kkt, &values, w->force, w->rhs, w->a, w->lambda);
-  w->solved_by = NULL;
-  if (status == BAUM_ERR_SINGULAR) {
-    return baum_i_fail(status, "t = %.9g s: projection: the constraints are singular here",
-                       w->point.t);
-  }
-  if (status == BAUM_ERR_NOT_FINITE) {
-    return baum_i_fail_not_finite(w);
-  }
-  baum_i_rest_fixed_bodies(w->mechanism, w->a);
-  return status;
-}
-
 /* Steps below it are rounding of the coordinates: far from the origin, or after many turns. */
 static double rounding_of(const baum_mechanism *m, const double *q)
 {
   return 8.0 * DBL_EPSILON * baum_i_position_size(m, q);
 }
 
-/* Change of the positions that takes -Phi away, to first order, into w->a. */
-static baum_status change_of_positions(baum_workspace *w, double t, const double *q)
-{
-  static const baum_i_right_side right = {.stiffness = 1.0};
-  baum_status status =
-    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, NULL, &right) : BAUM_ERR_SINGULAR;
-  if (status != BAUM_ERR_SINGULAR) {
-    return status;
-  }
-  BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = -w->phi[i];
-  }
-  return least_change(w);
-}
-
 baum_status baum_i_change_of_velocities(baum_workspace *w, double t, const double *q,
                                         const double *v)
 {
   static const baum_i_right_side right = {.damping = 1.0};
-  baum_status status =
-    w->motion ? baum_i_block_path_solve(w, w->motion, t, q, v, &right) : BAUM_ERR_SINGULAR;
-  if (status != BAUM_ERR_SINGULAR) {
-    return status;
-  }
-  BAUM_I_TRY(baum_i_position_stage(w, t, q));
-  memset(w->rhs, 0, (size_t)w->mechanism->nc * sizeof *w->rhs);
-  baum_i_jacobian_times(&w->structure, w->jacobian, v, w->rhs);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = w->nu[i] - w->rhs[i];
-  }
-  return least_change(w);
+  return baum_i_solve_motion(w, t, q, v, &right);
 }
 
 /* Is the violation that q has nothing but rounding? */
@@ -90,27 +43,23 @@ static baum_status is_at_rounding(baum_workspace *w, double t, const double *q, 
 {
   const baum_mechanism *m = w->mechanism;
   double most = NOISE * fmax(1.0, baum_i_position_size(m, q));
-  baum_status status = baum_i_position_stage(w, t, q);
-  *is = status == BAUM_OK;
-  if (*is) {
-    baum_i_row_displacements(w, w->rhs);
-  }
+  BAUM_I_TRY(baum_i_position_stage(w, t, q));
+  baum_i_row_displacements(w, w->rhs);
+  *is = true;
   for (int i = 0; i < m->nc && *is; i++) {
     *is = w->rows.omitted[i] || fabs(w->phi[i]) <= most * w->rhs[i];
   }
-  return status;
+  return BAUM_OK;
 }
 
 static baum_status project_positions(baum_workspace *w, double t, double *q)
 {
+  static const baum_i_right_side right = {.stiffness = 1.0};
   const baum_mechanism *m = w->mechanism;
   double last = INFINITY;
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
-    baum_status status = change_of_positions(w, t, q);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(baum_i_solve_motion(w, t, q, NULL, &right));
     baum_i_move(m, 1.0, w->a, q);
     size = baum_i_scaled_size(m, w->a);
     if (size <= fmax(CONVERGED, rounding_of(m, q))) {
@@ -123,26 +72,22 @@ static baum_status project_positions(baum_workspace *w, double t, double *q)
   }
   bool stalled = false;
   if (size <= STALLED * m->nc * fmax(1.0, baum_i_position_size(m, q))) {
-    baum_status status = is_at_rounding(w, t, q, &stalled);
-    if (status != BAUM_OK || stalled) {
-      return status;
-    }
+    BAUM_I_TRY(is_at_rounding(w, t, q, &stalled));
   }
-  return baum_i_fail(
-    BAUM_ERR_CONVERGENCE,
-    "t = %.9g s: projection of the positions does not converge (last change %.3g of "
-    "the scale): the step is too large or the configuration is near a singular one",
-    t, last);
+  return stalled ? BAUM_OK
+                 : baum_i_fail(BAUM_ERR_CONVERGENCE,
+                               "t = %.9g s: projection of the positions does not converge (last "
+                               "change %.3g of the scale): the step is too large or the "
+                               "configuration is near a singular one",
+                               t, last);
 }
 
 static baum_status project_velocities(baum_workspace *w, double t, const double *q, double *v)
 {
   baum_i_rest_fixed_bodies(w->mechanism, v);
-  baum_status status = baum_i_change_of_velocities(w, t, q, v);
-  for (int i = 0; i < w->mechanism->nv && status == BAUM_OK; i++) {
-    v[i] += w->a[i];
-  }
-  return status;
+  BAUM_I_TRY(baum_i_change_of_velocities(w, t, q, v));
+  baum_i_add_scaled(w->mechanism->nv, 1.0, w->a, v);
+  return BAUM_OK;
 }
 
 baum_status baum_i_project_velocities(baum_workspace *workspace, double t, const double *q,
@@ -196,15 +141,13 @@ baum_status baum_i_check_left_out(baum_workspace *w, double t, const double *q, 
   if (w->rows.count == 0) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_violation(w, t, q, v);
+  BAUM_I_TRY(baum_i_violation(w, t, q, v));
   baum_i_row_displacements(w, w->work_c);
-  for (int i = 0; i < w->mechanism->nc && status == BAUM_OK; i++) {
+  for (int i = 0; i < w->mechanism->nc; i++) {
     double distance = w->work_c[i];
     bool is_off = fabs(w->phi[i]) > NEGLIGIBLE * distance ||
                   fabs(w->phi_rate[i]) > NEGLIGIBLE * (speed * distance + fabs(w->nu[i]));
-    if (w->rows.omitted[i] && is_off) {
-      status = fail_left_out(w, i);
-    }
+    BAUM_I_TRY(w->rows.omitted[i] && is_off ? fail_left_out(w, i) : BAUM_OK);
   }
-  return status;
+  return BAUM_OK;
 }

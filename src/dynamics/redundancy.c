@@ -131,10 +131,10 @@ static baum_status find_direction(const search *s, double *size)
   for (int i = 0; i < m->nv; i++) {
     p[i] = push * baum_i_golden(i + 1) * m->scale[i];
   }
-  baum_status status = solve_direction(s, p, w->rhs);
+  BAUM_I_TRY(solve_direction(s, p, w->rhs));
   *size = baum_i_scaled_size(m, s->x);
   *size = *size > 1e-6 * push ? *size : 0.0;
-  return status;
+  return BAUM_OK;
 }
 
 /* One neighbour; a configuration that cannot be assembled is passed over. */
@@ -165,10 +165,7 @@ static baum_status look_around(search *s, double t, const double *q)
     return BAUM_OK;
   }
   for (int k = 0; k < NEIGHBOURS; k++) {
-    status = look_at_neighbour(s, t, q, DISTANCE[k] / size);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(look_at_neighbour(s, t, q, DISTANCE[k] / size));
   }
   return BAUM_OK;
 }
@@ -191,12 +188,7 @@ static baum_status find(search *s, double t, const double *q)
   memcpy(s->start, q, (size_t)s->w->mechanism->nq * sizeof *q);
   baum_status status = baum_i_assemble(s->w, t, s->start, NULL, NULL);
   bool fits = status == BAUM_OK;
-  if (status != BAUM_ERR_MEMORY) {
-    status = rank_at(s, t, s->start, &rank);
-  }
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(status == BAUM_ERR_MEMORY ? status : rank_at(s, t, s->start, &rank));
   keep_set(s, &rank);
   r->rank_at_start = rank.all;
   if (rank.clear == nc) {
@@ -208,14 +200,12 @@ static baum_status find(search *s, double t, const double *q)
   }
   status = look_around(s, t, s->start);
   r->rank_at_start = is_better(&s->kept, &rank) ? rank.clear : rank.all;
-  if (status == BAUM_OK && r->count > 0) {
-    status = baum_i_keep_rows_apart(s->w, t, s->start);
+  if (status != BAUM_OK || r->count == 0) {
+    return status;
   }
+  BAUM_I_TRY(baum_i_keep_rows_apart(s->w, t, s->start));
   baum_i_kkt **kkt = &s->w->sharing.kkt;
-  if (status == BAUM_OK && r->count > 0 && !*kkt) {
-    status = baum_i_kkt_create(&s->w->structure, s->w->choice, kkt);
-  }
-  return status;
+  return *kkt ? BAUM_OK : baum_i_kkt_create(&s->w->structure, s->w->choice, kkt);
 }
 
 baum_status baum_i_find_rows(baum_workspace *workspace, double t, const double *q)

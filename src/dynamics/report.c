@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What an evaluation of a mechanism costs and which work it skips, in numbers and in words. */
-#include <stdarg.h>
 #include <string.h>
 
 #include "base/alloc.h"
@@ -63,26 +62,12 @@ static baum_status report_islands(const baum_mechanism *m, baum_report *report)
 
 /* ---- the solver ---- */
 
-/* joints (body_count + 1) of each body */
-static void count_joints(const baum_mechanism *m, int *joints)
-{
-  for (int k = 0; k < m->joint_count; k++) {
-    const baum_i_span *span = &m->joints[k]->span;
-    for (int i = 0; i < span->body_count; i++) {
-      joints[span->bodies[i]]++;
-    }
-  }
-}
-
 /* Of the bodies that are not fixed. */
 static baum_status find_most_joined(const baum_workspace *w, baum_report *report)
 {
   const baum_mechanism *m = w->mechanism;
-  int *joints = baum_i_alloc((size_t)m->body_count + 1, sizeof *joints);
-  if (!joints) {
-    return baum_i_fail_memory();
-  }
-  count_joints(m, joints);
+  int *joints = NULL;
+  BAUM_I_TRY(baum_i_count_joints(m, &joints));
   for (int i = 1; i <= m->body_count; i++) {
     if (!m->bodies[i]->fixed && joints[i] > report->most_joints) {
       report->most_joints = joints[i];
@@ -136,39 +121,36 @@ static baum_status report_solver(const baum_workspace *w, baum_report *report)
 
 /* ---- skipped work ---- */
 
-/* One more thing; the line is begun by the first. */
-static void BAUM_I_PRINTF(3, 4) spare(baum_report *report, int *count, const char *format, ...)
+/* What begins the line, and what parts one thing from the next. */
+static const char *next_skipped(int *count)
 {
-  char text[160];
-  va_list arguments;
-  va_start(arguments, format);
-  (void)baum_i_format(text, sizeof text, format, arguments);
-  va_end(arguments);
-  say(report, "%s%s", (*count)++ > 0 ? "; " : "skipped       ", text);
+  return (*count)++ > 0 ? "; " : "skipped       ";
 }
 
-static void report_spared(const baum_mechanism *m, baum_report *report)
+static void report_skipped(const baum_mechanism *m, baum_report *report)
 {
   int count = 0;
   report->constant_mass = m->constant_mass;
   report->constant_force = baum_i_has_constant_force(m);
   if (report->constant_mass) {
-    spare(report, &count, "masses are constant%s", report->blocks ? ", inverted once" : "");
+    say(report, "%smasses are constant%s", next_skipped(&count),
+        report->blocks ? ", inverted once" : "");
   }
   if (report->constant_force) {
-    spare(report, &count, "forces are constant%s", report->blocks ? ", set once" : "");
+    say(report, "%sforces are constant%s", next_skipped(&count),
+        report->blocks ? ", set once" : "");
   }
   if (report->constant_rows > 0) {
-    spare(report, &count, "%d of %d row%s have no time derivatives", report->constant_rows, m->nc,
-          plural(m->nc));
+    say(report, "%s%d of %d row%s have no time derivatives", next_skipped(&count),
+        report->constant_rows, m->nc, plural(m->nc));
   }
   if (report->redundant_rows > 0) {
-    spare(report, &count, "%d redundant row%s", report->redundant_rows,
-          plural(report->redundant_rows));
+    say(report, "%s%d redundant row%s", next_skipped(&count), report->redundant_rows,
+        plural(report->redundant_rows));
   }
   if (report->fixed_bodies > 0) {
-    spare(report, &count, "%d fixed bod%s", report->fixed_bodies,
-          report->fixed_bodies == 1 ? "y" : "ies");
+    say(report, "%s%d fixed bod%s", next_skipped(&count), report->fixed_bodies,
+        report->fixed_bodies == 1 ? "y" : "ies");
   }
   if (count == 0) {
     say(report, "skipped       nothing");
@@ -194,7 +176,7 @@ static baum_status look(baum_workspace *w, double *q, void *whole)
   report_sizes(w, assembled, report);
   BAUM_I_TRY(report_islands(w->mechanism, report));
   BAUM_I_TRY(report_solver(w, report));
-  report_spared(w->mechanism, report);
+  report_skipped(w->mechanism, report);
   return BAUM_OK;
 }
 

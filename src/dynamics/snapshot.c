@@ -11,12 +11,9 @@ static baum_status look_at(const baum_mechanism *mechanism, baum_i_look *look,
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_workspace *w = NULL;
-  baum_status status = baum_workspace_create(mechanism, &w);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_workspace_create(mechanism, &w));
   double *q = baum_i_alloc((size_t)mechanism->nq + (size_t)mechanism->nv, sizeof *q);
-  status = q ? look(w, q, to->whole) : baum_i_fail_memory();
+  baum_status status = q ? look(w, q, to->whole) : baum_i_fail_memory();
   if (status == BAUM_OK) {
     baum_i_give_sized(to->out, to->caller_size, to->whole, to->size);
   }
@@ -30,10 +27,8 @@ static baum_status look_at_copy(const baum_mechanism *mechanism, baum_i_look *lo
                                 const baum_i_snapshot_out *to)
 {
   baum_mechanism *copy = NULL;
-  baum_status status = baum_mechanism_copy(mechanism, &copy);
-  if (status == BAUM_OK) {
-    status = baum_mechanism_freeze(copy);
-  }
+  BAUM_I_TRY(baum_mechanism_copy(mechanism, &copy));
+  baum_status status = baum_mechanism_freeze(copy);
   if (status == BAUM_OK) {
     status = look_at(copy, look, to);
   }

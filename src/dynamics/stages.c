@@ -9,9 +9,9 @@ baum_status baum_i_evaluate_mass(baum_workspace *w)
   if (w->mass_ready) {
     return BAUM_OK;
   }
-  baum_status status = baum_i_mechanism_mass(&w->point, w->mass);
-  w->mass_ready = status == BAUM_OK && w->mechanism->constant_mass;
-  return status;
+  BAUM_I_TRY(baum_i_mechanism_mass(&w->point, w->mass));
+  w->mass_ready = w->mechanism->constant_mass;
+  return BAUM_OK;
 }
 
 /* Phi' = J v - nu (3) */
@@ -25,24 +25,12 @@ static void evaluate_rate(baum_workspace *w, const double *v)
 
 baum_status baum_i_need_jacobian(baum_workspace *w)
 {
-  if (w->jacobian_ready) {
-    return BAUM_OK;
-  }
-  baum_status status = baum_i_mechanism_jacobian(&w->point, w->jacobian);
-  w->jacobian_ready = status == BAUM_OK;
-  return status;
+  BAUM_I_TRY(w->jacobian_ready ? BAUM_OK : baum_i_mechanism_jacobian(&w->point, w->jacobian));
+  w->jacobian_ready = true;
+  return BAUM_OK;
 }
 
-baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
-{
-  baum_i_point_set(&w->point, t, q, NULL);
-  const baum_i_rows rows = {.phi = w->phi, .jacobian = w->jacobian, .nu = w->nu};
-  baum_status status = baum_i_mechanism_rows(&w->point, &rows);
-  w->jacobian_ready = status == BAUM_OK;
-  return status == BAUM_OK ? baum_i_evaluate_mass(w) : status;
-}
-
-/* Rows at (t, q, v) and Phi'. */
+/* Rows at (t, q), and with v Phi'. */
 static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, const double *v,
                                  bool with_gamma)
 {
@@ -51,10 +39,16 @@ static baum_status evaluate_rows(baum_workspace *w, double t, const double *q, c
     .phi = w->phi, .jacobian = w->jacobian, .nu = w->nu, .gamma = with_gamma ? w->gamma : NULL};
   baum_status status = baum_i_mechanism_rows(&w->point, &rows);
   w->jacobian_ready = status == BAUM_OK;
-  if (status == BAUM_OK) {
+  if (status == BAUM_OK && v) {
     evaluate_rate(w, v);
   }
   return status;
+}
+
+baum_status baum_i_position_stage(baum_workspace *w, double t, const double *q)
+{
+  BAUM_I_TRY(evaluate_rows(w, t, q, NULL, false));
+  return baum_i_evaluate_mass(w);
 }
 
 baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const double *v)
@@ -64,11 +58,9 @@ baum_status baum_i_violation(baum_workspace *w, double t, const double *q, const
 
 baum_status baum_i_velocity_stage(baum_workspace *w, double t, const double *q, const double *v)
 {
-  baum_status status = evaluate_rows(w, t, q, v, true);
-  if (status == BAUM_OK) {
-    status = baum_i_evaluate_mass(w);
-  }
-  return status == BAUM_OK ? baum_i_mechanism_force(&w->point, w->force) : status;
+  BAUM_I_TRY(evaluate_rows(w, t, q, v, true));
+  BAUM_I_TRY(baum_i_evaluate_mass(w));
+  return baum_i_mechanism_force(&w->point, w->force);
 }
 
 void baum_i_clear_fixed_rows(baum_workspace *w)

@@ -92,16 +92,13 @@ static baum_status compress(baum_i_step_matrix *matrix, const baum_i_places *pla
 
 static baum_status make(const baum_workspace *w, baum_i_step_matrix *matrix)
 {
-  baum_status status = baum_i_residual_matrix_create(w, BAUM_RESIDUAL_INDEX3, &matrix->form);
-  if (status != BAUM_OK) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_residual_matrix_create(w, BAUM_RESIDUAL_INDEX3, &matrix->form));
   size_t full = (size_t)baum_i_residual_matrix_nonzeros(matrix->form);
   matrix->n = w->mechanism->nv + w->mechanism->nc;
   matrix->full = baum_i_alloc(full, sizeof *matrix->full);
   matrix->routes = baum_i_alloc(full, sizeof *matrix->routes);
   baum_i_places places;
-  status = baum_i_places_create(full, &places);
+  baum_status status = baum_i_places_create(full, &places);
   if (status == BAUM_OK && matrix->full && matrix->routes) {
     list_places(matrix, w->mechanism->nv, &places);
     status = compress(matrix, &places);
@@ -143,16 +140,9 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   double c = ratios->by_a / ratios->by_v;
-  baum_status status =
-    baum_i_residual_matrix_fill(matrix->form, w, &dae, c, t, y, dy, matrix->full);
-  if (status != BAUM_OK) {
-    return status;
-  }
-  double factors[FACTORS];
-  factors[BY_NOTHING] = 0.0;
-  factors[BY_SCALE] = ratios->scale;
-  factors[BY_SCALE_V] = ratios->scale * ratios->by_v;
-  factors[BY_ONE] = 1.0;
+  BAUM_I_TRY(baum_i_residual_matrix_fill(matrix->form, w, &dae, c, t, y, dy, matrix->full));
+  const double factors[FACTORS] = {
+    [BY_SCALE] = ratios->scale, [BY_SCALE_V] = ratios->scale * ratios->by_v, [BY_ONE] = 1.0};
   int32_t full = baum_i_residual_matrix_nonzeros(matrix->form);
   memset(matrix->values, 0, (size_t)matrix->nonzeros * sizeof *matrix->values);
   for (int32_t k = 0; k < full; k++) {
@@ -161,7 +151,7 @@ baum_status baum_i_step_matrix_factor(baum_i_step_matrix *matrix, baum_workspace
       matrix->values[r->to] += factors[r->factor] * matrix->full[k];
     }
   }
-  status = baum_i_sparse_lu_factor(matrix->lu, matrix->values);
+  baum_status status = baum_i_sparse_lu_factor(matrix->lu, matrix->values);
   return status == BAUM_ERR_MEMORY ? baum_i_fail_memory() : status;
 }
 

@@ -113,18 +113,11 @@ static void hold_inputs(baum_workspace *w)
 static baum_status fill(baum_workspace *w, baum_i_kkt_choice choice)
 {
   w->choice = choice;
-  baum_status status = baum_i_point_create(w->mechanism, &w->point);
-  if (status == BAUM_OK) {
-    status = make_arrays(w);
-  }
-  if (status == BAUM_OK) {
-    hold_inputs(w);
-    status = make_structure(w);
-  }
-  if (status == BAUM_OK) {
-    status = baum_i_kkt_create(&w->structure, choice, &w->kkt);
-  }
-  return status;
+  BAUM_I_TRY(baum_i_point_create(w->mechanism, &w->point));
+  BAUM_I_TRY(make_arrays(w));
+  hold_inputs(w);
+  BAUM_I_TRY(make_structure(w));
+  return baum_i_kkt_create(&w->structure, choice, &w->kkt);
 }
 
 baum_status baum_i_workspace_create(const baum_mechanism *mechanism, baum_i_kkt_choice choice,

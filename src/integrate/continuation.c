@@ -84,33 +84,31 @@ static bool is_kept(const baum_workspace *w, int row)
   return !w->rows.omitted[row];
 }
 
-/* Refusals are no failures: BAUM_OK, and the reason in the verdict. */
-static baum_status refuse(baum_i_verdict *verdict, baum_i_refusal refusal)
+static bool refuse(baum_i_verdict *verdict, baum_i_refusal refusal, baum_status status)
 {
   verdict->refusal = refusal;
-  return BAUM_OK;
+  verdict->status = status;
+  return false;
 }
 
-/* What an evaluation answered: may a shorter step help? */
-static baum_status sort_out(const baum_workspace *w, baum_status status, baum_i_verdict *verdict)
+/* Judge an evaluation: may a shorter step help where it failed? */
+static bool accept_evaluation(const baum_workspace *w, baum_status status, baum_i_verdict *verdict)
 {
   bool may_retry = (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) && w->point.retry;
-  if (!may_retry) {
-    return status;
-  }
-  verdict->evaluation = status;
-  return refuse(verdict, BAUM_I_REFUSAL_EVALUATION);
+  return status == BAUM_OK ||
+         refuse(verdict, may_retry ? BAUM_I_REFUSAL_EVALUATION : BAUM_I_REFUSAL_STOP, status);
 }
 
-static baum_status sort_out_solution(baum_status status, baum_i_verdict *verdict)
+static bool accept_solution(baum_status status, baum_i_verdict *verdict)
 {
   switch ((int)status) {
-  case BAUM_ERR_SINGULAR: return refuse(verdict, BAUM_I_REFUSAL_SINGULAR);
+  case BAUM_OK: return true;
+  case BAUM_ERR_SINGULAR: return refuse(verdict, BAUM_I_REFUSAL_SINGULAR, status);
   case BAUM_ERR_NOT_FINITE:
-    verdict->evaluation =
-      baum_i_fail(status, "a constraint, its Jacobian or a mass has a value that is nan or inf");
-    return refuse(verdict, BAUM_I_REFUSAL_EVALUATION);
-  default: return status;
+    (void)baum_i_fail(status,
+                      "a constraint, its Jacobian or a mass has a value that is nan or inf");
+    return refuse(verdict, BAUM_I_REFUSAL_EVALUATION, status);
+  default: return refuse(verdict, BAUM_I_REFUSAL_STOP, status);
   }
 }
 
@@ -176,23 +174,20 @@ static bool converges(int k, double size, double last)
 }
 
 /* To the configuration, at which the workspace is then left with its position stage. */
-static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
-                          baum_i_verdict *verdict)
+static bool find_root(const baum_i_continuation *path, baum_i_pose *pose, baum_i_verdict *verdict)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   double last = 0.0;
   for (int k = 0; k < ITERATIONS; k++) {
     double worst = 0.0;
-    baum_status status = look(path, pose, &worst);
-    if (status != BAUM_OK) {
-      return sort_out(path->workspace, status, verdict);
+    if (!accept_evaluation(path->workspace, look(path, pose, &worst), verdict)) {
+      return false;
     }
     if (worst <= ROUNDING) {
-      return BAUM_OK;
+      return true;
     }
-    status = correct(path);
-    if (status != BAUM_OK) {
-      return sort_out_solution(status, verdict);
+    if (!accept_solution(correct(path), verdict)) {
+      return false;
     }
     verdict->iterations++;
     double size = baum_i_scaled_size(m, path->image);
@@ -201,12 +196,12 @@ static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
     }
     if (!converges(k, size, last)) {
       bool is_noise = worst <= NOISE * fmax(1.0, baum_i_position_size(m, pose->q));
-      return is_noise ? BAUM_OK : refuse(verdict, BAUM_I_REFUSAL_FAR);
+      return is_noise || refuse(verdict, BAUM_I_REFUSAL_FAR, BAUM_OK);
     }
     baum_i_move(m, 1.0, path->image, pose->q);
     last = size;
   }
-  return refuse(verdict, BAUM_I_REFUSAL_FAR);
+  return refuse(verdict, BAUM_I_REFUSAL_FAR, BAUM_OK);
 }
 
 /* ---- guards ---- */
@@ -214,7 +209,8 @@ static baum_status newton(const baum_i_continuation *path, baum_i_pose *pose,
 /* Rows that were left out must follow from the others. */
 static bool all_follow(const baum_i_continuation *path, baum_i_verdict *verdict)
 {
-  return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE;
+  return path->workspace->rows.count == 0 || violation(path, false, &verdict->row) <= NEGLIGIBLE ||
+         refuse(verdict, BAUM_I_REFUSAL_LEFT_OUT, BAUM_OK);
 }
 
 /* Of size 1/2 to 1 and either sign. */
@@ -249,8 +245,8 @@ static void begin_probe(const baum_i_continuation *path, const baum_i_pose *from
   }
 }
 
-static baum_status measure_turning(const baum_i_continuation *path, const baum_i_pose *from,
-                                   baum_i_pose *pose, baum_i_verdict *verdict)
+static bool keeps_turning(const baum_i_continuation *path, const baum_i_pose *from,
+                          baum_i_pose *pose, baum_i_verdict *verdict)
 {
   const baum_mechanism *m = path->workspace->mechanism;
   begin_probe(path, from);
@@ -263,30 +259,26 @@ static baum_status measure_turning(const baum_i_continuation *path, const baum_i
     verdict->turning = fmax(verdict->turning, size / last);
     last = size;
   }
-  if (status != BAUM_OK) {
-    return sort_out_solution(status, verdict);
+  if (!accept_solution(status, verdict)) {
+    return false;
   }
   memcpy(pose->turn, path->probe, (size_t)m->nv * sizeof *pose->turn);
-  return verdict->turning <= TURNING ? BAUM_OK : refuse(verdict, BAUM_I_REFUSAL_TURNED);
+  return verdict->turning <= TURNING || refuse(verdict, BAUM_I_REFUSAL_TURNED, BAUM_OK);
 }
 
 /* ---- velocities and accelerations ---- */
 
 /* At the configuration in the workspace, whose J is factored. */
-static baum_status differentiate(const baum_i_continuation *path, baum_i_pose *pose,
-                                 baum_i_verdict *verdict)
+static bool differentiate(const baum_i_continuation *path, baum_i_pose *pose,
+                          baum_i_verdict *verdict)
 {
   baum_workspace *w = path->workspace;
-  baum_status status = solve(path, w->nu, pose->v);
-  if (status == BAUM_OK) {
-    baum_i_point_set(&w->point, pose->t, pose->q, pose->v);
-    status = baum_i_mechanism_gamma(&w->point, w->gamma);
-    if (status != BAUM_OK) {
-      return sort_out(w, status, verdict);
-    }
-    status = solve(path, w->gamma, pose->a);
+  if (!accept_solution(solve(path, w->nu, pose->v), verdict)) {
+    return false;
   }
-  return sort_out_solution(status, verdict);
+  baum_i_point_set(&w->point, pose->t, pose->q, pose->v);
+  return accept_evaluation(w, baum_i_mechanism_gamma(&w->point, w->gamma), verdict) &&
+         accept_solution(solve(path, w->gamma, pose->a), verdict);
 }
 
 /* ---- the step ---- */
@@ -305,33 +297,17 @@ baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pos
   return BAUM_OK;
 }
 
-static bool goes_on(baum_status status, const baum_i_verdict *verdict)
+bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
+                               baum_i_pose *pose, baum_i_verdict *verdict)
 {
-  return status == BAUM_OK && verdict->refusal == BAUM_I_REFUSAL_NONE;
-}
-
-baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
-                                      baum_i_pose *pose, baum_i_verdict *verdict)
-{
-  baum_workspace *w = path->workspace;
   *verdict = (baum_i_verdict){.refusal = BAUM_I_REFUSAL_NONE};
-  baum_status status = newton(path, pose, verdict);
-  if (goes_on(status, verdict) && !all_follow(path, verdict)) {
-    status = refuse(verdict, BAUM_I_REFUSAL_LEFT_OUT);
+  bool found = find_root(path, pose, verdict) && all_follow(path, verdict) &&
+               accept_solution(factor(path->workspace), verdict) &&
+               keeps_turning(path, from, pose, verdict) && differentiate(path, pose, verdict);
+  if (found) {
+    keep_jacobian(path->workspace, pose);
   }
-  if (goes_on(status, verdict)) {
-    status = sort_out_solution(factor(w), verdict);
-  }
-  if (goes_on(status, verdict)) {
-    status = measure_turning(path, from, pose, verdict);
-  }
-  if (goes_on(status, verdict)) {
-    status = differentiate(path, pose, verdict);
-  }
-  if (goes_on(status, verdict)) {
-    keep_jacobian(w, pose);
-  }
-  return status;
+  return found;
 }
 
 /* ---- impasse ---- */

@@ -25,16 +25,17 @@ typedef enum baum_i_refusal {
   BAUM_I_REFUSAL_SINGULAR, /* J cannot be factored */
   BAUM_I_REFUSAL_LEFT_OUT, /* a row that was left out as redundant is violated */
   BAUM_I_REFUSAL_EVALUATION, /* a function asks for a smaller step; baum_message() says which */
+  BAUM_I_REFUSAL_STOP,       /* what a function that stops the run answered, or BAUM_ERR_MEMORY */
 } baum_i_refusal;
 
 /* How a configuration was found, or why it was not. */
 typedef struct baum_i_verdict {
   baum_i_refusal refusal;
-  baum_status evaluation; /* the status of BAUM_I_REFUSAL_EVALUATION */
-  int iterations;         /* of Newton */
-  double contraction;     /* second correction over the first; 0 where one was enough */
-  double turning;         /* |I - J^-1 J_from| as far as probed */
-  int row;                /* of BAUM_I_REFUSAL_LEFT_OUT */
+  baum_status status; /* of BAUM_I_REFUSAL_EVALUATION and _STOP */
+  int iterations;     /* of Newton */
+  double contraction; /* second correction over the first; 0 where one was enough */
+  double turning;     /* |I - J^-1 J_from| as far as probed */
+  int row;            /* of BAUM_I_REFUSAL_LEFT_OUT */
 } baum_i_verdict;
 
 /* What is used on the way. */
@@ -66,11 +67,10 @@ void baum_i_continuation_close(baum_i_continuation *path);
 baum_status baum_i_continuation_mark(baum_i_continuation *path, baum_i_pose *pose);
 
 /* From the guess pose->q at configuration->t to the configuration: Newton, then v and a, guarded
- * against the configuration `from`, of which J and turn are used. BAUM_OK, and then
- * verdict->refusal tells whether the configuration is good; or what a function that stops the run
- * returned, BAUM_ERR_MEMORY. */
-baum_status baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
-                                      baum_i_pose *pose, baum_i_verdict *verdict);
+ * against the configuration `from`, of which J and turn are used. true: the configuration is good;
+ * else verdict->refusal says why not. */
+bool baum_i_continuation_solve(baum_i_continuation *path, const baum_i_pose *from,
+                               baum_i_pose *pose, baum_i_verdict *verdict);
 
 /* Look at a good configuration next to which none was found. */
 baum_status baum_i_continuation_explain(baum_i_continuation *path, const baum_i_pose *pose,

@@ -114,9 +114,7 @@ baum_status baum_i_cvode_newton_open(baum_i_cvode_newton *newton, baum_i_sundial
   size_t n = (size_t)baum_i_residual_size(m, BAUM_RESIDUAL_INDEX1);
   size_t count = 2 * n + (size_t)m->mass_size + (size_t)m->jacobian_size;
   newton->numbers = baum_i_alloc(count, sizeof *newton->numbers);
-  if (!newton->numbers) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(newton->numbers));
   newton->y = newton->numbers;
   newton->dy = newton->y + n;
   newton->mass = newton->dy + n;

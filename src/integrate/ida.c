@@ -123,14 +123,10 @@ static int solve(SUNLinearSolver solver, SUNMatrix matrix, N_Vector x, N_Vector 
 
 static baum_residual residual_of(baum_formulation formulation)
 {
-  switch (formulation) {
+  switch ((int)formulation) {
   case BAUM_FORMULATION_GGL: return BAUM_RESIDUAL_GGL;
   case BAUM_FORMULATION_INDEX2: return BAUM_RESIDUAL_INDEX2;
   case BAUM_FORMULATION_INDEX3: return BAUM_RESIDUAL_INDEX3;
-  case BAUM_FORMULATION_BAUMGARTE:
-  case BAUM_FORMULATION_UNSTABILIZED:
-  case BAUM_FORMULATION_PROJECTION:
-  case BAUM_FORMULATION_DEFAULT:
   default: return BAUM_RESIDUAL_INDEX1;
   }
 }
@@ -149,19 +145,13 @@ static double tightest(const ida_run *run, const baum_i_problem *problem)
 }
 
 /* Largest violation as a displacement, over the scale; of velocities, times 1/T. */
-static double violation_of(ida_run *run, const baum_i_problem *problem)
+static double violation_of(const ida_run *run, const baum_i_problem *problem)
 {
-  const baum_workspace *w = problem->workspace;
-  double *displacement = N_VGetArrayPointer(run->newton.displacement);
-  double positions = run->dae.index == BAUM_RESIDUAL_INDEX2 ? 0.0 : 1.0;
-  double largest = 0.0;
-  baum_i_row_displacements(w, displacement);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    double phi = positions * fabs(w->phi[i]) / displacement[i];
-    double rate = fabs(w->phi_rate[i]) / (displacement[i] * problem->rate);
-    largest = fmax(largest, fmax(phi, rate));
-  }
-  return largest;
+  int row = -1;
+  bool index2 = run->dae.index == BAUM_RESIDUAL_INDEX2;
+  double rate = baum_i_row_sizes(problem->workspace, problem->workspace->phi_rate, &row);
+  double phi = index2 ? 0.0 : baum_i_row_sizes(problem->workspace, problem->workspace->phi, &row);
+  return fmax(phi, rate / problem->rate);
 }
 
 /* What violates Phi = 0 or Phi' = 0 where these are among the equations would jump in the first

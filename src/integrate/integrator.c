@@ -77,16 +77,14 @@ bool baum_i_integrator_offers(const baum_integrator *integrator, baum_formulatio
 
 const char *baum_formulation_name(baum_formulation formulation)
 {
-  switch (formulation) {
-  case BAUM_FORMULATION_DEFAULT: return "default";
-  case BAUM_FORMULATION_UNSTABILIZED: return "unstabilized";
-  case BAUM_FORMULATION_BAUMGARTE: return "baumgarte";
-  case BAUM_FORMULATION_PROJECTION: return "projection";
-  case BAUM_FORMULATION_INDEX2: return "index2";
-  case BAUM_FORMULATION_GGL: return "ggl";
-  case BAUM_FORMULATION_INDEX3: return "index3";
-  default: return NULL;
-  }
+  static const char *const NAMES[] = {
+    [BAUM_FORMULATION_DEFAULT] = "default",     [BAUM_FORMULATION_UNSTABILIZED] = "unstabilized",
+    [BAUM_FORMULATION_BAUMGARTE] = "baumgarte", [BAUM_FORMULATION_PROJECTION] = "projection",
+    [BAUM_FORMULATION_INDEX2] = "index2",       [BAUM_FORMULATION_GGL] = "ggl",
+    [BAUM_FORMULATION_INDEX3] = "index3",
+  };
+  size_t k = (size_t)formulation;
+  return k < sizeof NAMES / sizeof *NAMES ? NAMES[k] : NULL;
 }
 
 /* ---- memory of a run ---- */
@@ -192,4 +190,17 @@ void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, d
     double tolerance = problem->rtol * mechanism->scale[i];
     tolerance_v[i] = problem->tolerance_v * (tolerance * rate + problem->atol);
   }
+}
+
+double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row)
+{
+  int nc = workspace->mechanism->nc;
+  double *size = workspace->work_c;
+  double largest = 0.0;
+  baum_i_row_displacements(workspace, size);
+  for (int i = 0; i < nc; i++) {
+    size[i] = fabs(rows[i]) / size[i];
+  }
+  *row = baum_i_largest(size, nc, &largest);
+  return largest;
 }

@@ -132,6 +132,10 @@ bool baum_i_problem_is_grid_step(const baum_i_problem *problem, double t, double
 void baum_i_problem_tolerances(const baum_i_problem *problem, const double *v, double *tolerance_q,
                                double *tolerance_v);
 
+/* |rows_i| of each row as a displacement of its scales into workspace->work_c (nc), at the point of
+ * the workspace, where J is; the largest of them, and its row or -1. */
+double baum_i_row_sizes(baum_workspace *workspace, const double *rows, int *row);
+
 /* Portion of rtol and atol that the error test of a method is given, <= 1. */
 double baum_i_integrator_portion(const baum_integrator *integrator, double rtol);
 

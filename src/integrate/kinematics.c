@@ -19,7 +19,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "base/message.h"
+#include "base/text.h"
 #include "integrate/continuation.h"
 #include "integrate/integrator.h"
 
@@ -61,15 +61,16 @@ typedef struct kinematics_run {
 
 /* ---- poses ---- */
 
+/* Numbers of a pose, which stand one behind the other from q on. */
+static size_t pose_size(const baum_mechanism *m)
+{
+  return (size_t)m->nq + 3 * (size_t)m->nv + (size_t)m->jacobian_size;
+}
+
 static void copy_pose(const baum_mechanism *m, const baum_i_pose *from, baum_i_pose *to)
 {
-  size_t size = (size_t)m->nv * sizeof(double);
   to->t = from->t;
-  memcpy(to->q, from->q, (size_t)m->nq * sizeof(double));
-  memcpy(to->v, from->v, size);
-  memcpy(to->a, from->a, size);
-  memcpy(to->turn, from->turn, size);
-  memcpy(to->jacobian, from->jacobian, (size_t)m->jacobian_size * sizeof(double));
+  memcpy(to->q, from->q, pose_size(m) * sizeof *to->q);
 }
 
 static void swap(baum_i_pose **a, baum_i_pose **b)
@@ -115,15 +116,15 @@ static void interpolate_guess(const kinematics_run *run, const baum_mechanism *m
 /* ---- steps ---- */
 
 /* A guess in configuration becomes a configuration; counted. */
-static baum_status solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
-                         baum_i_verdict *verdict)
+static bool solve(kinematics_run *run, const baum_i_pose *from, baum_i_pose *pose,
+                  baum_i_verdict *verdict)
 {
-  baum_status status = baum_i_continuation_solve(&run->path, from, pose, verdict);
+  bool found = baum_i_continuation_solve(&run->path, from, pose, verdict);
   run->statistics.nonlinear_iterations += verdict->iterations;
-  if (status == BAUM_OK && verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
+  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
     baum_i_message_keep(&run->evaluation);
   }
-  return status;
+  return found;
 }
 
 /* What a function answers knows nothing of time. */
@@ -157,29 +158,43 @@ static double shortest_step(const baum_i_problem *problem, double t)
 
 static const char *label_of(const baum_mechanism *m, int joint, char text[BAUM_I_LABEL_SIZE])
 {
-  memcpy(text, "no joint", sizeof "no joint");
-  return joint >= 0 ? baum_i_joint_label(m, joint, text) : text;
+  return joint >= 0 ? baum_i_joint_label(m, joint, text) : baum_i_row_label(m, -1, text);
 }
 
 static baum_status fail_singular(const baum_mechanism *m, double t, const baum_i_impasse *at)
 {
   char driver[BAUM_I_LABEL_SIZE];
   char resister[BAUM_I_LABEL_SIZE];
-  (void)label_of(m, at->driver, driver);
-  (void)label_of(m, at->resister, resister);
   if (at->driver >= 0 && at->pull > FOLD_PULL) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
       "t = %.9g s: kinematics: the mechanism locks up here: %s asks for more than "
       "the other constraints allow, the first of them %s; beyond this time no pose "
       "fulfils them all",
-      t, driver, resister);
+      t, label_of(m, at->driver, driver), label_of(m, at->resister, resister));
   }
   return baum_i_fail(
     BAUM_ERR_SINGULAR,
     "t = %.9g s: kinematics: the configuration is singular here and the motion may go on in "
     "more than one way, which shows most in %s; what is driven does not tell which",
-    t, resister);
+    t, label_of(m, at->resister, resister));
+}
+
+/* Fail where no step from a configuration was short enough, or none began there (h = 0), unless the
+ * reason is a fault of the configuration's surroundings: then BAUM_OK, and *at tells of them. */
+static baum_status fail_for_cause(kinematics_run *run, const baum_i_pose *pose,
+                                  const baum_i_verdict *verdict, const char *when,
+                                  baum_i_impasse *at)
+{
+  if (verdict->refusal == BAUM_I_REFUSAL_STOP) {
+    return say_when(pose, verdict->status);
+  }
+  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
+    return baum_i_fail(verdict->status, "t = %.9g s: kinematics: %s: %.800s", pose->t, when,
+                       run->evaluation.text);
+  }
+  baum_status status = baum_i_continuation_explain(&run->path, pose, at);
+  return status == BAUM_ERR_SINGULAR ? BAUM_OK : say_when(pose, status);
 }
 
 /* No step was short enough. */
@@ -189,24 +204,19 @@ static baum_status fail(kinematics_run *run, const baum_i_problem *problem,
   const baum_mechanism *m = problem->workspace->mechanism;
   double t = run->right->t;
   baum_i_impasse at;
-  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
-    return baum_i_fail(verdict->evaluation, "t = %.9g s: kinematics: in a step of %.3g s: %.800s",
-                       t, h, run->evaluation.text);
-  }
-  baum_status status = baum_i_continuation_explain(&run->path, run->right, &at);
-  if (status != BAUM_OK && status != BAUM_ERR_SINGULAR) {
-    return say_when(run->right, status);
-  }
+  char label[BAUM_I_LABEL_SIZE];
+  char when[48];
+  baum_i_print(when, sizeof when, "in a step of %.3g s", h);
+  BAUM_I_TRY(fail_for_cause(run, run->right, verdict, when, &at));
   if (!(at.gain < SINGULAR_GAIN)) {
     return fail_singular(m, t, &at);
   }
-  char label[BAUM_I_LABEL_SIZE];
   if (verdict->refusal == BAUM_I_REFUSAL_LEFT_OUT) {
     return baum_i_fail(
       BAUM_ERR_CONVERGENCE,
       "t = %.9g s: kinematics: a row of %s that was left out as redundant does not "
       "follow from the others any longer",
-      t, label_of(m, baum_i_row_joint(m, verdict->row), label));
+      t, baum_i_row_label(m, verdict->row, label));
   }
   return baum_i_fail(BAUM_ERR_CONVERGENCE,
                      "t = %.9g s: kinematics: no pose is found close by, however small the step "
@@ -227,14 +237,14 @@ static baum_status step(kinematics_run *run, const baum_i_problem *problem, cons
     bool last = *h >= fabs(t_end - from->t);
     to->t = last ? t_end : from->t + problem->direction * *h;
     extrapolate(m, from, to->t, to->q, run->path.image);
-    baum_status status = solve(run, from, to, &verdict);
-    if (status != BAUM_OK) {
-      return say_when(from, status);
+    bool found = solve(run, from, to, &verdict);
+    if (verdict.refusal == BAUM_I_REFUSAL_STOP) {
+      return say_when(from, verdict.status);
     }
     double tried = fabs(to->t - from->t);
     double factor = change(&verdict);
-    *h = tried * (verdict.refusal == BAUM_I_REFUSAL_NONE ? fmin(factor, longest * GROWTH) : factor);
-    if (verdict.refusal == BAUM_I_REFUSAL_NONE) {
+    *h = tried * (found ? fmin(factor, longest * GROWTH) : factor);
+    if (found) {
       return BAUM_OK;
     }
     run->statistics.rejected++;
@@ -272,11 +282,11 @@ static baum_status solve_inside(kinematics_run *run, const baum_i_problem *probl
   baum_i_verdict verdict;
   run->trial->t = t;
   interpolate_guess(run, m, t, run->trial->q);
-  baum_status status = solve(run, run->left, run->trial, &verdict);
-  if (status != BAUM_OK) {
-    return say_when(run->left, status);
+  if (solve(run, run->left, run->trial, &verdict)) {
+    return BAUM_OK;
   }
-  return verdict.refusal == BAUM_I_REFUSAL_NONE ? BAUM_OK : walk(run, problem, t);
+  return verdict.refusal == BAUM_I_REFUSAL_STOP ? say_when(run->left, verdict.status)
+                                                : walk(run, problem, t);
 }
 
 static baum_status interpolate(void *self, const baum_i_problem *problem, double t, double *q,
@@ -304,14 +314,7 @@ static baum_status fail_to_start(kinematics_run *run, const baum_i_verdict *verd
 {
   double t = run->spare->t;
   baum_i_impasse at;
-  if (verdict->refusal == BAUM_I_REFUSAL_EVALUATION) {
-    return baum_i_fail(verdict->evaluation, "t = %.9g s: kinematics: at the start: %.800s", t,
-                       run->evaluation.text);
-  }
-  baum_status status = baum_i_continuation_explain(&run->path, run->spare, &at);
-  if (status != BAUM_OK && status != BAUM_ERR_SINGULAR) {
-    return say_when(run->spare, status);
-  }
+  BAUM_I_TRY(fail_for_cause(run, run->spare, verdict, "at the start", &at));
   if (!(at.gain < SINGULAR_GAIN)) {
     return baum_i_fail(
       BAUM_ERR_SINGULAR,
@@ -338,14 +341,8 @@ static baum_status restart(void *self, const baum_i_problem *problem, const baum
   run->trial->t = state->t;
   memcpy(run->spare->q, state->q, size);
   memcpy(run->trial->q, state->q, size);
-  baum_status status = baum_i_continuation_mark(&run->path, run->spare);
-  if (status == BAUM_OK) {
-    status = solve(run, run->spare, run->trial, &verdict);
-  }
-  if (status != BAUM_OK) {
-    return say_when(run->trial, status);
-  }
-  if (verdict.refusal != BAUM_I_REFUSAL_NONE) {
+  BAUM_I_TRY(say_when(run->trial, baum_i_continuation_mark(&run->path, run->spare)));
+  if (!solve(run, run->spare, run->trial, &verdict)) {
     return fail_to_start(run, &verdict);
   }
   swap(&run->right, &run->trial);
@@ -399,7 +396,7 @@ static void close_run(void *self)
 static baum_status make_poses(kinematics_run *run, const baum_mechanism *m)
 {
   size_t nv = (size_t)m->nv;
-  size_t size = (size_t)m->nq + 3 * nv + (size_t)m->jacobian_size;
+  size_t size = pose_size(m);
   run->memory = baum_i_alloc(POSES * size, sizeof *run->memory);
   BAUM_I_TRY(baum_i_check_memory(run->memory));
   for (size_t k = 0; k < POSES; k++) {

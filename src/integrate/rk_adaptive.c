@@ -286,23 +286,6 @@ static baum_status choose_end(baum_i_rk_adaptive *run, const baum_i_problem *pro
   return is_sound ? BAUM_OK : fail_short(run, problem, length);
 }
 
-/* Error that is accepted, in units of the tolerance. */
-static double largest_error(const baum_i_rk_adaptive *run, const baum_i_problem *problem,
-                            bool forced)
-{
-  return fmax(1.0, baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol);
-}
-
-/* The error counts where evaluations have not failed. */
-static void refuse(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_status status,
-                   double error)
-{
-  double known = status == BAUM_OK ? error : (double)INFINITY;
-  baum_i_step_control_refuse(&run->control, fabs(run->h), known);
-  baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
-  run->rejected++;
-}
-
 /* Tries until one is accepted. */
 static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, baum_i_state *state)
 {
@@ -313,7 +296,8 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     double length = baum_i_rk_crossing_length(&run->crossing, &run->rk, problem, run->t,
                                               run->control.step, &forced);
     BAUM_I_TRY(choose_end(run, problem, length));
-    double most = largest_error(run, problem, forced);
+    double most = baum_i_rk_crossing_error(&run->crossing, run->h, forced) / problem->rtol;
+    most = fmax(1.0, most); /* error that is accepted, in units of the tolerance */
     baum_status status = try_step(run, problem, most, &error);
     if (status == BAUM_OK && error <= most && baum_i_rk_crossing_may_end(&run->crossing, problem)) {
       run->forced += error > 1.0;
@@ -329,7 +313,11 @@ static baum_status step(baum_i_rk_adaptive *run, const baum_i_problem *problem, 
     if (forced || status != BAUM_OK) {
       run->crossing.least = 0.0; /* for another reason, perhaps */
     }
-    refuse(run, problem, status, error > most ? error : (double)INFINITY);
+    /* The error counts where evaluations have not failed. */
+    bool known = status == BAUM_OK && error > most;
+    baum_i_step_control_refuse(&run->control, fabs(run->h), known ? error : (double)INFINITY);
+    baum_i_rk_crossing_refuse(&run->crossing, &run->rk, problem, run->h);
+    run->rejected++;
   }
   return fail_short(run, problem, run->control.step);
 }

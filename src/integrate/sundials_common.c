@@ -85,9 +85,7 @@ static baum_status make_vectors(baum_i_sundials *sundials, int n)
 {
   size_t stride = (size_t)n + PREFIX;
   sundials->numbers = baum_i_alloc(BAUM_I_SUNDIALS_VECTORS * stride, sizeof(double));
-  if (!sundials->numbers) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(sundials->numbers));
   for (size_t k = 0; k < BAUM_I_SUNDIALS_VECTORS; k++) {
     double *numbers = sundials->numbers + k * stride + PREFIX;
     memcpy(numbers - PREFIX, &sundials, sizeof(void *));
@@ -130,13 +128,6 @@ void baum_i_sundials_close(baum_i_sundials *sundials)
 
 /* ---- evaluations ---- */
 
-/* The flag `retry` says something after these two failures only. */
-static bool may_retry(const baum_i_sundials *sundials, baum_status status)
-{
-  return (status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE) &&
-         sundials->problem->workspace->point.retry;
-}
-
 int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
 {
   if (status == BAUM_OK) {
@@ -145,7 +136,9 @@ int baum_i_sundials_answer(baum_i_sundials *sundials, baum_status status)
   sundials->evaluation = status;
   sundials->evaluated_at = sundials->t;
   (void)snprintf(sundials->message, sizeof sundials->message, "%s", baum_message());
-  sundials->stopped = !may_retry(sundials, status);
+  /* The flag `retry` says something after these two failures only. */
+  bool may_retry = status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
+  sundials->stopped = !(may_retry && sundials->problem->workspace->point.retry);
   return sundials->stopped ? -1 : 1;
 }
 

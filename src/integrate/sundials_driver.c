@@ -181,18 +181,13 @@ static void give_stop(baum_i_sundials *run)
   }
 }
 
-/* First steps may be lost in the rounding of a late t as long as that is fine beside the motion. */
-static bool has_moved(const baum_i_sundials *run, double before, double after)
-{
-  double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
-  bool shows = run->origin + after != run->t;
-  return shows || (after != before && rounding <= 1e-4);
-}
-
 /* After a step between two times of SUNDIALS: BAUM_ERR_STEP when it did not move. */
 static baum_status check_progress(const baum_i_sundials *run, double before, double after)
 {
-  if (has_moved(run, before, after)) {
+  /* First steps may be lost in the rounding of a late t as long as that is fine beside the
+   * motion. */
+  double rounding = DBL_EPSILON * fabs(run->t) * run->problem->rate;
+  if (run->origin + after != run->t || (after != before && rounding <= 1e-4)) {
     return BAUM_OK;
   }
   if (run->evaluation != BAUM_OK) {
@@ -281,21 +276,11 @@ static int start_sundials(baum_i_sundials *run)
     return package->kind == BAUM_I_SUNDIALS_IDA ? IDA_MEM_FAIL : CV_MEM_FAIL;
   }
   int flag = package->set_complain ? package->set_complain(run->memory, complain, run) : 0;
-  if (flag == 0) {
-    flag = package->set_user(run->memory, run);
-  }
-  if (flag == 0) {
-    flag = package->init(run);
-  }
-  if (flag == 0) {
-    flag = package->set_weigh(run->memory, package->weigh);
-  }
-  if (flag == 0) {
-    flag = run->method->attach(run);
-  }
-  if (flag == 0 && isfinite(max_step)) {
-    flag = package->set_max_step(run->memory, max_step);
-  }
+  flag = flag ? flag : package->set_user(run->memory, run);
+  flag = flag ? flag : package->init(run);
+  flag = flag ? flag : package->set_weigh(run->memory, package->weigh);
+  flag = flag ? flag : run->method->attach(run);
+  flag = flag || isinf(max_step) ? flag : package->set_max_step(run->memory, max_step);
   return flag;
 }
 

@@ -23,9 +23,7 @@ static baum_status make_arrays(baum_i_sundials_klu *klu, int n)
 {
   size_t stride = (size_t)n;
   klu->numbers = baum_i_alloc(ARRAYS * stride, sizeof *klu->numbers);
-  if (!klu->numbers) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(klu->numbers));
   klu->defect = klu->numbers;
   klu->size = klu->numbers + stride;
   klu->entry = klu->numbers + 2 * stride;

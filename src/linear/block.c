@@ -7,7 +7,7 @@
 #include <string.h>
 
 #include "base/alloc.h"
-#include "linear/block_structure.h"
+#include "linear/block_builder.h"
 
 /* det D against the product of the diagonal that S had. The multipliers lose about the unit
  * rounding over this, and several small pivots multiply: below the first the result is refined. In

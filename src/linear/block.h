@@ -189,7 +189,7 @@ void baum_i_block_use_force(baum_i_block *block, bool use);
 /* pull[] and rest[], in twice the precision. */
 void baum_i_block_find_residual(baum_i_block *block);
 
-/* block_again.c. Before a correction with the factors at hand: motion, pull and multipliers are 0,
+/* block_pull.c. Before a correction with the factors at hand: motion, pull and multipliers are 0,
  * rest is r (nc), so that the correction gives a motion with J a = r. */
 void baum_i_block_set_rest(baum_i_block *block, const double *r);
 

@@ -59,4 +59,8 @@ baum_status baum_i_block_make_pairs(baum_i_block_builder *u);
  * or BAUM_ERR_MEMORY. */
 baum_status baum_i_block_make_targets(baum_i_block_builder *u);
 
+/* Fill an empty block: everything of block.h but the numbers. As baum_i_block_create(); on failure
+ * what was made so far is left to baum_i_block_destroy(). */
+baum_status baum_i_block_find_structure(const baum_i_block_layout *layout, baum_i_block *block);
+
 #endif

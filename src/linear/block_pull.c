@@ -1,8 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Another solution with factors at hand; see block_pull.h. */
+/* Other right sides for the factors of the last solution. A correction (block_hot.c) of no motion
+ * by the residual (0, r) is the solution of
+ *
+ *   S lambda = -r,   a = -W J^T lambda,   so that J a = r
+ */
 #include "linear/block_pull.h"
 
 #include <string.h>
+
+static void clear(baum_i_block *block)
+{
+  memset(block->motion, 0, (size_t)block->motion_size * sizeof *block->motion);
+  memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
+  memset(block->rest, 0, 2 * (size_t)block->node_count * sizeof *block->rest);
+  for (int k = 0; k < block->node_count; k++) {
+    memset(block->nodes[k].lambda, 0, sizeof block->nodes[k].lambda);
+  }
+}
 
 /* y = L^T x */
 static void pull_dense(baum_i_block *block, const baum_i_dense_body *dense, const double *x)
@@ -21,7 +35,7 @@ static void pull_dense(baum_i_block *block, const baum_i_dense_body *dense, cons
 
 void baum_i_block_pull(baum_i_block *block, const double *x)
 {
-  memset(block->pull, 0, (size_t)block->motion_size * sizeof *block->pull);
+  clear(block);
   for (int i = 0; i < block->structure->mass_block_count; i++) {
     const baum_i_mass_block *body = &block->structure->mass_blocks[i];
     if (!block->fixed[i]) {
@@ -34,8 +48,19 @@ void baum_i_block_pull(baum_i_block *block, const double *x)
   for (int i = 0; i < block->motion_size; i++) {
     block->motion[i] = -block->pull[i];
   }
-  for (int k = 0; k < block->node_count; k++) {
-    memset(block->nodes[k].lambda, 0, sizeof block->nodes[k].lambda);
+}
+
+void baum_i_block_set_rest(baum_i_block *block, const double *r)
+{
+  clear(block);
+  for (int i = 0; i < block->pin_count; i++) {
+    const baum_i_pin_node *pin = &block->pins[i];
+    memcpy(block->rest + 2 * (size_t)pin->node, r + pin->row, 2 * sizeof *r);
   }
-  memset(block->rest, 0, 2 * (size_t)block->node_count * sizeof *block->rest);
+  for (int i = 0; i < block->full_count; i++) {
+    const baum_i_full_node *full = &block->fulls[i];
+    for (int k = 0; k < 2; k++) {
+      block->rest[2 * (size_t)full->node + (size_t)k] = full->row[k] < 0 ? 0.0 : r[full->row[k]];
+    }
+  }
 }

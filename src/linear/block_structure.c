@@ -5,8 +5,6 @@
  * of nodes gives the order of elimination, and only then nodes get their final numbers, their
  * places.
  */
-#include "linear/block_structure.h"
-
 #include <stdlib.h>
 #include <string.h>
 

@@ -14,48 +14,27 @@
 
 #include "base/alloc.h"
 #include "base/message.h"
-
-/* A growing list of nodes. */
-typedef struct list {
-  int32_t *item;
-  int32_t count;
-  int32_t room;
-} list;
+#include "linear/vector.h"
 
 /* Everything while the order is being found. Nodes not yet eliminated stand in buckets: those
  * without fill in the first, the others by degree; those that a round has touched wait for the next
  * one. */
 typedef struct search {
   int count;
-  list *coupled;     /* (count) */
-  int32_t *head;     /* (count) first of each bucket, -1: empty */
-  int32_t *next;     /* (count) */
-  int32_t *previous; /* (count) -1: first */
-  int32_t *bucket;   /* (count) */
-  int32_t *touched;  /* (count) round */
-  int32_t *mark;     /* (count) */
+  baum_i_vector *coupled; /* (count) int32_t, as the two below */
+  int32_t *head;          /* (count) first of each bucket, -1: empty */
+  int32_t *next;          /* (count) */
+  int32_t *previous;      /* (count) -1: first */
+  int32_t *bucket;        /* (count) */
+  int32_t *touched;       /* (count) round */
+  int32_t *mark;          /* (count) */
   int32_t stamp;
   int32_t round;
   int most;
-  list waiting; /* touched in this round */
-  list later;   /* of all eliminated ones, as nodes */
+  baum_i_vector waiting; /* touched in this round */
+  baum_i_vector later;   /* of all eliminated ones, as nodes */
   baum_i_elimination *out;
 } search;
-
-static baum_status push(list *l, int32_t item)
-{
-  if (l->count == l->room) {
-    int32_t room = l->room > 0 ? 2 * l->room : 4;
-    int32_t *grown = baum_i_grow(l->item, (size_t)room, sizeof *grown);
-    if (!grown) {
-      return BAUM_ERR_MEMORY;
-    }
-    l->item = grown;
-    l->room = room;
-  }
-  l->item[l->count++] = item;
-  return BAUM_OK;
-}
 
 /* ---- buckets ---- */
 
@@ -63,17 +42,19 @@ static baum_status push(list *l, int32_t item)
 static bool makes_no_fill(search *s, int32_t node)
 {
   enum { MANY = 8 };
-  const list *around = &s->coupled[node];
+  const baum_i_vector *around = &s->coupled[node];
+  const int32_t *item = around->items;
   bool none = around->count <= MANY;
   s->stamp++;
   for (int32_t i = 0; i < around->count && none; i++) {
-    s->mark[around->item[i]] = s->stamp;
+    s->mark[item[i]] = s->stamp;
   }
   for (int32_t i = 0; i < around->count && none; i++) {
-    const list *beyond = &s->coupled[around->item[i]];
+    const baum_i_vector *beyond = &s->coupled[item[i]];
+    const int32_t *other = beyond->items;
     int32_t shared = 1;
     for (int32_t k = 0; k < beyond->count; k++) {
-      shared += s->mark[beyond->item[k]] == s->stamp ? 1 : 0;
+      shared += s->mark[other[k]] == s->stamp;
     }
     none = shared == around->count;
   }
@@ -112,21 +93,23 @@ static void leave(search *s, int32_t node)
 /* The neighbours of `node`, which goes, become neighbours of `other`, which is one of them. */
 static baum_status couple(search *s, int32_t node, int32_t other)
 {
-  const list *gone = &s->coupled[node];
-  list *mine = &s->coupled[other];
+  const baum_i_vector *gone = &s->coupled[node];
+  baum_i_vector *mine = &s->coupled[other];
+  const int32_t *from = gone->items;
+  int32_t *item = mine->items;
   s->stamp++;
   s->mark[other] = s->stamp;
   int32_t kept = 0;
   for (int32_t i = 0; i < mine->count; i++) {
-    if (mine->item[i] != node) {
-      s->mark[mine->item[i]] = s->stamp;
-      mine->item[kept++] = mine->item[i];
+    if (item[i] != node) {
+      s->mark[item[i]] = s->stamp;
+      item[kept++] = item[i];
     }
   }
   mine->count = kept;
   for (int32_t i = 0; i < gone->count; i++) {
-    if (s->mark[gone->item[i]] != s->stamp) {
-      BAUM_I_TRY(push(mine, gone->item[i]));
+    if (s->mark[from[i]] != s->stamp) {
+      BAUM_I_TRY(baum_i_vector_append_number(mine, from[i]));
     }
   }
   return BAUM_OK;
@@ -140,24 +123,24 @@ static baum_status touch(search *s, int32_t node)
   }
   leave(s, node);
   s->touched[node] = s->round;
-  return push(&s->waiting, node);
+  return baum_i_vector_append_number(&s->waiting, node);
 }
 
 static baum_status eliminate(search *s, int32_t node)
 {
   baum_i_elimination *out = s->out;
-  list *gone = &s->coupled[node];
+  baum_i_vector *gone = &s->coupled[node];
   for (int32_t i = 0; i < gone->count; i++) {
-    int32_t other = gone->item[i];
+    int32_t other = ((const int32_t *)gone->items)[i];
     BAUM_I_TRY(touch(s, other));
     BAUM_I_TRY(couple(s, node, other));
-    BAUM_I_TRY(push(&s->later, other));
+    BAUM_I_TRY(baum_i_vector_append_number(&s->later, other));
   }
   out->place[node] = out->count;
   out->node[out->count++] = node;
   out->start[out->count] = s->later.count;
-  baum_i_free(gone->item);
-  *gone = (list){0};
+  baum_i_free(gone->items);
+  *gone = (baum_i_vector){0};
   return s->later.count > s->most ? BAUM_ERR_SINGULAR : BAUM_OK;
 }
 
@@ -171,7 +154,7 @@ static baum_status take_round(search *s, int32_t bucket)
     BAUM_I_TRY(eliminate(s, node));
   }
   for (int32_t i = 0; i < s->waiting.count; i++) {
-    enter(s, s->waiting.item[i]);
+    enter(s, ((const int32_t *)s->waiting.items)[i]);
   }
   return BAUM_OK;
 }
@@ -196,8 +179,9 @@ static baum_status begin(search *s, const baum_i_graph *graph)
     s->head[i] = -1;
   }
   for (int32_t i = 0; i < s->count; i++) {
+    s->coupled[i].size = sizeof(int32_t);
     for (int32_t k = graph->start[i]; k < graph->start[i + 1]; k++) {
-      BAUM_I_TRY(push(&s->coupled[i], graph->neighbour[k]));
+      BAUM_I_TRY(baum_i_vector_append_number(&s->coupled[i], graph->neighbour[k]));
     }
   }
   /* The last to enter a bucket is the first to leave it. */
@@ -217,16 +201,14 @@ static int ascending(const void *a, const void *b)
 static void order_later(search *s)
 {
   baum_i_elimination *out = s->out;
-  out->later = s->later.item;
-  s->later.item = NULL;
-  for (int32_t i = 0; out->later && i < out->start[out->count]; i++) {
+  int count = 0;
+  out->later = baum_i_vector_give(&s->later, &count);
+  for (int i = 0; i < count; i++) {
     out->later[i] = out->place[out->later[i]];
   }
   for (int k = 0; out->later && k < out->count; k++) {
-    int32_t count = out->start[k + 1] - out->start[k];
-    if (count > 1) {
-      qsort(out->later + out->start[k], (size_t)count, sizeof *out->later, ascending);
-    }
+    qsort(out->later + out->start[k], (size_t)(out->start[k + 1] - out->start[k]),
+          sizeof *out->later, ascending);
   }
 }
 
@@ -253,18 +235,22 @@ static baum_status make_room(search *s)
 static void clear_search(search *s)
 {
   for (int i = 0; s->coupled && i < s->count; i++) {
-    baum_i_free(s->coupled[i].item);
+    baum_i_free(s->coupled[i].items);
   }
   baum_i_free(s->coupled);
   baum_i_free(s->head);
-  baum_i_free(s->waiting.item);
-  baum_i_free(s->later.item);
+  baum_i_free(s->waiting.items);
+  baum_i_free(s->later.items);
 }
 
 baum_status baum_i_elimination_create(const baum_i_graph *graph, int most, baum_i_elimination *out)
 {
   *out = (baum_i_elimination){0};
-  search s = {.count = graph->count, .most = most, .out = out};
+  search s = {.count = graph->count,
+              .most = most,
+              .out = out,
+              .waiting = {.size = sizeof(int32_t)},
+              .later = {.size = sizeof(int32_t)}};
   baum_status status = make_room(&s);
   if (status == BAUM_OK) {
     status = begin(&s, graph);

@@ -6,7 +6,9 @@
 #include <string.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 #include "linear/compress.h"
+#include "linear/scale.h"
 
 static size_t count_mass_values(const baum_i_kkt_structure *structure)
 {
@@ -76,7 +78,12 @@ static baum_status compress(const baum_i_places *places, baum_i_pattern *pattern
   if (!pattern->column_start || !pattern->row || !pattern->slot) {
     return BAUM_ERR_MEMORY;
   }
-  return baum_i_compress(places, pattern->n, pattern->column_start, pattern->row, pattern->slot);
+  BAUM_I_TRY(
+    baum_i_compress(places, pattern->n, pattern->column_start, pattern->row, pattern->slot));
+  pattern->scale = baum_i_alloc((size_t)pattern->n, sizeof *pattern->scale);
+  pattern->matrix =
+    baum_i_alloc((size_t)pattern->column_start[pattern->n], sizeof *pattern->matrix);
+  return pattern->scale && pattern->matrix ? BAUM_OK : BAUM_ERR_MEMORY;
 }
 
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern)
@@ -108,29 +115,31 @@ void baum_i_pattern_clear(baum_i_pattern *pattern)
   baum_i_free(pattern->column_start);
   baum_i_free(pattern->row);
   baum_i_free(pattern->slot);
+  baum_i_free(pattern->scale);
+  baum_i_free(pattern->matrix);
   *pattern = (baum_i_pattern){0};
 }
 
-static void fill_mass(const baum_i_pattern *pattern, const double *mass, const double *d,
-                      double *matrix)
+static void fill_mass(const baum_i_pattern *pattern, const double *mass)
 {
   const baum_i_kkt_structure *structure = pattern->structure;
+  const double *d = pattern->scale;
   const int32_t *slot = pattern->mass;
   for (int b = 0; b < structure->mass_block_count; b++) {
     const baum_i_mass_block *block = &structure->mass_blocks[b];
     const double *value = mass + block->value;
     for (int i = 0; i < block->size; i++) {
       for (int j = 0; j < block->size; j++) {
-        matrix[*slot++] += d[block->first + i] * *value++ * d[block->first + j];
+        pattern->matrix[*slot++] += d[block->first + i] * *value++ * d[block->first + j];
       }
     }
   }
 }
 
-static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian,
-                          const double *scale, double *matrix)
+static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian)
 {
   const baum_i_kkt_structure *structure = pattern->structure;
+  const double *scale = pattern->scale;
   const int32_t *slot = pattern->jacobian;
   const int32_t *transposed = pattern->transposed;
   for (int b = 0; b < structure->row_block_count; b++) {
@@ -140,32 +149,40 @@ static void fill_jacobian(const baum_i_pattern *pattern, const double *jacobian,
       double e = scale[structure->nv + block->row + i];
       for (int k = 0; k < block->cols; k++) {
         double scaled = e * *value++ * scale[block->col[k]];
-        matrix[*slot++] += scaled;
-        matrix[*transposed++] += scaled;
+        pattern->matrix[*slot++] += scaled;
+        pattern->matrix[*transposed++] += scaled;
       }
     }
   }
 }
 
-/* -S, and 1 for a omitted row. */
-static void fill_shift(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                       const double *e, double *matrix)
+/* -S, and 1 for an omitted row. */
+static void fill_shift(const baum_i_pattern *pattern, const double *shift)
 {
+  const double *e = pattern->scale + pattern->structure->nv;
   const int32_t *slot = pattern->diagonal + pattern->structure->nv;
   for (int i = 0; i < pattern->structure->nc; i++) {
     if (e[i] == 0.0) {
-      matrix[slot[i]] = 1.0;
-    } else if (values->shift) {
-      matrix[slot[i]] = -e[i] * values->shift[i] * e[i];
+      pattern->matrix[slot[i]] = 1.0;
+    } else if (shift) {
+      pattern->matrix[slot[i]] = -e[i] * shift[i] * e[i];
     }
   }
 }
 
-void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                         const double *scale, double *matrix)
+void baum_i_pattern_fill(baum_i_pattern *pattern, const baum_i_kkt_values *values,
+                         const double *scale, double root)
 {
-  memset(matrix, 0, (size_t)pattern->column_start[pattern->n] * sizeof *matrix);
-  fill_mass(pattern, values->mass, scale, matrix);
-  fill_jacobian(pattern, values->jacobian, scale, matrix);
-  fill_shift(pattern, values, scale + pattern->structure->nv, matrix);
+  baum_i_scale_weigh(pattern->structure, values, scale, root, pattern->scale);
+  memset(pattern->matrix, 0, (size_t)pattern->column_start[pattern->n] * sizeof *pattern->matrix);
+  fill_mass(pattern, values->mass);
+  fill_jacobian(pattern, values->jacobian);
+  fill_shift(pattern, values->shift);
+}
+
+void baum_i_pattern_scale(const baum_i_pattern *pattern, double *x)
+{
+  for (int i = 0; i < pattern->n; i++) {
+    x[i] *= pattern->scale[i];
+  }
 }

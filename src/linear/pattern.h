@@ -22,14 +22,21 @@ typedef struct baum_i_pattern {
   const int32_t *jacobian;   /* J */
   const int32_t *transposed; /* J^T, listed as J */
   const int32_t *diagonal;   /* (n) */
+
+  double *scale;  /* (n) D of the last filling */
+  double *matrix; /* (column_start[n]) D K D */
 } baum_i_pattern;
 
 /* BAUM_OK or BAUM_ERR_MEMORY, then the pattern is empty. */
 baum_status baum_i_pattern_create(const baum_i_kkt_structure *structure, baum_i_pattern *pattern);
 void baum_i_pattern_clear(baum_i_pattern *pattern); /* a zeroed one is fine */
 
-/* matrix (column_start[n]) = D K D for D = diag(scale); a row with scale 0 is omitted. */
-void baum_i_pattern_fill(const baum_i_pattern *pattern, const baum_i_kkt_values *values,
-                         const double *scale, double *matrix);
+/* Fill the matrix for D = diag(scale), weighted by `root` as baum_i_scale_weigh() does; a row with
+ * scale 0 is omitted. */
+void baum_i_pattern_fill(baum_i_pattern *pattern, const baum_i_kkt_values *values,
+                         const double *scale, double root);
+
+/* x <- D x */
+void baum_i_pattern_scale(const baum_i_pattern *pattern, double *x);
 
 #endif

@@ -21,7 +21,6 @@
 #include "base/message.h"
 #include "linear/backend.h"
 #include "linear/pattern.h"
-#include "linear/scale.h"
 #include "linear/sparse_qr.h"
 
 static const double weight_root = 0x1p-13; /* of w */
@@ -30,9 +29,7 @@ static const double dependent = 1e-13;
 typedef struct qr_backend {
   baum_i_pattern pattern;
   baum_i_sparse_qr *factors;
-  double *matrix;
-  double *scale; /* (n) */
-  double *work;  /* (n) */
+  double *work; /* (n) */
   int32_t rank;
   double rcond;
 } qr_backend;
@@ -40,15 +37,12 @@ typedef struct qr_backend {
 static void destroy(void *self)
 {
   qr_backend *qr = self;
-  if (!qr) {
-    return;
+  if (qr) {
+    baum_i_sparse_qr_destroy(qr->factors);
+    baum_i_free(qr->work);
+    baum_i_pattern_clear(&qr->pattern);
+    baum_i_free(qr);
   }
-  baum_i_sparse_qr_destroy(qr->factors);
-  baum_i_free(qr->matrix);
-  baum_i_free(qr->scale);
-  baum_i_free(qr->work);
-  baum_i_pattern_clear(&qr->pattern);
-  baum_i_free(qr);
 }
 
 /* NULL when out of memory. */
@@ -75,13 +69,10 @@ static baum_status set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
 {
   baum_i_pattern *pattern = &qr->pattern;
   BAUM_I_TRY(baum_i_pattern_create(structure, pattern));
-  size_t n = (size_t)pattern->n;
-  qr->matrix = baum_i_alloc((size_t)pattern->column_start[n], sizeof *qr->matrix);
-  qr->scale = baum_i_alloc(n, sizeof *qr->scale);
-  qr->work = baum_i_alloc(n, sizeof *qr->work);
+  qr->work = baum_i_alloc((size_t)pattern->n, sizeof *qr->work);
   int32_t *order = order_columns(pattern);
   baum_status status = BAUM_ERR_MEMORY;
-  if (qr->matrix && qr->scale && qr->work && order) {
+  if (qr->work && order) {
     const baum_i_sparse_columns columns = {pattern->n, pattern->n, pattern->column_start,
                                            pattern->row};
     status = baum_i_sparse_qr_create(&columns, order, &qr->factors);
@@ -92,21 +83,13 @@ static baum_status set_up(qr_backend *qr, const baum_i_kkt_structure *structure)
 
 static baum_status create(const baum_i_kkt_structure *structure, void **out)
 {
-  *out = NULL;
-  qr_backend *qr = baum_i_alloc(1, sizeof *qr);
+  qr_backend *qr = *out = baum_i_alloc(1, sizeof *qr);
   if (!qr || set_up(qr, structure) != BAUM_OK) {
     destroy(qr);
+    *out = NULL;
     return BAUM_ERR_MEMORY;
   }
-  *out = qr;
   return BAUM_OK;
-}
-
-static void apply_scale(const qr_backend *qr, double *x)
-{
-  for (int i = 0; i < qr->pattern.n; i++) {
-    x[i] *= qr->scale[i];
-  }
 }
 
 /* Project x[from..to), as a vector that is zero elsewhere, onto the range of K_w. */
@@ -158,7 +141,7 @@ static double estimate_rcond(qr_backend *qr)
     solve_scaled(qr, qr->work);
     growth = fmax(growth, largest_of(qr->work, n));
   }
-  return 1.0 / (growth * fmax(largest_of(qr->matrix, qr->pattern.column_start[n]), 1.0));
+  return 1.0 / (growth * fmax(largest_of(qr->pattern.matrix, qr->pattern.column_start[n]), 1.0));
 }
 
 static baum_status factor(void *self, const baum_i_kkt_values *values, const double *scale,
@@ -166,9 +149,8 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
 {
   (void)effort; /* there is one way only */
   qr_backend *qr = self;
-  baum_i_scale_weigh(qr->pattern.structure, values, scale, weight_root, qr->scale);
-  baum_i_pattern_fill(&qr->pattern, values, qr->scale, qr->matrix);
-  qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->matrix, dependent, NULL);
+  baum_i_pattern_fill(&qr->pattern, values, scale, weight_root);
+  qr->rank = baum_i_sparse_qr_factor(qr->factors, qr->pattern.matrix, dependent, NULL);
   qr->rcond = qr->rank == qr->pattern.n ? estimate_rcond(qr) : 0.0;
   return BAUM_OK;
 }
@@ -176,9 +158,9 @@ static baum_status factor(void *self, const baum_i_kkt_values *values, const dou
 static baum_status solve(void *self, double *x)
 {
   qr_backend *qr = self;
-  apply_scale(qr, x);
+  baum_i_pattern_scale(&qr->pattern, x);
   solve_scaled(qr, x);
-  apply_scale(qr, x);
+  baum_i_pattern_scale(&qr->pattern, x);
   return BAUM_OK;
 }
 

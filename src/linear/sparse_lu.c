@@ -12,6 +12,7 @@
 #include <klu.h>
 
 #include "base/alloc.h"
+#include "base/message.h"
 
 /* Pivots that have fallen to this share of what they were when chosen are chosen again. */
 static const double FALLEN = 1e-4;
@@ -75,38 +76,56 @@ baum_status baum_i_sparse_lu_create(int32_t n, const int32_t *columns, const int
   return BAUM_OK;
 }
 
-static double measure(baum_i_sparse_lu *lu)
+static baum_status judge(baum_i_sparse_lu *lu, bool done)
 {
-  lu->common.rcond = 0.0;
+  if (!done) {
+    return lu->common.status == KLU_SINGULAR ? BAUM_ERR_SINGULAR : BAUM_ERR_MEMORY;
+  }
   (void)klu_rcond(lu->symbolic, lu->numeric, &lu->common);
-  return lu->common.rcond;
+  return BAUM_OK;
 }
 
-static baum_status choose(baum_i_sparse_lu *lu, double *values)
+baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold)
 {
-  lu->work.full_factorizations++;
-  lu->forgotten = false;
+  lu->common.rcond = 0.0;
+  lu->common.tol = threshold;
   if (lu->numeric) {
     (void)klu_free_numeric(&lu->numeric, &lu->common);
   }
   lu->numeric = klu_factor(lu->columns, lu->rows, values, lu->symbolic, &lu->common);
-  if (!lu->numeric) {
-    return lu->common.status == KLU_SINGULAR ? BAUM_ERR_SINGULAR : BAUM_ERR_MEMORY;
-  }
-  lu->chosen = measure(lu);
-  return BAUM_OK;
+  return judge(lu, lu->numeric != NULL);
 }
 
-static bool keep(baum_i_sparse_lu *lu, double *values)
+baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values)
 {
-  return klu_refactor(lu->columns, lu->rows, values, lu->symbolic, lu->numeric, &lu->common) &&
-         lu->common.status == KLU_OK && measure(lu) >= FALLEN * lu->chosen;
+  lu->common.rcond = 0.0;
+  bool done = klu_refactor(lu->columns, lu->rows, values, lu->symbolic, lu->numeric, &lu->common) &&
+              lu->common.status == KLU_OK;
+  return done ? judge(lu, true) : BAUM_ERR_SINGULAR;
+}
+
+double baum_i_sparse_lu_rcond(const baum_i_sparse_lu *lu)
+{
+  return lu->common.rcond;
 }
 
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values)
 {
   lu->work.factorizations++;
-  return lu->numeric && !lu->forgotten && keep(lu, values) ? BAUM_OK : choose(lu, values);
+  if (lu->numeric && !lu->forgotten && baum_i_sparse_lu_keep(lu, values) == BAUM_OK &&
+      lu->common.rcond >= FALLEN * lu->chosen) {
+    return BAUM_OK;
+  }
+  lu->work.full_factorizations++;
+  lu->forgotten = false;
+  BAUM_I_TRY(baum_i_sparse_lu_choose(lu, values, BAUM_I_USUAL_THRESHOLD));
+  lu->chosen = lu->common.rcond;
+  return BAUM_OK;
+}
+
+void baum_i_sparse_lu_take_scaled(baum_i_sparse_lu *lu)
+{
+  lu->common.scale = -1;
 }
 
 void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu)

@@ -25,6 +25,21 @@ void baum_i_sparse_lu_destroy(baum_i_sparse_lu *lu); /* NULL is fine */
  * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. Neither sets a message. */
 baum_status baum_i_sparse_lu_factor(baum_i_sparse_lu *lu, double *values);
 
+/* How small a diagonal entry may be against the largest of its column to be the pivot. */
+#define BAUM_I_USUAL_THRESHOLD 0.001
+
+/* The two parts of it, for a caller that decides by itself. Keep pivots, which there must be:
+ * BAUM_OK also when they have become worthless, or BAUM_ERR_SINGULAR. Choose them: BAUM_OK,
+ * BAUM_ERR_SINGULAR, BAUM_ERR_MEMORY. */
+baum_status baum_i_sparse_lu_keep(baum_i_sparse_lu *lu, double *values);
+baum_status baum_i_sparse_lu_choose(baum_i_sparse_lu *lu, double *values, double threshold);
+
+/* The ratio of the smallest to the largest pivot; 0 after a failure. */
+double baum_i_sparse_lu_rcond(const baum_i_sparse_lu *lu);
+
+/* Values come scaled: rows are no longer scaled by their largest entry. */
+void baum_i_sparse_lu_take_scaled(baum_i_sparse_lu *lu);
+
 /* Choose pivots again at the next factorization, so that nothing depends on the ones before. */
 void baum_i_sparse_lu_forget(baum_i_sparse_lu *lu);
 

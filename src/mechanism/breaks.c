@@ -50,13 +50,8 @@ static baum_status check_times(const double *times, int32_t count)
 baum_status baum_mechanism_add_break_times(baum_mechanism *mechanism, const double *times,
                                            int32_t count)
 {
-  baum_status status = baum_i_check_open(mechanism, "baum_mechanism_add_break_times");
-  if (status == BAUM_OK) {
-    status = check_times(times, count);
-  }
-  if (status != BAUM_OK || count == 0) {
-    return status;
-  }
+  BAUM_I_TRY(baum_i_check_open(mechanism, "baum_mechanism_add_break_times"));
+  BAUM_I_TRY(check_times(times, count));
   size_t room = (size_t)mechanism->break_count + (size_t)count;
   double *breaks = baum_i_grow(mechanism->breaks, room, sizeof *breaks);
   if (!breaks) {

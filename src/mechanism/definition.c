@@ -163,10 +163,6 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
                          const baum_i_definition *definition, const void *def, int number,
                          whole_def *out)
 {
-  if (mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it",
-                       definition->kind);
-  }
   BAUM_I_TRY(complete(definition, def, out));
   BAUM_I_TRY(baum_i_check_name(family->name, number, out->head.name));
   char name[BAUM_I_LABEL_SIZE];
@@ -179,9 +175,7 @@ static baum_status check(const baum_mechanism *mechanism, const baum_i_family *f
 baum_status baum_i_add_element(baum_mechanism *mechanism, const baum_i_family *family,
                                const baum_i_definition *definition, const void *def)
 {
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", definition->kind);
-  }
+  BAUM_I_TRY(baum_i_check_open(mechanism, definition->kind));
   whole_def whole = {.head = {0}};
   int number = baum_i_family_count(family, mechanism) + 1;
   BAUM_I_TRY(check(mechanism, family, definition, def, number, &whole));
@@ -248,6 +242,7 @@ baum_status baum_i_set_element(baum_mechanism *mechanism, const baum_i_family *f
   baum_i_element *element = NULL;
   whole_def whole = {.head = {0}};
   BAUM_I_TRY(find(mechanism, family, definition, id, &element));
+  BAUM_I_TRY(baum_i_check_open(mechanism, definition->kind));
   BAUM_I_TRY(check(mechanism, family, definition, def, element->index, &whole));
   BAUM_I_TRY(check_kind(element, definition));
   BAUM_I_TRY(check_ties(mechanism, family, &whole, element));

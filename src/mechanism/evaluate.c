@@ -22,6 +22,15 @@ baum_status baum_i_mechanism_rows(baum_i_point *point, const baum_i_rows *rows)
   return BAUM_OK;
 }
 
+baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
+                                 const baum_i_rows *rows)
+{
+  for (int i = 0; i < group->count; i++) {
+    BAUM_I_TRY(group->type->evaluate_one(group->joints[i], point, rows));
+  }
+  return BAUM_OK;
+}
+
 baum_status baum_i_mechanism_phi(baum_i_point *point, double *phi)
 {
   return baum_i_mechanism_rows(point, &(baum_i_rows){.phi = phi});

@@ -101,6 +101,8 @@ typedef struct baum_i_def_head {
   const char *name;
 } baum_i_def_head;
 
+struct baum_i_point;
+
 /* How a definition struct is filled, checked and owned. Functions may be NULL. */
 typedef struct baum_i_definition {
   const char *kind;               /* "planar body", for messages */
@@ -117,6 +119,8 @@ typedef struct baum_i_definition {
    * nothing is owned. */
   baum_status (*own)(void *def);
   void (*release)(void *def); /* free what own() made */
+  /* Compare the derivatives that an element gives with differences; NULL: it gives none. */
+  baum_status (*check_derivatives)(const void *element, struct baum_i_point *point);
 } baum_i_definition;
 
 static inline const void *baum_i_field_at(const baum_i_def_field *field, const void *def)

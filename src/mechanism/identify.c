@@ -150,26 +150,32 @@ const char *baum_i_joint_label(const baum_mechanism *mechanism, int joint,
   return baum_i_label(&mechanism->joints[joint]->element, text);
 }
 
+const char *baum_i_row_label(const baum_mechanism *mechanism, int row, char text[BAUM_I_LABEL_SIZE])
+{
+  memcpy(text, "no joint", sizeof "no joint");
+  return row < 0 ? text : baum_i_joint_label(mechanism, baum_i_row_joint(mechanism, row), text);
+}
+
 /* ---- stages ---- */
 
-baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
+static baum_status check_stage(const baum_mechanism *mechanism, bool frozen, const char *call)
 {
   if (!mechanism) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
   }
-  if (mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is frozen; change a copy of it", call);
+  if (mechanism->frozen != frozen) {
+    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is %s", call,
+                       frozen ? "not frozen" : "frozen; change a copy of it");
   }
   return BAUM_OK;
 }
 
+baum_status baum_i_check_open(const baum_mechanism *mechanism, const char *call)
+{
+  return check_stage(mechanism, false, call);
+}
+
 baum_status baum_i_check_frozen(const baum_mechanism *mechanism, const char *call)
 {
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the mechanism is NULL", call);
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
-  }
-  return BAUM_OK;
+  return check_stage(mechanism, true, call);
 }

@@ -119,36 +119,32 @@ static baum_status copy_elements(baum_mechanism *to, const baum_mechanism *from)
   return BAUM_OK;
 }
 
+static baum_status copy_all(baum_mechanism *to, const baum_mechanism *from)
+{
+  to->tag = from->tag;
+  to->given_length = from->given_length;
+  memcpy(to->gravity, from->gravity, sizeof to->gravity);
+  BAUM_I_TRY(baum_i_copy_inputs(to, from));
+  BAUM_I_TRY(baum_mechanism_add_break_times(to, from->breaks, from->break_count));
+  return copy_elements(to, from);
+}
+
 baum_status baum_mechanism_copy(const baum_mechanism *mechanism, baum_mechanism **out)
 {
-  if (!out) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: out is NULL");
+  if (out) {
+    *out = NULL;
   }
-  *out = NULL;
-  if (!mechanism) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: the mechanism is NULL");
+  if (!mechanism || !out) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_mechanism_copy: %s is NULL",
+                       out ? "the mechanism" : "out");
   }
-  baum_mechanism *copy = NULL;
-  baum_status status = baum_mechanism_create(&copy);
-  if (status != BAUM_OK || !copy) {
-    return status;
-  }
-  copy->tag = mechanism->tag;
-  copy->given_length = mechanism->given_length;
-  memcpy(copy->gravity, mechanism->gravity, sizeof copy->gravity);
-  status = baum_i_copy_inputs(copy, mechanism);
-  if (status == BAUM_OK) {
-    status = baum_mechanism_add_break_times(copy, mechanism->breaks, mechanism->break_count);
-  }
-  if (status == BAUM_OK) {
-    status = copy_elements(copy, mechanism);
-  }
+  BAUM_I_TRY(baum_mechanism_create(out));
+  baum_status status = copy_all(*out, mechanism);
   if (status != BAUM_OK) {
-    baum_mechanism_destroy(copy);
-    return status;
+    baum_mechanism_destroy(*out);
+    *out = NULL;
   }
-  *out = copy;
-  return BAUM_OK;
+  return status;
 }
 
 /* ---- the whole ---- */

@@ -270,8 +270,6 @@ struct baum_i_body_type {
   /* One body: adds g^T v + v^T M' v / 2, with what comes of the potential. NULL: that alone, and
    * M' = 0. */
   baum_status (*power)(const baum_i_body *body, baum_i_point *point, double power[BAUM_I_POWERS]);
-  /* Compare given derivatives with differences; NULL: nothing given. */
-  baum_status (*check)(const baum_i_body *body, baum_i_point *point);
 };
 
 /* A joint's coordinate for drivers and channels:
@@ -297,6 +295,8 @@ struct baum_i_joint_type {
   bool scleronomic; /* Phi never depends on t */
   bool is_pin;      /* its rows are those of pin_rows.h and nothing else */
   bool drives;      /* one row: the coordinate of another joint minus a function of time */
+  /* Value, rate and acceleration by the law of a driver, at the point's time; fails as phi does. */
+  baum_status (*motion)(const baum_i_joint *driver, baum_i_point *point, double s[3]);
   /* In the numbers of a driver: s + s' (t - t0) + s'' (t - t0)^2 / 2 takes the place of its law.
    * NULL: there is no law. */
   void (*replace_law)(double *parameters, double t0, const double s[3]);
@@ -306,9 +306,11 @@ struct baum_i_joint_type {
    * message. */
   baum_status (*lower)(const baum_mechanism *mechanism, const baum_i_joint *joint,
                        double *parameters);
-  /* Sets its rows and blocks of what is wanted. */
+  /* Sets its rows and blocks of what is wanted; baum_i_evaluate_each() calls evaluate_one(). */
   baum_status (*evaluate)(const baum_i_joint_group *group, baum_i_point *point,
                           const baum_i_rows *rows);
+  baum_status (*evaluate_one)(const baum_i_joint *joint, baum_i_point *point,
+                              const baum_i_rows *rows);
   /* One joint. w (nv), lambda (nc); blocks arrive zeroed. NULL: they stay so. */
   baum_status (*linearize)(const baum_i_joint *joint, baum_i_point *point, const double *w,
                            const double *lambda, const baum_i_joint_blocks *blocks);
@@ -327,10 +329,13 @@ struct baum_i_joint_type {
   void (*coordinate)(const baum_i_joint *joint, const baum_i_point *point, baum_i_coordinate *out);
   void (*coordinate_linearize)(const baum_i_joint *joint, const baum_i_point *point,
                                const double w[6], double lambda, baum_i_coordinate_blocks *out);
-  baum_status (*check)(const baum_i_joint *joint, baum_i_point *point); /* as of bodies */
   /* Relative error of derivatives by differences; NULL: none are taken. */
   double (*noise)(const void *def);
 };
+
+/* The `evaluate` of types that evaluate joint by joint. */
+baum_status baum_i_evaluate_each(const baum_i_joint_group *group, baum_i_point *point,
+                                 const baum_i_rows *rows);
 
 struct baum_i_force_type {
   baum_i_definition definition;
@@ -348,7 +353,6 @@ struct baum_i_force_type {
    * power_is_whole. */
   baum_status (*power)(const baum_i_force *force, baum_i_point *point, double power[BAUM_I_POWERS]);
   bool power_is_whole;
-  baum_status (*check)(const baum_i_force *force, baum_i_point *point);
 };
 
 /* ---- the mechanism ---- */

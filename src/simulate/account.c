@@ -265,7 +265,7 @@ static baum_status choose_nodes(baum_simulation *run, stretch *s)
   baum_i_account *account = run->account;
   baum_workspace *w = account->workspace;
   size_t bytes = (size_t)w->mechanism->nv * sizeof *w->a;
-  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  bool fixed = baum_i_run_has_fixed_step(run);
   baum_status status = BAUM_OK;
   if (fixed && run->integrator->order <= HERMITE_ORDER) {
     status = baum_i_problem_acceleration(&account->problem, s->t, s->q, s->v);
@@ -300,34 +300,17 @@ static baum_status work_to(baum_simulation *run, const baum_i_state *state,
   return projected ? add_projection(account, state->t, raw, state->q, state->v, works) : BAUM_OK;
 }
 
-/* Equations as the run has them now. */
-static void use_present_equations(baum_simulation *run)
-{
-  baum_i_account *account = run->account;
-  account->problem.direction = run->problem.direction;
-  account->problem.alpha = run->problem.alpha; /* which restoring may change */
-  account->problem.beta = run->problem.beta;
-  account->problem.rate = run->problem.rate;
-  account->workspace->point.parameters = run->workspace->point.parameters;
-  account->workspace->point.inputs = run->workspace->point.inputs;
-  account->workspace->row_gains = run->workspace->row_gains;
-}
-
-/* Only variable steps of residuals go on from another state than that they were given. */
-static bool starts_elsewhere(const baum_simulation *run)
-{
-  return run->account->fresh && run->integrator->solves_residuals &&
-         !baum_i_problem_has_fixed_step(&run->problem);
-}
-
 static void try_work(baum_simulation *run, const baum_i_state *state, double works[BAUM_I_WORKS])
 {
   baum_i_account *account = run->account;
   if (account->broken) {
     return;
   }
-  use_present_equations(run);
-  baum_status status = starts_elsewhere(run) ? move_start(run, account->before) : BAUM_OK;
+  baum_i_run_share_equations(run, &run->account->problem);
+  /* Only variable steps of residuals begin at another state than they were given. */
+  bool moves =
+    account->fresh && run->integrator->solves_residuals && !baum_i_run_has_fixed_step(run);
+  baum_status status = moves ? move_start(run, account->before) : BAUM_OK;
   if (status == BAUM_OK) {
     status = work_to(run, state, works);
   }
@@ -368,7 +351,7 @@ void baum_i_account_go_on(baum_simulation *run)
 void baum_i_account_step(baum_simulation *run)
 {
   baum_i_account *account = run->account;
-  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  bool fixed = baum_i_run_has_fixed_step(run);
   if (!fixed) {
     baum_i_account_accept(run);
   }
@@ -391,7 +374,7 @@ static baum_status find_unprojected(baum_simulation *run, double t)
   baum_i_account *account = run->account;
   const baum_mechanism *m = run->workspace->mechanism;
   stretch s = {.t = t};
-  use_present_equations(run);
+  baum_i_run_share_equations(run, &run->account->problem);
   BAUM_I_TRY(choose_nodes(run, &s));
   BAUM_I_TRY(find_node(run, &s, 1.0));
   memcpy(account->unprojected, account->node.q, (size_t)m->nq * sizeof(double));
@@ -404,7 +387,7 @@ static baum_status find_unprojected(baum_simulation *run, double t)
 void baum_i_account_read(baum_simulation *run, const baum_i_state *state)
 {
   baum_i_account *account = run->account;
-  bool fixed = baum_i_problem_has_fixed_step(&run->problem);
+  bool fixed = baum_i_run_has_fixed_step(run);
   memcpy(account->read, account->before, sizeof account->read);
   if (fixed ? state == &run->trial : state->t == run->ahead.t) {
     add_works(account->last, account->read);
@@ -444,7 +427,7 @@ baum_status baum_i_account_put(baum_simulation *run, const baum_i_state *state, 
 static int node_count(const baum_simulation *run)
 {
   int order = run->integrator->order;
-  if (!baum_i_problem_has_fixed_step(&run->problem) || order > 6) {
+  if (!baum_i_run_has_fixed_step(run) || order > 6) {
     return 4;
   }
   return order > 4 ? 3 : 2;
@@ -457,9 +440,7 @@ static baum_status make_memory(baum_simulation *run)
   size_t nq = (size_t)m->nq;
   size_t nv = (size_t)m->nv;
   double *next = baum_i_alloc(3 * (nq + nv) + nv + (size_t)m->nc, sizeof *next);
-  if (!next) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(next));
   account->from = (baum_i_state){.q = next, .v = next + nq};
   account->node = (baum_i_state){.q = next + nq + nv, .v = next + 2 * nq + nv};
   account->unprojected = next + 2 * (nq + nv);
@@ -475,7 +456,7 @@ static baum_status make_stepper(baum_simulation *run)
   baum_i_account *account = run->account;
   bool wanted = method->step && method->advance &&
                 run->problem.formulation == BAUM_FORMULATION_PROJECTION &&
-                !baum_i_problem_has_fixed_step(&run->problem);
+                !baum_i_run_has_fixed_step(run);
   return wanted
            ? baum_i_integrator_create(method, &account->problem, &run->trial, &account->stepper)
            : BAUM_OK;
@@ -490,9 +471,7 @@ baum_status baum_i_account_create(baum_simulation *run)
                        run->integrator->name);
   }
   run->account = baum_i_alloc(1, sizeof *run->account);
-  if (!run->account) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->account));
   BAUM_I_TRY(make_memory(run));
   BAUM_I_TRY(baum_i_run_make_workspace(run, &run->account->workspace));
   run->beside[0] = run->account->workspace;

@@ -11,11 +11,9 @@
 
 #include "mechanism/definition.h"
 #include "simulate/account.h"
-#include "simulate/breaks.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
 
 /* Times that differ by less than this share of a step are the same. */
 static const double SAME_TIME = 1e-9;
@@ -247,8 +245,8 @@ static baum_status advance(baum_simulation *run, double t, int64_t *taken)
     return BAUM_OK;
   }
   BAUM_I_TRY(turn(run, t));
-  return baum_i_problem_has_fixed_step(&run->problem) ? advance_fixed(run, t, taken)
-                                                      : advance_variable(run, t, taken);
+  return baum_i_run_has_fixed_step(run) ? advance_fixed(run, t, taken)
+                                        : advance_variable(run, t, taken);
 }
 
 /* What a call begins with. */
@@ -288,11 +286,8 @@ static baum_status finish_call(baum_simulation *run, baum_status status, const p
 
 static baum_status check_time(const baum_simulation *run, const char *call, double t)
 {
-  if (!run) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
-  }
-  BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
-  return baum_i_run_may_be_changed(run, call);
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  return baum_i_check_finite(call, "t", "s", t);
 }
 
 /* ---- public ---- */
@@ -317,7 +312,7 @@ static baum_status own_step(baum_simulation *run)
 
 static baum_status one_step(baum_simulation *run)
 {
-  if (baum_i_problem_has_fixed_step(&run->problem)) {
+  if (baum_i_run_has_fixed_step(run)) {
     return next_fixed(run, 1);
   }
   BAUM_I_TRY(watch_last(run, INFINITY));
@@ -375,13 +370,12 @@ static baum_status check_sample(const baum_simulation *run, const double *times,
 {
   int width = 0;
   const char *call = "baum_simulation_sample";
-  if (!run || n < 0 || (n > 0 && (!times || !rows))) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", call,
-                       run ? "times or rows are NULL, or n is negative" : "the simulation is NULL");
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  if (n < 0 || (n > 0 && (!times || !rows))) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: times or rows are NULL, or n is negative", call);
   }
   BAUM_I_TRY(baum_i_check_channels(run->workspace->mechanism, channels, count, &width));
-  BAUM_I_TRY(check_times(run, times, n));
-  return baum_i_run_may_be_changed(run, call);
+  return check_times(run, times, n);
 }
 
 /* To a sample time: by whole steps, and from there to the side on the trial state,
@@ -407,7 +401,7 @@ static baum_status sample_one(baum_simulation *run, double t, bool last, int64_t
                               const baum_i_state **at)
 {
   *at = &run->state;
-  bool beside = !last && baum_i_problem_has_fixed_step(&run->problem);
+  bool beside = !last && baum_i_run_has_fixed_step(run);
   return beside ? advance_beside(run, t, taken, at) : advance(run, t, taken);
 }
 

@@ -106,16 +106,9 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
 static double violation_at(baum_simulation *run, const baum_i_knot *at)
 {
   baum_workspace *w = run->workspace;
-  double largest = 0.0;
-  if (baum_i_position_stage(w, at->t, at->q) != BAUM_OK) {
-    return (double)INFINITY;
-  }
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    largest = fmax(largest, fabs(w->phi[i]) / distance[i]);
-  }
-  return largest;
+  int row = -1;
+  baum_status status = baum_i_position_stage(w, at->t, at->q);
+  return status == BAUM_OK ? baum_i_row_sizes(w, w->phi, &row) : (double)INFINITY;
 }
 
 /* Largest difference of two positions, over the scales. */
@@ -130,7 +123,7 @@ static double apart(const baum_simulation *run, const double *q, const double *p
 bool baum_i_branch_has_gap_at_end(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  const baum_i_knot *last = baum_i_last_knot(p);
   return last->pivot > GAP && last->pivot > OPENED * violation_at(run, last);
 }
 
@@ -155,15 +148,13 @@ bool baum_i_branch_has_gap(baum_simulation *run, double t, double pivot)
 bool baum_i_branch_is_opened(baum_simulation *run, double pivot)
 {
   const baum_i_crossings *p = run->crossings;
-  return pivot < GAP_OF_VIOLATION * violation_at(run, &p->recent[p->recent_count - 1]);
+  return pivot < GAP_OF_VIOLATION * violation_at(run, baum_i_last_knot(p));
 }
 
 /* ---- jump ---- */
 
-/* Largest difference of two velocities, over the scales. */
-static double difference(const baum_simulation *run, const double *v, const double *w)
+double baum_i_velocity_change(const baum_mechanism *m, const double *v, const double *w)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
   double most = 0.0;
   for (int i = 0; i < m->nv; i++) {
     most = fmax(most, fabs(v[i] - w[i]) / m->scale[i]);
@@ -174,20 +165,21 @@ static double difference(const baum_simulation *run, const double *v, const doub
 static void find_jump(baum_simulation *run, double *jump, double *error)
 {
   baum_i_crossings *p = run->crossings;
-  const baum_i_knot *behind = &p->recent[p->recent_count - 1];
+  const baum_i_knot *behind = baum_i_last_knot(p);
   const baum_i_knot *end = p->clear + p->clear_count;
-  double size = baum_i_scaled_size(run->workspace->mechanism, behind->v);
+  const baum_mechanism *mechanism = run->workspace->mechanism;
+  double size = baum_i_scaled_size(mechanism, behind->v);
   if (p->clear_count > 0) {
-    size = fmax(size, baum_i_scaled_size(run->workspace->mechanism, end[-1].v));
+    size = fmax(size, baum_i_scaled_size(mechanism, end[-1].v));
   }
   *jump = *error = (double)NAN;
   for (int m = 2; m <= p->clear_count && size > 0.0; m++) {
     follow(run, end - m + 1, m - 1, behind->t, &p->other);
     follow(run, end - m, m, behind->t, &p->at);
-    double e = difference(run, p->at.v, p->other.v) / size;
+    double e = baum_i_velocity_change(mechanism, p->at.v, p->other.v) / size;
     if (!(e >= *error)) {
       *error = e;
-      *jump = difference(run, behind->v, p->at.v) / size;
+      *jump = baum_i_velocity_change(mechanism, behind->v, p->at.v) / size;
     }
   }
 }

@@ -39,19 +39,13 @@ double baum_i_run_start_rate(const baum_simulation *run)
   return swing > 0.0 || rate > ROUNDING_RATE ? rate : 0.0;
 }
 
-static bool is_driven(const baum_simulation *run)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  return m->nc > 0 && run->workspace->rows.rank == m->nv;
-}
-
 /* The motion itself tells its rate, but for one that stands still or barely moves. */
 static void measure_rate(baum_simulation *run, baum_i_gain_context *context)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double swing = swing_rate(m);
   double now = baum_i_state_rate(m, run->trial.v, run->workspace->a);
-  context->driven = is_driven(run);
+  context->driven = m->nc > 0 && run->workspace->rows.rank == m->nv;
   context->rate = baum_i_run_start_rate(run);
   context->rate_is = "the rate at which gravity swings it";
   if (now < AT_REST * swing || context->rate == 0.0) {
@@ -75,10 +69,9 @@ static baum_status check_factor(const baum_simulation *run, int row)
     return BAUM_OK;
   }
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: row_gains[%d], of %s, is %g, must be finite and > 0", row,
-                     label, f);
+                     baum_i_row_label(m, row, label), f);
 }
 
 static baum_status copy_row_gains(baum_simulation *run)
@@ -91,10 +84,7 @@ static baum_status copy_row_gains(baum_simulation *run)
                        (int)o->row_gain_count, nc);
   }
   for (int i = 0; i < nc; i++) {
-    baum_status status = check_factor(run, i);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(check_factor(run, i));
   }
   run->row_gains = baum_i_copy(o->row_gains, (size_t)nc, sizeof *run->row_gains);
   if (!run->row_gains && nc > 0) {
@@ -118,11 +108,9 @@ static void keep_worse(baum_simulation *run, const baum_i_gain_choice *own)
 /* Says which row a refusal is about. */
 static baum_status name_row(const baum_simulation *run, int row, baum_status status)
 {
-  const baum_mechanism *m = run->workspace->mechanism;
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
-  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row], label,
-                     baum_message());
+  return baum_i_fail(status, "row_gains[%d] = %g, of %s: %s", row, run->row_gains[row],
+                     baum_i_row_label(run->workspace->mechanism, row, label), baum_message());
 }
 
 /* Every factor that differs from that of the row before. */
@@ -153,13 +141,6 @@ static baum_status judge_row_gains(baum_simulation *run, const baum_i_gain_conte
 
 /* ---- the choice ---- */
 
-static bool is_auto(const baum_simulation *run)
-{
-  int32_t rule = run->options.gains.rule;
-  return rule == BAUM_GAINS_AUTO ||
-         (rule == BAUM_GAINS_DEFAULT && run->integrator->gains == BAUM_GAINS_AUTO);
-}
-
 baum_status baum_i_run_choose_gains(baum_simulation *run)
 {
   const baum_simulation_options *o = &run->options;
@@ -175,7 +156,9 @@ baum_status baum_i_run_choose_gains(baum_simulation *run)
     .rule_default = run->integrator->gains,
     .allow_unstable = o->allow_unstable,
   };
-  if (is_auto(run)) {
+  int32_t rule =
+    o->gains.rule == BAUM_GAINS_DEFAULT ? (int32_t)run->integrator->gains : o->gains.rule;
+  if (rule == BAUM_GAINS_AUTO) {
     measure_rate(run, &context);
   }
   BAUM_I_TRY(o->row_gains ? copy_row_gains(run) : BAUM_OK);

@@ -24,7 +24,6 @@
 
 #include "base/alloc.h"
 #include "base/text.h"
-#include "simulate/breaks.h"
 #include "simulate/crossing.h"
 #include "simulate/local_error.h"
 #include "simulate/saved.h"
@@ -88,9 +87,7 @@ static baum_status make_memory(baum_i_companion *c)
   enum { STATES = sizeof states / sizeof states[0] };
   size_t size = (size_t)m->nq + (size_t)m->nv;
   double *next = baum_i_alloc(STATES * size + baum_i_local_error_size(m), sizeof *next);
-  if (!next) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(next));
   for (int k = 0; k < STATES; k++, next += size) {
     *states[k] = (baum_i_state){.q = next, .v = next + m->nq};
   }
@@ -98,15 +95,10 @@ static baum_status make_memory(baum_i_companion *c)
   return BAUM_OK;
 }
 
-static bool has_fixed_step(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem);
-}
-
 bool baum_i_companion_is_wanted(const baum_simulation *run)
 {
   bool loose = run->problem.rtol >= 0.5 * TOLERANCE;
-  bool wanted = run->options.error_check || has_fixed_step(run) || loose;
+  bool wanted = run->options.error_check || baum_i_run_has_fixed_step(run) || loose;
   return wanted && !run->integrator->without_freedom;
 }
 
@@ -115,14 +107,15 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
   c->problem = run->problem;
   c->problem.workspace = c->workspace;
   c->problem.distrusts_projection = true;
-  if (run->options.error_check && !has_fixed_step(run)) {
+  if (run->options.error_check && !baum_i_run_has_fixed_step(run)) {
     c->method = run->integrator;
     c->problem.rtol =
       fmax(TIGHTER_OF_CHECK * run->problem.rtol, fmin(LEAST_RTOL, run->problem.rtol));
     c->problem.atol = TIGHTER_OF_CHECK * run->problem.atol;
     return;
   }
-  double tolerance = has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
+  double tolerance =
+    baum_i_run_has_fixed_step(run) ? TOLERANCE : fmin(TOLERANCE, TIGHTER * run->problem.rtol);
   c->method = baum_rk8();
   c->problem.formulation = BAUM_FORMULATION_PROJECTION;
   c->problem.step = (double)NAN;
@@ -136,9 +129,7 @@ static void choose_problem(const baum_simulation *run, baum_i_companion *c)
 baum_status baum_i_companion_create(baum_simulation *run)
 {
   baum_i_companion *c = baum_i_alloc(1, sizeof *c);
-  if (!c) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(c));
   run->companion = c;
   BAUM_I_TRY(baum_i_run_make_workspace(run, &c->workspace));
   BAUM_I_TRY(make_memory(c));
@@ -163,7 +154,7 @@ static void warn_of_error(baum_simulation *run, double t)
 {
   double error = run->counters.error_estimate;
   char advice[64] = "take a smaller rtol";
-  if (has_fixed_step(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     double advised = run->options.step * pow(FINE / error, 1.0 / run->integrator->order);
     baum_i_print(advice, sizeof advice, "take a step below %.1g s", advised);
   }
@@ -221,21 +212,6 @@ static bool is_too_costly(const baum_simulation *run)
   return (double)(c->workspace->evaluations - FREE) > most * cost;
 }
 
-/* Equations as the run has them now. */
-static void use_present_equations(baum_simulation *run)
-{
-  baum_i_companion *c = run->companion;
-  c->problem.direction = run->problem.direction;
-  c->problem.alpha = run->problem.alpha; /* which restoring may change */
-  c->problem.beta = run->problem.beta;
-  c->problem.rate = run->problem.rate;
-  c->problem.stop = baum_i_run_next_break(run).near;
-  c->problem.stops = isfinite(c->problem.stop);
-  c->workspace->point.parameters = run->workspace->point.parameters;
-  c->workspace->point.inputs = run->workspace->point.inputs;
-  c->workspace->row_gains = run->workspace->row_gains;
-}
-
 /* By steps until it is at t or past it. */
 static baum_status go_to(baum_simulation *run, double t)
 {
@@ -247,21 +223,19 @@ static baum_status go_to(baum_simulation *run, double t)
   return come_to(run, t);
 }
 
-static void give_up(baum_simulation *run)
-{
-  run->companion->doing = ENDED;
-  run->counters.error_estimate = (double)NAN;
-}
-
 /* Compare at a state of the run. What fails here says nothing of the run. */
 static bool reach(baum_simulation *run, const baum_i_state *state)
 {
-  use_present_equations(run);
+  baum_i_companion *c = run->companion;
+  baum_i_run_share_equations(run, &c->problem);
+  c->problem.stop = baum_i_run_next_break(run).near;
+  c->problem.stops = isfinite(c->problem.stop);
   bool reached = go_to(run, state->t) == BAUM_OK;
   if (reached) {
     compare(run, state);
   } else {
-    give_up(run);
+    c->doing = ENDED;
+    run->counters.error_estimate = (double)NAN;
   }
   return reached;
 }
@@ -269,13 +243,6 @@ static bool reach(baum_simulation *run, const baum_i_state *state)
 static bool goes_along(const baum_simulation *run)
 {
   return run->companion && run->companion->doing == GOES_ALONG;
-}
-
-static void start_from(baum_simulation *run, const baum_i_state *state)
-{
-  baum_i_companion *c = run->companion;
-  baum_i_run_copy(run, state, &c->state);
-  c->method->forget(c->self);
 }
 
 static void keep_state(baum_simulation *run, const baum_i_state *state)
@@ -301,14 +268,16 @@ static void set_out(baum_simulation *run, const baum_i_state *from)
   c->workspace->evaluations = 0;
   c->problem.direction = run->problem.direction;
   run->counters.error_estimate = 0.0;
-  start_from(run, from);
+  baum_i_run_copy(run, from, &c->state);
+  c->method->forget(c->self);
 }
 
 static bool is_coarse(const baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   double rate = fmax(run->problem.rate, baum_i_scaled_size(m, run->state.v));
-  return has_fixed_step(run) && pow(run->options.step * rate, run->integrator->order) > COARSE;
+  return baum_i_run_has_fixed_step(run) &&
+         pow(run->options.step * rate, run->integrator->order) > COARSE;
 }
 
 void baum_i_companion_begin(baum_simulation *run)
@@ -319,7 +288,7 @@ void baum_i_companion_begin(baum_simulation *run)
     c->sum = 0.0;
     c->unseen = 0;
     c->doing = WAITS;
-    run->counters.error_estimate = has_fixed_step(run) ? 0.0 : (double)NAN;
+    run->counters.error_estimate = baum_i_run_has_fixed_step(run) ? 0.0 : (double)NAN;
     if (run->options.error_check || is_coarse(run)) {
       set_out(run, &run->state);
     }
@@ -330,7 +299,7 @@ void baum_i_companion_begin(baum_simulation *run)
 static bool may_matter(baum_simulation *run)
 {
   baum_i_companion *c = run->companion;
-  if (!has_fixed_step(run)) {
+  if (!baum_i_run_has_fixed_step(run)) {
     return run->counters.near_singular_intervals > 0;
   }
   c->unseen += c->local.known < BAUM_I_ACCELERATIONS;

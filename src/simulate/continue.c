@@ -2,7 +2,8 @@
 /* A run that goes on where another one stands, of the same mechanism and with options of its
  * own. */
 #include "base/alloc.h"
-#include "simulate/schedule.h"
+#include "mechanism/definition.h"
+#include "simulate/run.h"
 
 /* Where a run stands, and what acts on it from outside. */
 typedef struct standing {
@@ -68,16 +69,13 @@ static baum_status take_over(baum_simulation *run, double t, const standing *the
 static baum_status check_both(const baum_simulation *run, const baum_simulation *from)
 {
   const char *call = "baum_simulation_continue";
-  if (!run || !from) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
-                       run ? "the run to go on from" : "the simulation");
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the run to continue", from != NULL));
   bool same = run->fingerprint.structure == from->fingerprint.structure &&
               run->fingerprint.numbers == from->fingerprint.numbers;
-  if (!same) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the two runs are of different mechanisms", call);
-  }
-  return baum_i_run_may_be_changed(run, call);
+  return same
+           ? BAUM_OK
+           : baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the two runs are of different mechanisms", call);
 }
 
 baum_status baum_simulation_continue(baum_simulation *simulation, const baum_simulation *from)

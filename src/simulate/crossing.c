@@ -47,9 +47,7 @@ baum_status baum_i_crossings_create(baum_simulation *run)
   const baum_mechanism *m = run->workspace->mechanism;
   size_t numbers = (size_t)(m->nq + m->nv) * (BAUM_I_RECENT + BAUM_I_HERMITE_MOST + 4);
   baum_i_crossings *p = baum_i_alloc(1, sizeof *p + numbers * sizeof(double));
-  if (!p) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(p));
   double *next = (double *)(p + 1);
   p->present.joint = -1;
   place_knots(m, p->recent, BAUM_I_RECENT, &next);
@@ -79,12 +77,13 @@ void baum_i_crossings_forget(baum_i_crossings *p)
 
 /* ---- lists of knots ---- */
 
-static void copy_knot(const baum_mechanism *m, const baum_i_knot *from, baum_i_knot *to)
+static void set_knot(const baum_mechanism *m, double t, double pivot, const double *q,
+                     const double *v, baum_i_knot *to)
 {
-  to->t = from->t;
-  to->pivot = from->pivot;
-  memcpy(to->q, from->q, (size_t)m->nq * sizeof *to->q);
-  memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
+  to->t = t;
+  to->pivot = pivot;
+  memcpy(to->q, q, (size_t)m->nq * sizeof *q);
+  memcpy(to->v, v, (size_t)m->nv * sizeof *v);
 }
 
 /* A place for a new last one; when the list is full, that of the first. */
@@ -107,7 +106,7 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
   bool close = n >= 2 && fabs(p->clear[n - 1].t - p->clear[n - 2].t) * rate < SPACING;
   baum_i_knot *place =
     close ? &p->clear[n - 1] : make_last(p->clear, BAUM_I_HERMITE_MOST, &p->clear_count);
-  copy_knot(run->workspace->mechanism, state, place);
+  set_knot(run->workspace->mechanism, state->t, state->pivot, state->q, state->v, place);
 }
 
 /* ---- states ---- */
@@ -115,7 +114,7 @@ static void keep_clear(baum_simulation *run, const baum_i_knot *state)
 static void note_state(baum_simulation *run, const baum_i_state *state, double pivot, int joint)
 {
   baum_i_crossings *p = run->crossings;
-  double since = p->recent_count > 0 ? state->t - p->recent[p->recent_count - 1].t : 0.0;
+  double since = p->recent_count > 0 ? state->t - baum_i_last_knot(p)->t : 0.0;
   if (p->recent_count > 0 && since == 0.0) {
     return;
   }
@@ -124,11 +123,7 @@ static void note_state(baum_simulation *run, const baum_i_state *state, double p
   }
   p->usual = fmax(p->usual, pivot);
   baum_i_knot *last = make_last(p->recent, BAUM_I_RECENT, &p->recent_count);
-  last->t = state->t;
-  last->pivot = pivot / p->usual;
-  const baum_mechanism *m = run->workspace->mechanism;
-  memcpy(last->q, state->q, (size_t)m->nq * sizeof *last->q);
-  memcpy(last->v, state->v, (size_t)m->nv * sizeof *last->v);
+  set_knot(run->workspace->mechanism, state->t, pivot / p->usual, state->q, state->v, last);
   p->unseen = true;
   p->joint_noted = joint;
 }
@@ -168,14 +163,11 @@ static void see_turn(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
   const baum_mechanism *m = run->workspace->mechanism;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  const baum_i_knot *last = baum_i_last_knot(p);
   if (p->recent_count < 2) {
     return;
   }
-  double change = 0.0;
-  for (int i = 0; i < m->nv; i++) {
-    change = fmax(change, fabs(last->v[i] - last[-1].v[i]) / m->scale[i]);
-  }
+  double change = baum_i_velocity_change(m, last->v, last[-1].v);
   double size = fmax(baum_i_scaled_size(m, last->v), baum_i_scaled_size(m, last[-1].v));
   p->present.largest_turn = fmax(p->present.largest_turn, size > 0.0 ? change / size : 0.0);
 }
@@ -234,7 +226,7 @@ static void search_least_pivot(baum_simulation *run)
 static void see_last(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  const baum_i_knot *last = baum_i_last_knot(p);
   if (is_lowest(run, last->t, last->q, last->pivot, p->joint_noted)) {
     p->present.gap = last->pivot < SINGULAR && baum_i_branch_has_gap_at_end(run);
   }
@@ -282,7 +274,7 @@ static void close_crossing(baum_simulation *run)
   baum_i_crossings *p = run->crossings;
   double pivot = p->lowest.pivot;
   if (is_singular(run, pivot) && !keeps_its_rank(run, p->lowest.t, p->lowest.q, pivot)) {
-    record_crossing(run, p->recent[p->recent_count - 1].t);
+    record_crossing(run, baum_i_last_knot(p)->t);
   }
   p->open = false;
 }
@@ -294,7 +286,7 @@ static void look_inside(baum_simulation *run)
   if (may_have_jumped(p)) {
     search_least_pivot(run);
   }
-  if (is_near(&p->recent[p->recent_count - 1])) {
+  if (is_near(baum_i_last_knot(p))) {
     see_last(run);
   } else {
     close_crossing(run);
@@ -305,7 +297,7 @@ static void look_inside(baum_simulation *run)
 static bool has_jumped(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  if (is_near(&p->recent[p->recent_count - 1]) || !may_have_jumped(p)) {
+  if (is_near(baum_i_last_knot(p)) || !may_have_jumped(p)) {
     return false;
   }
   open_crossing(p, p->recent[0].t);
@@ -318,7 +310,7 @@ static bool has_jumped(baum_simulation *run)
 static void keep_last_but_one(baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  const baum_i_knot *last = baum_i_last_knot(p);
   if (p->recent_count >= 2 && !is_near(last - 1)) {
     keep_clear(run, last - 1);
   }
@@ -327,7 +319,7 @@ static void keep_last_but_one(baum_simulation *run)
 static void look_outside(baum_simulation *run)
 {
   baum_i_crossings *p = run->crossings;
-  const baum_i_knot *last = &p->recent[p->recent_count - 1];
+  const baum_i_knot *last = baum_i_last_knot(p);
   if (has_jumped(run)) {
     see_turn(run);
     close_crossing(run);
@@ -341,18 +333,6 @@ static void look_outside(baum_simulation *run)
   }
 }
 
-static void look_by_probe(baum_simulation *run)
-{
-  baum_i_probe probe;
-  baum_i_probe_begin(&probe, run->workspace);
-  if (run->crossings->open) {
-    look_inside(run);
-  } else {
-    look_outside(run);
-  }
-  (void)baum_i_probe_end(&probe, BAUM_OK);
-}
-
 /* Most states have nothing to look for. */
 void baum_i_crossings_look(baum_simulation *run)
 {
@@ -361,11 +341,18 @@ void baum_i_crossings_look(baum_simulation *run)
     return;
   }
   p->unseen = false;
-  if (p->open || is_near(&p->recent[p->recent_count - 1]) || may_have_jumped(p)) {
-    look_by_probe(run);
-  } else {
+  if (!p->open && !is_near(baum_i_last_knot(p)) && !may_have_jumped(p)) {
     keep_last_but_one(run);
+    return;
   }
+  baum_i_probe probe;
+  baum_i_probe_begin(&probe, run->workspace);
+  if (p->open) {
+    look_inside(run);
+  } else {
+    look_outside(run);
+  }
+  (void)baum_i_probe_end(&probe, BAUM_OK);
 }
 
 void baum_i_crossings_end(baum_simulation *run)
@@ -397,7 +384,7 @@ static int count_pieces(const baum_simulation *run, const baum_i_state *end, dou
   if (p->recent_count == 0) {
     return 1;
   }
-  const baum_i_knot *start = &p->recent[p->recent_count - 1];
+  const baum_i_knot *start = baum_i_last_knot(p);
   const baum_mechanism *m = run->workspace->mechanism;
   double rate = fmax(baum_i_scaled_size(m, start->v), baum_i_scaled_size(m, end->v));
   double angle = rate * fabs(end->t - start->t);
@@ -434,7 +421,7 @@ void baum_i_crossings_step(baum_simulation *run, const baum_i_state *end)
   int joint = -1;
   double pivot = baum_i_smallest_pivot(w, &joint);
   int pieces = status == BAUM_OK ? count_pieces(run, end, pivot) : 1;
-  double start = pieces > 1 ? p->recent[p->recent_count - 1].t : end->t;
+  double start = pieces > 1 ? baum_i_last_knot(p)->t : end->t;
   for (int k = 1; k < pieces; k++) {
     look_between(run, start + (end->t - start) * k / pieces);
   }

@@ -40,6 +40,12 @@ struct baum_i_crossings {
   baum_near_singular kept[BAUM_I_PASSAGES];
 };
 
+/* The last recent state; there is one. */
+static inline const baum_i_knot *baum_i_last_knot(const baum_i_crossings *crossings)
+{
+  return &crossings->recent[crossings->recent_count - 1];
+}
+
 baum_status baum_i_crossings_create(baum_simulation *run);
 void baum_i_crossings_destroy(baum_i_crossings *crossings); /* NULL is fine */
 
@@ -68,6 +74,9 @@ void baum_i_branch_decide(baum_simulation *run, baum_near_singular *out);
  * last; time and joint of it. INFINITY where evaluations fail. */
 double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots, int count,
                                  double *at, int *joint);
+
+/* branch.c: largest difference of two velocities (nv), over the scales. */
+double baum_i_velocity_change(const baum_mechanism *mechanism, const double *v, const double *w);
 
 /* branch.c: is there no singular configuration near the last recent state, or near the motion
  * through the recent ones at t, where its pivot is given? */

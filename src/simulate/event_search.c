@@ -40,11 +40,6 @@ static bool is_before(const baum_simulation *run, double a, double b)
   return run->problem.direction * (b - a) > 0.0;
 }
 
-static bool is_fixed(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem);
-}
-
 /* ---- states inside the step ---- */
 
 /* The cubic of the ends of a fixed step; exact as far as it begins like the motion. */
@@ -77,7 +72,7 @@ static baum_status find_state_by_step(baum_simulation *run, double t)
 /* The state that outputs see at t, into the trial state. */
 static baum_status find_state(baum_simulation *run, double t)
 {
-  if (is_fixed(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     return find_state_by_step(run, t);
   }
   if (t == run->ahead.t) {
@@ -92,7 +87,7 @@ static baum_status glance(baum_simulation *run, double t)
 {
   baum_i_state *look = &run->events->look;
   look->t = t;
-  if (is_fixed(run)) {
+  if (baum_i_run_has_fixed_step(run)) {
     follow_cubic(run, t, look);
     return BAUM_OK;
   }
@@ -160,11 +155,6 @@ static void narrow_bracket(bracket *is, double x, double value, bool before)
   is->last_moved = before ? BEFORE : AFTER;
 }
 
-static bool is_narrow(const bracket *is, double tolerance)
-{
-  return is->fb == 0.0 || !(fabs(is->b - is->a) > tolerance);
-}
-
 /* Between events->t and t, where event k has passed. */
 static bracket bracket_of(const baum_simulation *run, int k, double t)
 {
@@ -183,15 +173,12 @@ static baum_status locate(baum_simulation *run, int k, double t)
   int32_t side = run->events->marks[k].side;
   bracket is = bracket_of(run, k, t);
   double tolerance = tolerance_of(event, fmax(fabs(is.a), fabs(is.b)));
-  for (int try = 0; try < MOST_TRIES && !is_narrow(&is, tolerance); try++) {
+  for (int try = 0; try < MOST_TRIES && is.fb != 0.0 && fabs(is.b - is.a) > tolerance; try++) {
     double x = choose_time(&is, tolerance, try);
     if (x == is.a || x == is.b) {
       break;
     }
-    baum_status status = value_at(run, x);
-    if (status != BAUM_OK) {
-      return status;
-    }
+    BAUM_I_TRY(value_at(run, x));
     narrow_bracket(&is, x, event->next, baum_i_sign(event->next) == side);
   }
   event->found = is.b;
@@ -300,25 +287,15 @@ static baum_status deliver_events(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* Does a glance show another side than known? */
-static bool any_differs(const baum_i_events *events)
+/* Has any event another side than known? Leaving zero counts for a glance. */
+static bool any_has_passed(const baum_i_events *events, bool leaving)
 {
+  bool any = false;
   for (int k = 0; k < events->count; k++) {
-    if (baum_i_sign(events->list[k].next) != events->marks[k].side) {
-      return true;
-    }
+    any = any || has_passed(events, k) ||
+          (leaving && events->marks[k].side == 0 && events->list[k].next != 0.0);
   }
-  return false;
-}
-
-static bool any_has_passed(const baum_i_events *events)
-{
-  for (int k = 0; k < events->count; k++) {
-    if (has_passed(events, k)) {
-      return true;
-    }
-  }
-  return false;
+  return any;
 }
 
 /* Every event that has passed at t, whose values are given; afterwards they are those at t
@@ -347,23 +324,17 @@ static void keep_values(baum_i_events *events, double t)
   }
 }
 
-/* Is the state at t to be had for nothing? */
-static bool is_end(const baum_simulation *run, double t)
-{
-  return is_fixed(run) ? t == run->trial.t : t == run->ahead.t;
-}
-
 /* From events->t to t, without looks between. */
 static baum_status search_until(baum_simulation *run, double t, bool exact)
 {
   baum_i_events *events = run->events;
-  exact = exact || is_end(run, t);
+  exact = exact || t == (baum_i_run_has_fixed_step(run) ? run->trial.t : run->ahead.t);
   BAUM_I_TRY(exact ? find_state(run, t) : glance(run, t));
   BAUM_I_TRY(baum_i_events_evaluate(run, exact ? &run->trial : &events->look));
-  if (!exact && any_differs(events)) {
+  if (!exact && any_has_passed(events, true)) {
     BAUM_I_TRY(value_at(run, t));
   }
-  if (any_has_passed(events)) {
+  if (any_has_passed(events, false)) {
     BAUM_I_TRY(locate_all(run, t));
     BAUM_I_TRY(deliver_events(run));
   }
@@ -376,7 +347,7 @@ static baum_status search_until(baum_simulation *run, double t, bool exact)
 baum_status baum_i_events_watch(baum_simulation *run, double to)
 {
   baum_i_events *events = run->events;
-  bool fixed = is_fixed(run);
+  bool fixed = baum_i_run_has_fixed_step(run);
   double from = fixed ? run->state.t : events->from;
   double end = fixed ? to : run->ahead.t;
   if (fixed) {

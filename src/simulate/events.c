@@ -67,9 +67,7 @@ static baum_status create_events(baum_simulation *run)
 {
   const baum_mechanism *m = run->workspace->mechanism;
   baum_i_events *events = baum_i_alloc(1, sizeof *events);
-  if (!events) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(events));
   events->memory = baum_i_alloc((size_t)m->nq + (size_t)m->nv, sizeof *events->memory);
   if (!events->memory) {
     baum_i_events_destroy(events);
@@ -101,14 +99,10 @@ static baum_status make_room(baum_i_events *events, const baum_event_def *def)
   assert(events);
   size_t count = (size_t)events->count + 1;
   baum_i_event *list = baum_i_grow(events->list, count, sizeof *list);
-  if (!list) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(list));
   events->list = list;
   baum_i_event_mark *marks = baum_i_grow(events->marks, count, sizeof *marks);
-  if (!marks) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(marks));
   events->marks = marks;
   baum_i_event *event = &list[count - 1];
   *event = (baum_i_event){.def = *def, .joint = -1, .found = (double)NAN};
@@ -131,14 +125,6 @@ static baum_status fail_value(const baum_simulation *run, int number, int answer
   return baum_i_fail(BAUM_ERR_NOT_FINITE, "t = %.9g s: %s: its value is %g", t, label, value);
 }
 
-static double coordinate_of(baum_workspace *w, const baum_i_event *event)
-{
-  const baum_i_joint *joint = w->mechanism->joints[event->joint];
-  baum_i_coordinate coordinate;
-  joint->type->coordinate(joint, &w->point, &coordinate);
-  return coordinate.value - event->def.value;
-}
-
 static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_state *state)
 {
   baum_workspace *w = run->workspace;
@@ -147,7 +133,10 @@ static baum_status evaluate_one(baum_simulation *run, int number, const baum_i_s
   int answer = 0;
   event->next = 0.0;
   if (event->joint >= 0) {
-    event->next = coordinate_of(w, event);
+    const baum_i_joint *joint = w->mechanism->joints[event->joint];
+    baum_i_coordinate coordinate;
+    joint->type->coordinate(joint, &w->point, &coordinate);
+    event->next = coordinate.value - def->value;
   } else {
     w->point.asking = true;
     answer = def->function(state->t, state->q, state->v, w->point.inputs, &event->next, def->user);
@@ -179,45 +168,30 @@ double baum_i_event_window(const baum_simulation *run, const baum_i_event *event
   return event->def.tolerance > window ? event->def.tolerance : window;
 }
 
-static bool has_just_been(const baum_simulation *run, int k)
-{
-  double t = run->state.t;
-  double last = run->events->marks[k].last;
-  return fabs(t - last) <= baum_i_event_window(run, &run->events->list[k], t);
-}
-
-static void look_from_here(baum_simulation *run)
+/* Look from the present state on, with the values there. */
+static void take_values(baum_simulation *run, bool is_start)
 {
   baum_i_events *events = run->events;
-  events->t = run->state.t;
-  events->begin = run->state.t;
-  events->from = run->state.t;
+  events->t = events->begin = events->from = run->state.t;
+  for (int k = 0; k < events->count; k++) {
+    baum_i_event_mark *mark = &events->marks[k];
+    mark->value = events->list[k].next;
+    mark->side = mark->value == 0.0 && !is_start ? mark->side : baum_i_sign(mark->value);
+    double since = fabs(run->state.t - mark->last);
+    mark->fresh = is_start || since <= baum_i_event_window(run, &events->list[k], run->state.t);
+  }
 }
 
 void baum_i_events_begin(baum_simulation *run)
 {
-  baum_i_events *events = run->events;
-  look_from_here(run);
-  for (int k = 0; k < events->count; k++) {
-    baum_i_event_mark *mark = &events->marks[k];
-    mark->value = events->list[k].next;
-    mark->side = baum_i_sign(mark->value);
-    mark->fresh = 1;
-  }
+  take_values(run, true);
 }
 
 /* What has just happened may do so again at once only because a method begins a little beside the
  * state, or because the run turns back; that is leaving zero. */
 void baum_i_events_go_on(baum_simulation *run)
 {
-  baum_i_events *events = run->events;
-  look_from_here(run);
-  for (int k = 0; k < events->count; k++) {
-    baum_i_event_mark *mark = &events->marks[k];
-    mark->value = events->list[k].next;
-    mark->side = mark->value == 0.0 ? mark->side : baum_i_sign(mark->value);
-    mark->fresh = has_just_been(run, k);
-  }
+  take_values(run, false);
 }
 
 static baum_status begin_last(baum_simulation *run)
@@ -240,31 +214,20 @@ static baum_status begin_last(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* A run without events has none of this, as before. */
-static void drop_if_empty(baum_simulation *run)
-{
-  if (run->events && run->events->count == 0) {
-    baum_i_events_destroy(run->events);
-    run->events = NULL;
-  }
-}
-
 /* ---- public ---- */
 
 static baum_status check_add(const baum_simulation *run, const baum_event_def *def)
 {
   const char *call = "baum_simulation_add_event";
-  if (!run || !def) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
-                       run ? "the definition is" : "the simulation is");
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the definition", def != NULL));
   if (!baum_i_is_struct_size(def->struct_size, sizeof *def)) {
     return baum_i_fail(BAUM_ERR_STRUCT,
                        "%s: struct_size of the definition is %zu, must be %zu, or that of an older "
                        "version; start from baum_event_def_default()",
                        call, def->struct_size, sizeof *def);
   }
-  return baum_i_run_may_be_changed(run, call);
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_event_def *def,
@@ -285,9 +248,11 @@ baum_status baum_simulation_add_event(baum_simulation *simulation, const baum_ev
   if (status == BAUM_OK) {
     status = begin_last(simulation);
   }
-  if (status != BAUM_OK) {
-    drop_if_empty(simulation);
-  } else if (index) {
+  if (status != BAUM_OK && number == 0) { /* a run without events has none of this */
+    baum_i_events_destroy(simulation->events);
+    simulation->events = NULL;
+  }
+  if (status == BAUM_OK && index) {
     *index = number;
   }
   return status;

@@ -7,21 +7,15 @@
 
 #define say(run, ...) baum_i_append((run)->explain, sizeof(run)->explain, __VA_ARGS__)
 
-static const char *formulation_text(baum_formulation formulation)
-{
-  switch (formulation) {
-  case BAUM_FORMULATION_UNSTABILIZED: return "J a = gamma, nothing done against drift";
-  case BAUM_FORMULATION_BAUMGARTE: return "J a = gamma - 2 alpha Phi' - beta^2 Phi";
-  case BAUM_FORMULATION_PROJECTION: return "J a = gamma, then q and v projected after each step";
-  case BAUM_FORMULATION_INDEX2:
-    return "J v = nu kept by the implicit method itself; Phi drifts slowly";
-  case BAUM_FORMULATION_GGL:
-    return "Phi = 0 and J v = nu kept by the implicit method itself (Gear, Gupta, Leimkuhler)";
-  case BAUM_FORMULATION_INDEX3: return "Phi = 0 kept by the method itself";
-  case BAUM_FORMULATION_DEFAULT:
-  default: return "";
-  }
-}
+static const char *const FORMULATIONS[] = {
+  [BAUM_FORMULATION_UNSTABILIZED] = "J a = gamma, nothing done against drift",
+  [BAUM_FORMULATION_BAUMGARTE] = "J a = gamma - 2 alpha Phi' - beta^2 Phi",
+  [BAUM_FORMULATION_PROJECTION] = "J a = gamma, then q and v projected after each step",
+  [BAUM_FORMULATION_INDEX2] = "J v = nu kept by the implicit method itself; Phi drifts slowly",
+  [BAUM_FORMULATION_GGL] =
+    "Phi = 0 and J v = nu kept by the implicit method itself (Gear, Gupta, Leimkuhler)",
+  [BAUM_FORMULATION_INDEX3] = "Phi = 0 kept by the method itself",
+};
 
 static void say_mechanism(baum_simulation *run)
 {
@@ -60,7 +54,7 @@ static void say_integrator(baum_simulation *run)
         run->integrator->name);
     return;
   }
-  if (baum_i_problem_has_fixed_step(&run->problem)) {
+  if (baum_i_run_has_fixed_step(run)) {
     say(run, "integrator    %s, order %d, fixed step %.6g s\n", run->integrator->name,
         run->integrator->order, o->step);
     return;
@@ -98,7 +92,7 @@ void baum_i_run_explain(baum_simulation *run)
   say_mechanism(run);
   if (!run->integrator->without_freedom) {
     say(run, "formulation   %s: %s\n", baum_formulation_name(run->options.formulation),
-        formulation_text(run->options.formulation));
+        FORMULATIONS[run->options.formulation]);
   }
   say_integrator(run);
   if (run->options.formulation == BAUM_FORMULATION_BAUMGARTE) {

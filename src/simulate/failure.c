@@ -17,29 +17,20 @@
 /* A violation as a displacement that shows. */
 static const double VIOLATED = 1e-3;
 
-typedef struct advice {
-  baum_status status;
-  const char *text;
-} advice;
-
-static const advice ADVICE[] = {
-  {BAUM_ERR_SINGULAR,
-   "a run with another step may pass a single pose like this; no step passes a dead end"},
-  {BAUM_ERR_CONVERGENCE, "take a smaller step or tolerance"},
-  {BAUM_ERR_STEP, "look at what acts there, or take a larger rtol"},
-  {BAUM_ERR_NOT_FINITE, "look at functions and numbers there, or, where a run blows up, take a "
-                        "smaller step or other gains"},
-  {BAUM_ERR_INTEGRATOR, "another integrator may get over it"},
-  {BAUM_OK, NULL},
-};
-
 static const char *advice_for(baum_status status)
 {
-  const advice *a = ADVICE;
-  while (a->text && a->status != status) {
-    a++;
+  switch ((int)status) {
+  case BAUM_ERR_SINGULAR:
+    return "a run with another step may pass a single configuration like this; no step passes a "
+           "dead end";
+  case BAUM_ERR_CONVERGENCE: return "take a smaller step or tolerance";
+  case BAUM_ERR_STEP: return "look at what acts there, or take a larger rtol";
+  case BAUM_ERR_NOT_FINITE:
+    return "look at functions and numbers there, or, where a run blows up, take a smaller step or "
+           "other gains";
+  case BAUM_ERR_INTEGRATOR: return "another integrator may get over it";
+  default: return NULL;
   }
-  return a->text;
 }
 
 /* The largest of |x_i| / n_i, or of |x_i| n_i where n is a displacement. */
@@ -68,11 +59,10 @@ static void say_joint(baum_workspace *w, char *text, size_t size)
   int violated = find_largest(w->phi, displacement, m->nc, false, &violation);
   int loaded = find_largest(w->lambda, displacement, m->nc, true, &load);
   if (violated >= 0 && violation > VIOLATED) {
-    (void)baum_i_joint_label(m, baum_i_row_joint(m, violated), label);
-    baum_i_append(text, size, ", %s is violated by %.2g of the scales", label, violation);
+    baum_i_append(text, size, ", %s is violated by %.2g of the scales",
+                  baum_i_row_label(m, violated, label), violation);
   } else if (loaded >= 0) {
-    (void)baum_i_joint_label(m, baum_i_row_joint(m, loaded), label);
-    baum_i_append(text, size, ", %s bears the largest load", label);
+    baum_i_append(text, size, ", %s bears the largest load", baum_i_row_label(m, loaded, label));
   }
 }
 

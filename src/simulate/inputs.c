@@ -9,7 +9,7 @@
 
 #include "base/alloc.h"
 #include "mechanism/definition.h"
-#include "simulate/schedule.h"
+#include "simulate/run.h"
 
 /* ---- inputs ---- */
 
@@ -17,12 +17,9 @@ baum_status baum_simulation_set_input(baum_simulation *simulation, baum_input_id
                                       double value)
 {
   const char *call = "baum_simulation_set_input";
-  if (!simulation) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
   baum_workspace *w = simulation->workspace;
   BAUM_I_TRY(baum_i_check_input_value(w->mechanism, input, call, value));
-  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
   double *present = &w->inputs[input.index1 - 1];
   double before = *present;
   baum_i_kept_message kept;
@@ -139,15 +136,13 @@ static baum_status check_schedule_entry(const baum_mechanism *m, const given *g,
 static baum_status check_schedule(const baum_simulation *run, baum_input_id input,
                                   const double *times, const double *values, int32_t count)
 {
-  if (!run) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", CALL);
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, CALL));
   BAUM_I_TRY(baum_i_check_input(run->workspace->mechanism, input, CALL, "input"));
   if ((count < 0 || (count > 0 && (!times || !values)))) {
     return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s", CALL,
                        count < 0 ? "count is negative" : "times or values are NULL");
   }
-  return baum_i_run_may_be_changed(run, CALL);
+  return BAUM_OK;
 }
 
 baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_input_id input,
@@ -177,9 +172,7 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
 static baum_status check_driver(const baum_simulation *run, const char *call, baum_joint_id driver,
                                 const double law[3])
 {
-  if (!run) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
   const baum_mechanism *m = run->workspace->mechanism;
   BAUM_I_TRY(baum_i_check_joint(m, driver, call, "driver"));
   char label[BAUM_I_LABEL_SIZE];
@@ -194,7 +187,7 @@ static baum_status check_driver(const baum_simulation *run, const char *call, ba
   for (int k = 0; k < 3; k++) {
     BAUM_I_TRY(baum_i_check_finite(label, names[k], units[k], law[k]));
   }
-  return baum_i_run_may_be_changed(run, call);
+  return BAUM_OK;
 }
 
 baum_status baum_i_run_own_parameters(baum_simulation *run)
@@ -204,9 +197,7 @@ baum_status baum_i_run_own_parameters(baum_simulation *run)
     return BAUM_OK;
   }
   run->parameters = baum_i_copy(m->parameters, (size_t)m->parameter_count, sizeof *run->parameters);
-  if (!run->parameters) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->parameters));
   run->workspace->point.parameters = run->parameters;
   return BAUM_OK;
 }

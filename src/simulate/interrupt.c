@@ -24,6 +24,9 @@ void baum_simulation_cancel(baum_simulation *simulation)
 
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
 {
+  if (!run) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: the simulation is NULL", call);
+  }
   baum_status status = baum_i_check_idle(run->workspace, call, "the simulation");
   for (int k = 0; k < 2 && status == BAUM_OK; k++) {
     status = run->beside[k] ? baum_i_check_idle(run->beside[k], call, "the simulation") : BAUM_OK;
@@ -33,11 +36,12 @@ baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call)
 
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call)
 {
-  return run->reporting ? baum_i_fail(BAUM_ERR_STATE,
-                                      "%s: the simulation is calling progress(), which may only "
-                                      "read it",
-                                      call)
-                        : baum_i_run_may_be_read(run, call);
+  return run && run->reporting
+           ? baum_i_fail(BAUM_ERR_STATE,
+                         "%s: the simulation is calling progress(), which may only "
+                         "read it",
+                         call)
+           : baum_i_run_may_be_read(run, call);
 }
 
 double baum_i_seconds_since(const struct timespec *then)
@@ -63,7 +67,7 @@ static bool progress_cancels(baum_simulation *run)
 /* Over the last steps of this call, every so many of them. A fixed step is the user's own. */
 static bool creeps(baum_simulation *run, int64_t taken)
 {
-  if (baum_i_problem_has_fixed_step(&run->problem) || taken % PACE_STEPS != 0) {
+  if (baum_i_run_has_fixed_step(run) || taken % PACE_STEPS != 0) {
     return false;
   }
   const baum_i_state *now = &run->ahead;
@@ -88,22 +92,17 @@ static baum_status fail_creeping(baum_simulation *run)
   return baum_i_run_explain_failure(run, status, now);
 }
 
-static double end_of_last_step(const baum_simulation *run)
-{
-  return baum_i_problem_has_fixed_step(&run->problem) ? run->state.t : run->ahead.t;
-}
-
 baum_status baum_i_run_is_wanted(baum_simulation *run)
 {
   bool is_cancelled = atomic_exchange(&run->cancelled, 0) != 0 || progress_cancels(run);
   return is_cancelled
-           ? baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", end_of_last_step(run))
+           ? baum_i_fail(BAUM_STOP_CANCELLED, "t = %.9g s: cancelled", baum_i_run_last_end(run))
            : BAUM_OK;
 }
 
 baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken)
 {
-  double t = end_of_last_step(run);
+  double t = baum_i_run_last_end(run);
   BAUM_I_TRY(baum_i_run_is_wanted(run));
   if (taken >= run->options.max_steps) {
     return baum_i_fail(BAUM_ERR_STEP, "t = %.9g s: max_steps = %lld steps taken in one call", t,

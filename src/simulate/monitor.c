@@ -2,6 +2,7 @@
 /* What a run watches: violation and its joint, predicted violation, near-singular configurations,
  * warnings, counters. */
 #include <math.h>
+#include <stddef.h>
 
 #include "base/sized.h"
 #include "simulate/account.h"
@@ -21,14 +22,6 @@ static void observe_row(const baum_simulation *run, const double *rows, double *
   }
 }
 
-/* The steady violation of both Eulers grows with gamma (docs/theory/stabilization.md). */
-static void observe_gamma(baum_simulation *run)
-{
-  double size = 0.0;
-  (void)baum_i_largest(run->workspace->gamma, run->workspace->mechanism->nc, &size);
-  run->largest_gamma = fmax(run->largest_gamma, size);
-}
-
 static void observe_singular(baum_simulation *run, double t)
 {
   const baum_workspace *w = run->workspace;
@@ -37,16 +30,13 @@ static void observe_singular(baum_simulation *run, double t)
   }
   if (run->near_singular_seen == 0) {
     int row = baum_i_largest(w->lambda, w->mechanism->nc, NULL);
-    char label[BAUM_I_LABEL_SIZE] = "no joint";
-    if (row >= 0) {
-      (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
-    }
+    char label[BAUM_I_LABEL_SIZE];
     baum_i_run_warn(
       run, BAUM_WARNING_ILL_CONDITIONED, t,
       row >= 0 ? baum_i_row_joint(w->mechanism, row) : BAUM_I_NO_JOINT,
       "t = %.9g s: the equations of motion are close to singular; largest multiplier in "
       "%s",
-      t, label);
+      t, baum_i_row_label(w->mechanism, row, label));
   }
   run->near_singular_seen = w->near_singular;
 }
@@ -61,7 +51,7 @@ static const double TIMES = 10.0;
 static double may_be_off(const baum_simulation *run, double kept)
 {
   const baum_i_crossings *p = run->crossings;
-  double pivot = p && p->recent_count > 0 ? p->recent[p->recent_count - 1].pivot : 0.0;
+  double pivot = p && p->recent_count > 0 ? baum_i_last_knot(p)->pivot : 0.0;
   return NEGLIGIBLE + TIMES * sqrt(kept * fmin(1.0, kept / pivot));
 }
 
@@ -73,28 +63,25 @@ static void observe_redundant(baum_simulation *run, double t)
       baum_i_need_jacobian(w) != BAUM_OK) {
     return; /* a function of the user that fails now will soon be reported */
   }
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
   double kept = 0.0;
   double left_out = 0.0;
   int row = 0;
+  (void)baum_i_row_sizes(w, w->phi, &row);
   for (int i = 0; i < m->nc; i++) {
-    double size = fabs(w->phi[i]) / distance[i];
     if (!w->rows.omitted[i]) {
-      kept = fmax(kept, size);
-    } else if (size > left_out) {
-      left_out = size;
+      kept = fmax(kept, w->work_c[i]);
+    } else if (w->work_c[i] > left_out) {
+      left_out = w->work_c[i];
       row = i;
     }
   }
   if (left_out > may_be_off(run, kept)) {
     char label[BAUM_I_LABEL_SIZE];
-    (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
     baum_i_run_warn(run, BAUM_WARNING_CONTRADICTION, t, baum_i_row_joint(m, row),
                     "t = %.9g s: a row of %s that was left out as redundant is violated by %.3g, "
                     "relative to the scales, the rows that were kept by %.1g: constraints "
                     "contradict each other, or the motion has left its branch; do not trust it",
-                    t, label, left_out, kept);
+                    t, baum_i_row_label(m, row, label), left_out, kept);
   }
 }
 
@@ -110,22 +97,19 @@ static const double TOLERANCES_KEPT = 1e3;
 /* Both Eulers may well have the steady violation that is predicted for their gains. */
 static const double PREDICTED = 3.0;
 
-static bool keeps_positions(baum_formulation formulation)
-{
-  return formulation == BAUM_FORMULATION_PROJECTION || formulation == BAUM_FORMULATION_GGL ||
-         formulation == BAUM_FORMULATION_INDEX3;
-}
-
 /* Largest violation as a displacement over the scales that raises no doubt. */
 static double allowed_violation(const baum_simulation *run)
 {
   double rtol = run->problem.rtol;
-  if (baum_i_problem_has_fixed_step(&run->problem) || isnan(rtol)) {
+  if (baum_i_run_has_fixed_step(run) || isnan(rtol)) {
     return LARGE;
   }
-  return fmin(LARGE, keeps_positions(run->problem.formulation)
-                       ? fmax(KEPT, TOLERANCES_KEPT * rtol)
-                       : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol));
+  baum_formulation f = run->problem.formulation;
+  bool keeps_positions =
+    f == BAUM_FORMULATION_PROJECTION || f == BAUM_FORMULATION_GGL || f == BAUM_FORMULATION_INDEX3;
+  double allowed =
+    keeps_positions ? fmax(KEPT, TOLERANCES_KEPT * rtol) : fmax(DRIFTED, TOLERANCES_DRIFTED * rtol);
+  return fmin(LARGE, allowed);
 }
 
 /* Gains below this share of 1/h let the violation lag behind gamma,
@@ -161,17 +145,16 @@ static void observe_large(baum_simulation *run, double t)
   }
   predict(run, c);
   double allowed = allowed_violation(run);
-  double *distance = w->work_c;
-  baum_i_row_displacements(w, distance);
+  int row = -1;
+  (void)baum_i_row_sizes(w, w->phi, &row);
   for (int i = 0; i < m->nc; i++) {
-    double size = fabs(w->phi[i]) / distance[i];
-    if (size > fmax(allowed, PREDICTED * c->predicted_phi / distance[i])) {
+    double size = w->work_c[i];
+    if (size > allowed && !(fabs(w->phi[i]) <= PREDICTED * c->predicted_phi)) {
       char label[BAUM_I_LABEL_SIZE];
-      (void)baum_i_joint_label(m, baum_i_row_joint(m, i), label);
       baum_i_run_warn(run, BAUM_WARNING_VIOLATION, t, baum_i_row_joint(m, i),
                       "t = %.9g s: %s is violated by %.3g, relative to the scales: the run has "
                       "drifted far or blows up; take other gains, a smaller step, or projection",
-                      t, label, size);
+                      t, baum_i_row_label(m, i, label), size);
       return;
     }
   }
@@ -194,7 +177,9 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
   observe_row(run, w->phi, &c->max_phi, &c->max_phi_joint);
   observe_row(run, w->phi_rate, &c->max_phi_rate, &c->max_phi_rate_joint);
   if (with_gamma && run->integrator->predicts_violation) {
-    observe_gamma(run);
+    double size = 0.0; /* with which their steady violation grows (docs/theory/stabilization.md) */
+    (void)baum_i_largest(w->gamma, w->mechanism->nc, &size);
+    run->largest_gamma = fmax(run->largest_gamma, size);
   }
   observe_large(run, t);
   observe_singular(run, t);
@@ -203,63 +188,50 @@ void baum_i_run_observe(baum_simulation *run, double t, bool with_gamma)
 
 /* ---- counters ---- */
 
-static baum_i_work work_here(const baum_simulation *run)
+/* Counts of solvers and methods, and the counters that show them with those of other processes. */
+static const size_t COUNTED[BAUM_I_WORK] = {
+  offsetof(baum_counters, factorizations), offsetof(baum_counters, full_factorizations),
+  offsetof(baum_counters, rejected),       offsetof(baum_counters, nonlinear_iterations),
+  offsetof(baum_counters, forced_steps),
+};
+
+static int64_t *counter_at(baum_counters *counters, int k)
+{
+  return (int64_t *)(void *)((char *)counters + COUNTED[k]);
+}
+
+static void count_here(const baum_simulation *run, int64_t here[BAUM_I_WORK])
 {
   baum_i_kkt_counters kkt = baum_i_workspace_work(run->workspace);
-  baum_i_statistics statistics = {0};
+  baum_i_statistics own = {0};
   if (run->integrator->statistics && run->self) {
-    run->integrator->statistics(run->self, &statistics);
+    run->integrator->statistics(run->self, &own);
   }
-  return (baum_i_work){
-    .factorizations = kkt.factorizations + statistics.factorizations,
-    .full_factorizations = kkt.full_factorizations + statistics.full_factorizations,
-    .rejected = statistics.rejected,
-    .nonlinear_iterations = statistics.nonlinear_iterations,
-    .forced = statistics.forced,
-  };
+  here[0] = kkt.factorizations + own.factorizations;
+  here[1] = kkt.full_factorizations + own.full_factorizations;
+  here[2] = own.rejected;
+  here[3] = own.nonlinear_iterations;
+  here[4] = own.forced;
 }
 
 void baum_i_run_count(baum_simulation *run)
 {
-  baum_counters *c = &run->counters;
-  baum_i_work here = work_here(run);
-  c->evaluations = run->workspace->evaluations;
-  c->near_singular = run->workspace->near_singular;
-  c->factorizations = run->before.factorizations + here.factorizations;
-  c->full_factorizations = run->before.full_factorizations + here.full_factorizations;
-  c->rejected = run->before.rejected + here.rejected;
-  c->nonlinear_iterations = run->before.nonlinear_iterations + here.nonlinear_iterations;
-  c->forced_steps = run->before.forced + here.forced;
+  int64_t here[BAUM_I_WORK];
+  count_here(run, here);
+  run->counters.evaluations = run->workspace->evaluations;
+  run->counters.near_singular = run->workspace->near_singular;
+  for (int k = 0; k < BAUM_I_WORK; k++) {
+    *counter_at(&run->counters, k) = run->work_before[k] + here[k];
+  }
 }
 
 void baum_i_run_count_from_here(baum_simulation *run)
 {
-  const baum_counters *c = &run->counters;
-  baum_i_work here = work_here(run);
-  run->before = (baum_i_work){
-    .factorizations = c->factorizations - here.factorizations,
-    .full_factorizations = c->full_factorizations - here.full_factorizations,
-    .rejected = c->rejected - here.rejected,
-    .nonlinear_iterations = c->nonlinear_iterations - here.nonlinear_iterations,
-    .forced = c->forced_steps - here.forced,
-  };
-}
-
-/* With its digits where a step takes little away. */
-static void tell_damping(const baum_simulation *run, baum_counters *c)
-{
-  bool stabilized = run->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
-  const baum_amplification *a = &run->gains.amplification;
-  c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
-  c->damping = stabilized ? -log1p(-a->damping) / run->options.step : (double)NAN;
-}
-
-static baum_status tell_residual(baum_simulation *run, baum_counters *c)
-{
-  double columns[BAUM_I_ACCOUNT_WIDTH] = {0.0};
-  baum_status status = run->account ? baum_i_account_put(run, &run->state, columns) : BAUM_OK;
-  c->energy_residual = run->account ? columns[BAUM_I_ACCOUNT_WIDTH - 1] : (double)NAN;
-  return status;
+  int64_t here[BAUM_I_WORK];
+  count_here(run, here);
+  for (int k = 0; k < BAUM_I_WORK; k++) {
+    run->work_before[k] = *counter_at(&run->counters, k) - here[k];
+  }
 }
 
 baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters *out,
@@ -273,13 +245,19 @@ baum_status baum_simulation_counters(baum_simulation *simulation, baum_counters 
   BAUM_I_TRY(
     baum_i_energy(simulation->workspace, state->t, state->q, state->v, &kinetic, &potential));
   baum_counters *c = &simulation->counters;
-  BAUM_I_TRY(tell_residual(simulation, c));
+  double columns[BAUM_I_ACCOUNT_WIDTH] = {[BAUM_I_ACCOUNT_WIDTH - 1] = (double)NAN};
+  BAUM_I_TRY(simulation->account ? baum_i_account_put(simulation, state, columns) : BAUM_OK);
   baum_i_run_count(simulation);
   predict(simulation, c);
   c->energy_change = kinetic + potential - simulation->start_energy;
   c->alpha = simulation->problem.alpha;
   c->beta = simulation->problem.beta;
-  tell_damping(simulation, c);
+  c->energy_residual = columns[BAUM_I_ACCOUNT_WIDTH - 1];
+  bool stabilized = simulation->problem.formulation == BAUM_FORMULATION_BAUMGARTE;
+  const baum_amplification *a = &simulation->gains.amplification;
+  c->spectral_radius = stabilized ? a->spectral_radius : (double)NAN;
+  /* log1p() keeps the digits of a small damping. */
+  c->damping = stabilized ? -log1p(-a->damping) / simulation->options.step : (double)NAN;
   baum_i_give_sized(out, caller_size, c, sizeof *c);
   return BAUM_OK;
 }

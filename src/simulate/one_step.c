@@ -6,11 +6,9 @@
 
 #include "base/hot.h"
 #include "simulate/account.h"
-#include "simulate/breaks.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/singular_step.h"
 
 static baum_status fail_not_finite(const baum_simulation *run, const baum_i_state *state)
 {

@@ -60,6 +60,27 @@ static facts facts_of(baum_quantity quantity)
   return table[k < sizeof table / sizeof *table ? k : 0];
 }
 
+/* Part of a vector over q, v or the rows. */
+typedef struct slice {
+  int first;
+  int count;
+} slice;
+
+/* Of a channel whose ids are checked: of a body, of a joint, or the whole vector. */
+static slice slice_of(const baum_mechanism *m, const baum_channel *c)
+{
+  object of = facts_of(c->quantity).of;
+  if (of == OF_BODY) {
+    const baum_i_body *body = m->bodies[baum_i_body_index(m, c->body)];
+    return c->quantity == BAUM_BODY_POSE ? (slice){body->q, body->nq} : (slice){body->v, body->nv};
+  }
+  if (of == OF_ROWS && c->joint.index1 != 0) {
+    const baum_i_joint *joint = m->joints[baum_i_joint_index(m, c->joint)];
+    return (slice){joint->row, joint->rows};
+  }
+  return (slice){0, of == OF_Q ? m->nq : (of == OF_V ? m->nv : m->nc)};
+}
+
 /* ---- widths and checks ---- */
 
 static int fail_channel(int k, const char *what)
@@ -86,17 +107,7 @@ static int body_width(const baum_mechanism *m, const baum_channel *c, int k)
                       k, p[0], p[1], p[2]);
     return -1;
   }
-  return c->quantity == BAUM_BODY_POSE ? m->bodies[body]->nq : m->bodies[body]->nv;
-}
-
-/* Rows of the joint, or of all joints when none is given. */
-static int rows_width(const baum_mechanism *m, const baum_channel *c, int k)
-{
-  if (c->joint.index1 == 0) {
-    return m->nc;
-  }
-  int joint = baum_i_joint_index(m, c->joint);
-  return joint < 0 ? fail_channel(k, "joint is not of this mechanism") : m->joints[joint]->rows;
+  return slice_of(m, c).count;
 }
 
 static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
@@ -122,9 +133,12 @@ static int joint_width(const baum_mechanism *m, const baum_channel *c, int k)
 static int channel_width(const baum_mechanism *m, const baum_channel *c, int k)
 {
   switch (facts_of(c->quantity).of) {
-  case OF_Q: return m->nq;
-  case OF_V: return m->nv;
-  case OF_ROWS: return rows_width(m, c, k);
+  case OF_Q:
+  case OF_V: return slice_of(m, c).count;
+  case OF_ROWS:
+    return c->joint.index1 == 0 || baum_i_joint_index(m, c->joint) >= 0
+             ? slice_of(m, c).count
+             : fail_channel(k, "joint is not of this mechanism");
   case OF_ENERGY: return 2;
   case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH;
   case OF_BODY: return body_width(m, c, k);
@@ -241,30 +255,28 @@ static baum_status evaluate(baum_workspace *w, const baum_i_state *state,
 
 /* ---- values; each returns its width ---- */
 
-static int put(const double *values, int count, double *out)
-{
-  memcpy(out, values, (size_t)count * sizeof *out);
-  return count;
-}
-
-static int put_rows(const baum_mechanism *m, const baum_channel *c, const double *rows, double *out)
-{
-  if (c->joint.index1 == 0) {
-    return put(rows, m->nc, out);
-  }
-  const baum_i_joint *joint = m->joints[baum_i_joint_index(m, c->joint)];
-  return put(rows + joint->row, joint->rows, out);
-}
-
-/* Coordinates of a body without axes: its part of q, v or a. */
-static const double *part_of(const baum_workspace *w, const baum_i_state *state,
-                             baum_quantity quantity, const baum_i_body *body)
+/* The vector that a quantity is a slice of. */
+static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
+                               baum_quantity quantity)
 {
   switch ((int)quantity) {
-  case BAUM_BODY_POSE: return state->q + body->q;
-  case BAUM_BODY_VELOCITY: return state->v + body->v;
-  default: return w->a + body->v;
+  case BAUM_Q:
+  case BAUM_BODY_POSE: return state->q;
+  case BAUM_V:
+  case BAUM_BODY_VELOCITY: return state->v;
+  case BAUM_LAMBDA: return w->lambda;
+  case BAUM_PHI: return w->phi;
+  case BAUM_PHI_RATE: return w->phi_rate;
+  default: return w->a;
   }
+}
+
+static int put_slice(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
+                     double *out)
+{
+  slice s = slice_of(w->mechanism, c);
+  memcpy(out, vector_of(w, state, c->quantity) + s.first, (size_t)s.count * sizeof *out);
+  return s.count;
 }
 
 /* r'' = a + alpha p' - w^2 p (mechanism/planar/planar.h) */
@@ -283,8 +295,7 @@ static int put_body(const baum_workspace *w, const baum_i_state *state, const ba
   int index = baum_i_body_index(w->mechanism, c->body);
   const baum_i_body *body = w->mechanism->bodies[index];
   if (body->type->frame != BAUM_I_FRAME_BODY) {
-    int width = c->quantity == BAUM_BODY_POSE ? body->nq : body->nv;
-    return put(part_of(w, state, c->quantity, body), width, out);
+    return put_slice(w, state, c, out);
   }
   baum_i_marker marker = baum_i_marker_at(&w->point, index, c->point);
   if (c->quantity == BAUM_BODY_ACCELERATION) {
@@ -317,27 +328,13 @@ static int put_joint(const baum_workspace *w, const baum_channel *c, double *out
   return 2;
 }
 
-/* Vectors over v or the rows. */
-static const double *vector_of(const baum_workspace *w, const baum_i_state *state,
-                               baum_quantity quantity)
-{
-  switch ((int)quantity) {
-  case BAUM_V: return state->v;
-  case BAUM_A: return w->a;
-  case BAUM_LAMBDA: return w->lambda;
-  case BAUM_PHI: return w->phi;
-  default: return w->phi_rate;
-  }
-}
-
 static int put_channel(const baum_workspace *w, const baum_i_state *state, const baum_channel *c,
                        double *out)
 {
-  const baum_mechanism *m = w->mechanism;
   switch (facts_of(c->quantity).of) {
-  case OF_Q: return put(state->q, m->nq, out);
-  case OF_V: return put(vector_of(w, state, c->quantity), m->nv, out);
-  case OF_ROWS: return put_rows(m, c, vector_of(w, state, c->quantity), out);
+  case OF_Q:
+  case OF_V:
+  case OF_ROWS: return put_slice(w, state, c, out);
   case OF_BODY: return put_body(w, state, c, out);
   case OF_JOINT: return put_joint(w, c, out);
   case OF_ACCOUNT: return BAUM_I_ACCOUNT_WIDTH; /* filled afterwards, as energies are: */
@@ -396,25 +393,20 @@ baum_status baum_i_output(baum_simulation *run, const baum_i_state *state,
 baum_status baum_simulation_get(baum_simulation *simulation, const baum_channel *channels,
                                 int32_t count, double *row)
 {
-  if (!simulation || !row) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_get: %s is NULL",
-                       simulation ? "row" : "the simulation");
-  }
   int width = 0;
-  BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_get"));
+  BAUM_I_TRY(baum_i_check_given("baum_simulation_get", "row", row != NULL));
+  BAUM_I_TRY(baum_i_check_channels(simulation->workspace->mechanism, channels, count, &width));
   return baum_i_output(simulation, &simulation->state, channels, count, row);
 }
 
 baum_status baum_simulation_unique_multipliers(baum_simulation *simulation, bool *unique)
 {
-  if (!simulation || !unique) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_unique_multipliers: %s is NULL",
-                       simulation ? "unique" : "the simulation");
-  }
+  const char *call = "baum_simulation_unique_multipliers";
+  BAUM_I_TRY(baum_i_run_may_be_read(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "unique", unique != NULL));
   const baum_i_state *state = &simulation->state;
   baum_workspace *w = simulation->workspace;
-  BAUM_I_TRY(baum_i_run_may_be_read(simulation, "baum_simulation_unique_multipliers"));
   BAUM_I_TRY(baum_i_reported_acceleration(w, state->t, state->q, state->v));
   return baum_i_find_unique_multipliers(w, unique);
 }

@@ -7,10 +7,8 @@
  * behind the end of its last step.
  */
 #include "simulate/account.h"
-#include "simulate/breaks.h"
 #include "simulate/companion.h"
 #include "simulate/events.h"
-#include "simulate/schedule.h"
 
 static baum_status restart_method(baum_simulation *run)
 {
@@ -46,13 +44,6 @@ void baum_i_run_end_before_change(baum_simulation *run)
   baum_i_companion_settle(run);
 }
 
-/* Kinematics have solved for the configuration on the far side, whose velocities may be others. */
-static baum_status read_pose_behind(baum_simulation *run)
-{
-  baum_i_state *state = &run->state;
-  return run->integrator->interpolate(run->self, &run->problem, state->t, state->q, state->v);
-}
-
 baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
 {
   double before = run->state.t;
@@ -66,5 +57,9 @@ baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next)
     return status;
   }
   run->grid = (baum_i_grid){.origin = next.far};
-  return run->integrator->without_freedom ? read_pose_behind(run) : BAUM_OK;
+  /* Kinematics have solved for the configuration on the far side, whose velocities may differ. */
+  return run->integrator->without_freedom
+           ? run->integrator->interpolate(run->self, &run->problem, next.far, run->state.q,
+                                          run->state.v)
+           : BAUM_OK;
 }

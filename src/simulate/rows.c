@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "simulate/rows.h"
 
 #include <math.h>
 
@@ -50,13 +49,6 @@ static double guess_pivot(baum_simulation *run)
   return 0.0;
 }
 
-/* Of the usual one, noted last. */
-static double find_pivot(baum_simulation *run)
-{
-  const baum_i_crossings *p = run->crossings;
-  return run->workspace->path ? p->recent[p->recent_count - 1].pivot : guess_pivot(run);
-}
-
 /* A method that keeps positions on the constraints may keep its history: the motion does not depend
  * on the choice of rows. Multipliers jump, but variable steps do not test their error. With GGL the
  * jump costs digits (three cranks at rtol 1e-10: 1.5e-7 in place of 1e-9), and with INDEX2 the
@@ -65,7 +57,7 @@ static bool goes_on(const baum_simulation *run)
 {
   baum_formulation f = run->problem.formulation;
   return (f == BAUM_FORMULATION_PROJECTION || f == BAUM_FORMULATION_INDEX3) &&
-         !baum_i_problem_has_fixed_step(&run->problem);
+         !baum_i_run_has_fixed_step(run);
 }
 
 static baum_status restart(baum_simulation *run)
@@ -85,7 +77,8 @@ baum_status baum_i_run_choose_rows(baum_simulation *run)
   if (!p || p->recent_count == 0) {
     return BAUM_OK;
   }
-  if (!baum_i_choose_rows(run->workspace, state->t, state->q, find_pivot(run))) {
+  double pivot = run->workspace->path ? baum_i_last_knot(p)->pivot : guess_pivot(run);
+  if (!baum_i_choose_rows(run->workspace, state->t, state->q, pivot)) {
     return BAUM_OK;
   }
   if (!goes_on(run)) {

@@ -18,6 +18,18 @@ void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_
   memcpy(to->v, from->v, (size_t)m->nv * sizeof *to->v);
 }
 
+void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own)
+{
+  baum_workspace *w = own->workspace;
+  own->direction = run->problem.direction;
+  own->alpha = run->problem.alpha; /* which restoring may change */
+  own->beta = run->problem.beta;
+  own->rate = run->problem.rate;
+  w->point.parameters = run->workspace->point.parameters;
+  w->point.inputs = run->workspace->point.inputs;
+  w->row_gains = run->workspace->row_gains;
+}
+
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out)
 {
   const baum_workspace *w = run->workspace;
@@ -36,33 +48,24 @@ baum_status baum_i_run_check_out(const baum_simulation *run, const void *out, si
 
 /* ---- names of warnings ---- */
 
-static const struct {
-  baum_warning_code code;
-  const char *name;
-} NAMES[] = {
-  {BAUM_WARNING_REDUNDANT_ROWS, "redundant_rows"},
-  {BAUM_WARNING_SINGULAR_START, "singular_start"},
-  {BAUM_WARNING_GAINS, "gains"},
-  {BAUM_WARNING_NOISY_DERIVATIVES, "noisy_derivatives"},
-  {BAUM_WARNING_INDEX3, "index3"},
-  {BAUM_WARNING_LOOSE_VELOCITIES, "loose_velocities"},
-  {BAUM_WARNING_ENERGY_ACCOUNT, "energy_account"},
-  {BAUM_WARNING_ILL_CONDITIONED, "ill_conditioned"},
-  {BAUM_WARNING_SINGULARITY_CROSSED, "singularity_crossed"},
-  {BAUM_WARNING_BRANCH, "branch"},
-  {BAUM_WARNING_VIOLATION, "violation"},
-  {BAUM_WARNING_CONTRADICTION, "contradiction"},
-  {BAUM_WARNING_ACCURACY, "accuracy"},
-};
-
 const char *baum_warning_name(baum_warning_code code)
 {
-  for (size_t k = 0; k < sizeof NAMES / sizeof *NAMES; k++) {
-    if (NAMES[k].code == code) {
-      return NAMES[k].name;
-    }
+  switch (code) {
+  case BAUM_WARNING_REDUNDANT_ROWS: return "redundant_rows";
+  case BAUM_WARNING_GAINS: return "gains";
+  case BAUM_WARNING_NOISY_DERIVATIVES: return "noisy_derivatives";
+  case BAUM_WARNING_INDEX3: return "index3";
+  case BAUM_WARNING_LOOSE_VELOCITIES: return "loose_velocities";
+  case BAUM_WARNING_ENERGY_ACCOUNT: return "energy_account";
+  case BAUM_WARNING_ILL_CONDITIONED: return "ill_conditioned";
+  case BAUM_WARNING_SINGULARITY_CROSSED: return "singularity_crossed";
+  case BAUM_WARNING_BRANCH: return "branch";
+  case BAUM_WARNING_VIOLATION: return "violation";
+  case BAUM_WARNING_CONTRADICTION: return "contradiction";
+  case BAUM_WARNING_ACCURACY: return "accuracy";
+  case BAUM_WARNING_SINGULAR_START: return "singular_start";
+  default: return NULL;
   }
-  return NULL;
 }
 
 bool baum_i_doubts_motion(baum_warning_code code)

@@ -13,7 +13,8 @@
 
 enum {
   BAUM_I_WARNINGS = 24, /* more than there are kinds */
-  BAUM_I_EXPLAIN_SIZE = 3072
+  BAUM_I_EXPLAIN_SIZE = 3072,
+  BAUM_I_WORK = 5 /* counts that solvers and methods keep themselves, see monitor.c */
 };
 
 /* Times of a fixed-step method: origin + k step, never sums. */
@@ -21,15 +22,6 @@ typedef struct baum_i_grid {
   double origin;
   int64_t k;
 } baum_i_grid;
-
-/* What solvers and methods count by themselves. */
-typedef struct baum_i_work {
-  int64_t factorizations;
-  int64_t full_factorizations;
-  int64_t rejected;
-  int64_t nonlinear_iterations;
-  int64_t forced;
-} baum_i_work;
 
 /* An input jumps at a time, see schedule.h. */
 typedef struct baum_i_jump {
@@ -88,9 +80,9 @@ struct baum_simulation {
   baum_i_state spare;       /* of a step near a singular configuration */
   double *acceleration;     /* (nv) at the start of a step */
 
-  baum_i_fingerprint fingerprint; /* of the mechanism */
-  baum_i_work before; /* what solvers have done for the run in other processes, less what is not of
-                         it */
+  baum_i_fingerprint fingerprint;   /* of the mechanism */
+  int64_t work_before[BAUM_I_WORK]; /* what other processes have done for the run, less what the
+                                       counts here have had before it */
   baum_warning warnings[BAUM_I_WARNINGS]; /* one of each kind */
   char explain[BAUM_I_EXPLAIN_SIZE];
   char message[BAUM_I_MESSAGE_SIZE];
@@ -106,6 +98,21 @@ struct baum_simulation {
 
 /* Time, positions and velocities from one state to another. */
 void baum_i_run_copy(const baum_simulation *run, const baum_i_state *from, baum_i_state *to);
+
+static inline bool baum_i_run_has_fixed_step(const baum_simulation *run)
+{
+  return baum_i_problem_has_fixed_step(&run->problem);
+}
+
+/* [s] Time at which the last step ended; a variable-step method is ahead of the reported state. */
+static inline double baum_i_run_last_end(const baum_simulation *run)
+{
+  return baum_i_run_has_fixed_step(run) ? run->state.t : run->ahead.t;
+}
+
+/* Give a problem with a workspace of its own the run's present equations: direction, gains, inputs,
+ * laws of drivers. */
+void baum_i_run_share_equations(const baum_simulation *run, baum_i_problem *own);
 
 /* A workspace with the solver and the rows of the run's. BAUM_OK, BAUM_ERR_MEMORY. */
 baum_status baum_i_run_make_workspace(const baum_simulation *run, baum_workspace **out);
@@ -209,7 +216,7 @@ baum_status baum_i_run_may_go_on(baum_simulation *run, int64_t taken);
 baum_status baum_i_run_is_wanted(baum_simulation *run);
 
 /* Functions of the user may not use the run that is calling them: BAUM_ERR_STATE. Progress may read
- * it. */
+ * it. BAUM_ERR_ARGUMENT where the run is NULL. */
 baum_status baum_i_run_may_be_read(const baum_simulation *run, const char *call);
 baum_status baum_i_run_may_be_changed(const baum_simulation *run, const char *call);
 
@@ -233,6 +240,68 @@ baum_status baum_i_run_inside(baum_simulation *run, double t);
 /* The numbers of the mechanism are shared and constant: a run that changes some has a copy. BAUM_OK
  * or BAUM_ERR_MEMORY. */
 baum_status baum_i_run_own_parameters(baum_simulation *run);
+
+/* ---- schedule.c ---- */
+
+/* Time goes from one to another: inputs that jump between have the values of there. Goes back as
+ * well. */
+void baum_i_schedule_move(baum_simulation *run, double from, double to);
+
+/* The input has no schedule any more, and keeps its value. */
+void baum_i_schedule_end(baum_simulation *run, int64_t input);
+
+/* Room for so many jumps. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count);
+
+/* Into an empty one. BAUM_OK or BAUM_ERR_MEMORY. */
+baum_status baum_i_schedule_copy(const baum_i_schedule *from, baum_i_schedule *to);
+
+/* Are these bytes, of any alignment, `count` jumps of a run with so many inputs? */
+bool baum_i_schedule_is_sound(const void *bytes, int64_t count, int64_t input_count);
+
+/* ---- breaks.c ---- */
+
+/* The two sides of a break, in the order in which the run meets them. */
+typedef struct baum_i_break {
+  double near; /* [s] where steps end */
+  double far;  /* where the next begins */
+} baum_i_break;
+
+/* The next break on the way of the run from the end of its last step; both sides infinite when
+ * there is none. */
+baum_i_break baum_i_run_next_break(const baum_simulation *run);
+
+/* Does the last step end at its near side? */
+bool baum_i_run_is_at(const baum_simulation *run, baum_i_break next);
+
+/* restart.c: go from the present state, which is at the near side, to the far one: methods that
+ * carry their past along restart, as the grid does. As baum_i_run_restart(). */
+baum_status baum_i_run_pass(baum_simulation *run, baum_i_break next);
+
+/* ---- rows.c ---- */
+
+/* At the present state, where the next step begins: leave out others where those that are kept have
+ * become poor; then methods restart. Statuses of baum_i_run_restart(). Nothing for kinematics. */
+baum_status baum_i_run_choose_rows(baum_simulation *run);
+
+/* Likewise for a state that comes from outside of the motion, with which all restarts in any
+ * case. */
+void baum_i_run_choose_rows_anew(baum_simulation *run, const baum_i_state *state);
+
+/* Leave out these (nc). Statuses of baum_i_omit_rows(); then all stays as it is. */
+baum_status baum_i_run_omit_rows(baum_simulation *run, const unsigned char *omitted);
+
+/* ---- singular_step.c ---- */
+
+/* A step begins whose acceleration is in run->acceleration: in a singular configuration its limit
+ * takes that place. Uses the trial state. Statuses of an evaluation at the present state, which is
+ * made again. */
+baum_status baum_i_run_limit_acceleration(baum_simulation *run);
+
+/* Project the trial state, the end of a step, onto the constraints at t; but so close to a singular
+ * configuration that rounding would move it by more than the error of the step it stays. Statuses
+ * of baum_i_project(). */
+baum_status baum_i_run_project(baum_simulation *run, double t);
 
 /* ---- failure.c ---- */
 

@@ -18,15 +18,14 @@
 #include "base/alloc.h"
 #include "base/digest.h"
 #include "base/text.h"
+#include "mechanism/definition.h"
 #include "mechanism/fingerprint.h"
 #include "mechanism/general/driven.h"
 #include "simulate/account.h"
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
 #include "simulate/saved.h"
-#include "simulate/schedule.h"
 
 enum { WORD = 8 };
 
@@ -43,36 +42,36 @@ typedef struct header {
 
 /* ---- what must agree ---- */
 
-static const char *const NUMBERS[BAUM_I_SAVED_NUMBERS] = {"step",
-                                                          "rtol",
-                                                          "atol",
-                                                          "max_step",
-                                                          "tolerance_q",
-                                                          "tolerance_v",
-                                                          "tolerance_lambda",
-                                                          "the first number of the gains",
-                                                          "the second number of the gains"};
+static const char *const FACTS[BAUM_I_SAVED_FACTS] = {
+  "step",
+  "rtol",
+  "atol",
+  "max_step",
+  "tolerance_q",
+  "tolerance_v",
+  "tolerance_lambda",
+  "the rule of the gains",
+  "the first number of the gains",
+  "the second number of the gains",
+  "row_gain_count",
+  "the sum over row_gains",
+  "solver",
+  "energy_account",
+  "error_check",
+  "the rank of the constraints",
+  "whether blocks suit",
+  "the number of events",
+  "the sum over what the events are",
+};
 
-static const char *const INTEGERS[BAUM_I_SAVED_INTEGERS] = {"the rule of the gains",
-                                                            "row_gain_count",
-                                                            "the sum over row_gains",
-                                                            "solver",
-                                                            "energy_account",
-                                                            "error_check",
-                                                            "the rank of the constraints",
-                                                            "whether blocks suit",
-                                                            "the number of events",
-                                                            "the sum over what the events are"};
-
-static int64_t sum_of(const void *bytes, size_t size)
+/* As many bits as a double holds. */
+static double number_of(const baum_i_digest *sum)
 {
-  baum_i_digest sum = {0};
-  baum_i_digest_add(&sum, bytes, size);
-  return (int64_t)(sum.value >> 1);
+  return (double)(sum->value >> 11);
 }
 
 /* But for functions and names. */
-static int64_t sum_of_events(const baum_i_events *events)
+static double sum_of_events(const baum_i_events *events)
 {
   baum_i_digest sum = {0};
   for (int k = 0; events && k < events->count; k++) {
@@ -83,7 +82,7 @@ static int64_t sum_of_events(const baum_i_events *events)
     baum_i_digest_add(&sum, &event->def.value, sizeof event->def.value);
     baum_i_digest_add(&sum, &event->def.tolerance, sizeof event->def.tolerance);
   }
-  return (int64_t)(sum.value >> 1);
+  return number_of(&sum);
 }
 
 static baum_i_saved_identity identity_of(const baum_simulation *run)
@@ -91,13 +90,15 @@ static baum_i_saved_identity identity_of(const baum_simulation *run)
   const baum_simulation_options *o = &run->options;
   const baum_workspace *w = run->workspace;
   const char *formulation = baum_formulation_name(o->formulation);
-  size_t gains = run->row_gains ? (size_t)w->mechanism->nc * sizeof *run->row_gains : 0;
+  baum_i_digest gains = {0};
+  baum_i_digest_add(&gains, run->row_gains,
+                    run->row_gains ? (size_t)w->mechanism->nc * sizeof *run->row_gains : 0);
   baum_i_saved_identity identity = {
-    .numbers = {o->step, o->rtol, o->atol, o->max_step, o->tolerance_q, o->tolerance_v,
-                o->tolerance_lambda, o->gains.value[0], o->gains.value[1]},
-    .integers = {o->gains.rule, o->row_gain_count, sum_of(run->row_gains, gains), o->solver,
-                 run->account != NULL, o->error_check, w->rows.rank, w->path != NULL,
-                 run->events ? run->events->count : 0, sum_of_events(run->events)},
+    .facts = {o->step, o->rtol, o->atol, o->max_step, o->tolerance_q, o->tolerance_v,
+              o->tolerance_lambda, o->gains.rule, o->gains.value[0], o->gains.value[1],
+              o->row_gain_count, number_of(&gains), o->solver, run->account != NULL, o->error_check,
+              w->rows.rank, w->path != NULL, run->events ? run->events->count : 0,
+              sum_of_events(run->events)},
   };
   baum_i_print(identity.integrator, BAUM_I_SAVED_TEXT, "%s", run->integrator->name);
   baum_i_print(identity.formulation, BAUM_I_SAVED_TEXT, "%s", formulation ? formulation : "none");
@@ -199,14 +200,6 @@ static void forget_unsaved(baum_simulation *run)
   }
 }
 
-/* Values there have been asked for before; should one fail now, what is known of them stays. */
-static void go_on_with_events(baum_simulation *run)
-{
-  if (baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
-    baum_i_events_go_on(run);
-  }
-}
-
 /* The state that is reported becomes the one from which the next step goes. */
 static void restart_for_save(baum_simulation *run)
 {
@@ -217,8 +210,9 @@ static void restart_for_save(baum_simulation *run)
     if (run->account) {
       baum_i_account_go_on(run);
     }
-    if (run->events) {
-      go_on_with_events(run);
+    /* Values here have been asked for before; should one fail now, what is known of them stays. */
+    if (run->events && baum_i_events_evaluate(run, &run->state) == BAUM_OK) {
+      baum_i_events_go_on(run);
     }
     run->counters.restarts++;
   }
@@ -247,11 +241,8 @@ baum_status baum_simulation_save(baum_simulation *simulation, void *buffer, size
                                  size_t *size)
 {
   const char *call = "baum_simulation_save";
-  if (!simulation || !size) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
-                       simulation ? "size" : "the simulation");
-  }
   BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call)); /* it forgets pivots */
+  BAUM_I_TRY(baum_i_check_given(call, "size", size != NULL));
   baum_i_saved list;
   baum_i_saved_list(simulation, &list);
   size_t most = sizeof(header) + baum_i_saved_size(&list) + WORD;
@@ -363,17 +354,11 @@ static baum_status check_identity(const reader *r, const baum_i_saved_identity *
   memcpy(&there, r->bytes + sizeof(header) + WORD, sizeof there);
   BAUM_I_TRY(check_text("integrator", there.integrator, here->integrator));
   BAUM_I_TRY(check_text("formulation", there.formulation, here->formulation));
-  for (int k = 0; k < BAUM_I_SAVED_INTEGERS; k++) {
-    if (there.integers[k] != here->integers[k]) {
-      return refuse(OTHER_OPTIONS "%s is %lld there and %lld here", INTEGERS[k],
-                    (long long)there.integers[k], (long long)here->integers[k]);
-    }
-  }
-  for (int k = 0; k < BAUM_I_SAVED_NUMBERS; k++) {
-    double a = there.numbers[k];
-    double b = here->numbers[k];
+  for (int k = 0; k < BAUM_I_SAVED_FACTS; k++) {
+    double a = there.facts[k];
+    double b = here->facts[k];
     if (a != b && !(isnan(a) && isnan(b))) {
-      return refuse(OTHER_OPTIONS "%s is %.9g there and %.9g here", NUMBERS[k], a, b);
+      return refuse(OTHER_OPTIONS "%s is %.9g there and %.9g here", FACTS[k], a, b);
     }
   }
   return BAUM_OK;
@@ -394,13 +379,6 @@ static baum_status check_omitted(const reader *r, const baum_i_row_set *here)
            : refuse("does not fit: which rows are redundant is not as it may be here");
 }
 
-static double number_at(const unsigned char *bytes, int k)
-{
-  double number = 0.0;
-  memcpy(&number, bytes + (size_t)k * sizeof number, sizeof number);
-  return number;
-}
-
 /* A driver that has no other motion than its polynomial cannot be without it. */
 static baum_status check_laws(const reader *r, const baum_mechanism *m)
 {
@@ -411,7 +389,9 @@ static baum_status check_laws(const reader *r, const baum_mechanism *m)
   }
   for (int k = 0; k < m->joint_count && count > 0; k++) {
     int at = m->joints[k]->element.parameter + BAUM_I_DRIVER_POLYNOMIAL;
-    if (m->joints[k]->type->drives && m->parameters[at] != 0.0 && number_at(numbers, at) == 0.0) {
+    double polynomial = 0.0;
+    memcpy(&polynomial, numbers + (size_t)at * sizeof polynomial, sizeof polynomial);
+    if (m->joints[k]->type->drives && m->parameters[at] != 0.0 && polynomial == 0.0) {
       return refuse("is damaged: it has no law for joint %d", k + 1);
     }
   }
@@ -569,11 +549,9 @@ static void restore_parts(baum_simulation *run, const reader *r, const baum_i_sa
 
 baum_status baum_simulation_restore(baum_simulation *simulation, const void *buffer, size_t size)
 {
-  if (!simulation || !buffer) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_restore: %s is NULL",
-                       simulation ? "the buffer" : "the simulation");
-  }
-  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, "baum_simulation_restore"));
+  const char *call = "baum_simulation_restore";
+  BAUM_I_TRY(baum_i_run_may_be_changed(simulation, call));
+  BAUM_I_TRY(baum_i_check_given(call, "the buffer", buffer != NULL));
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
   baum_i_saved list;

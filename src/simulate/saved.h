@@ -13,7 +13,7 @@
 
 #include "simulate/run.h"
 
-enum { BAUM_I_SAVED_VERSION = 9, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
+enum { BAUM_I_SAVED_VERSION = 10, BAUM_I_SAVED_PARTS = 96, BAUM_I_SAVED_TEXT = 32 };
 
 /* Parts that are dealt with by name, in this order; the others are put back as they are. */
 enum {
@@ -25,14 +25,13 @@ enum {
   BAUM_I_SAVED_CROSSINGS
 };
 
-enum { BAUM_I_SAVED_NUMBERS = 9, BAUM_I_SAVED_INTEGERS = 10 };
+enum { BAUM_I_SAVED_FACTS = 19 };
 
 /* What must be here as it was there. */
 typedef struct baum_i_saved_identity {
   char integrator[BAUM_I_SAVED_TEXT];
   char formulation[BAUM_I_SAVED_TEXT];
-  double numbers[BAUM_I_SAVED_NUMBERS];
-  int64_t integers[BAUM_I_SAVED_INTEGERS];
+  double facts[BAUM_I_SAVED_FACTS];
 } baum_i_saved_identity;
 
 typedef struct baum_i_saved_part {

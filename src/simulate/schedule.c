@@ -3,12 +3,12 @@
  * its sides, so that a run passes it either way, and the value of an input is that behind the last
  * of its jumps up to the present time.
  */
-#include "simulate/schedule.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "base/alloc.h"
+#include "simulate/run.h"
 
 /* How many jumps are not after t. */
 static int count_until(const baum_i_schedule *schedule, double t)
@@ -58,9 +58,7 @@ baum_status baum_i_schedule_reserve(baum_i_schedule *schedule, int count)
     return BAUM_OK;
   }
   baum_i_jump *jumps = baum_i_grow(schedule->jumps, (size_t)count, sizeof *jumps);
-  if (!jumps) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(jumps));
   schedule->jumps = jumps;
   schedule->room = count;
   return BAUM_OK;

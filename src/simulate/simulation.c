@@ -19,9 +19,7 @@ static baum_status make_states(baum_simulation *run)
   size_t nq = (size_t)m->nq;
   size_t nv = (size_t)m->nv;
   run->memory = baum_i_alloc(4 * (nq + nv) + nv, sizeof(double));
-  if (!run->memory) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run->memory));
   double *next = run->memory;
   baum_i_state *states[4] = {&run->state, &run->ahead, &run->trial, &run->spare};
   for (int k = 0; k < 4; k++) {
@@ -106,7 +104,7 @@ double baum_i_difference_noise(const baum_mechanism *m)
   return noise;
 }
 
-static baum_status warn_settings(baum_simulation *run)
+static void warn_settings(baum_simulation *run)
 {
   double noise = baum_i_difference_noise(run->workspace->mechanism);
   if (run->options.rtol < noise) {
@@ -116,27 +114,15 @@ static baum_status warn_settings(baum_simulation *run)
       "constraints: give jacobian and gamma, or a larger rtol",
       run->options.rtol, noise);
   }
-  bool variable = !baum_i_problem_has_fixed_step(&run->problem);
+  bool variable = !baum_i_run_has_fixed_step(run);
   if (run->options.formulation == BAUM_FORMULATION_INDEX3 && variable) {
     baum_i_run_warn(run, BAUM_WARNING_INDEX3, run->trial.t, BAUM_I_NO_JOINT,
                     "index 3 is for comparison: its velocities are outside of the error test and "
                     "the motion error is far above rtol");
   }
-  return BAUM_OK;
 }
 
 /* ---- create ---- */
-
-static baum_i_kkt_choice solver_choice(baum_solver solver)
-{
-  switch (solver) {
-  case BAUM_SOLVER_KLU: return BAUM_I_KKT_KLU;
-  case BAUM_SOLVER_QR: return BAUM_I_KKT_QR;
-  case BAUM_SOLVER_AUTO:
-  case BAUM_SOLVER_BLOCK:
-  default: return BAUM_I_KKT_AUTO;
-  }
-}
 
 /* At the start configuration: which rows to omit, and whether blocks suit what is left. */
 static baum_status choose_solver(baum_simulation *run)
@@ -148,33 +134,6 @@ static baum_status choose_solver(baum_simulation *run)
   return baum_i_use_blocks(w);
 }
 
-static baum_status start_as_designed(baum_simulation *run)
-{
-  const baum_mechanism *m = run->workspace->mechanism;
-  return baum_i_run_start(run, run->options.start_time, m->design_q, m->design_v);
-}
-
-static baum_status make_account(baum_simulation *run)
-{
-  return run->options.energy_account ? baum_i_account_create(run) : BAUM_OK;
-}
-
-static baum_status make_companion(baum_simulation *run)
-{
-  run->counters.error_estimate = (double)NAN;
-  return baum_i_companion_is_wanted(run) ? baum_i_companion_create(run) : BAUM_OK;
-}
-
-static baum_status make_crossings(baum_simulation *run)
-{
-  return run->integrator->without_freedom ? BAUM_OK : baum_i_crossings_create(run);
-}
-
-static baum_status make_integrator(baum_simulation *run)
-{
-  return baum_i_integrator_create(run->integrator, &run->problem, &run->trial, &run->self);
-}
-
 static baum_status accept_start(baum_simulation *run)
 {
   double energy = 0.0;
@@ -184,40 +143,41 @@ static baum_status accept_start(baum_simulation *run)
   return BAUM_OK;
 }
 
-/* One after the other, each on what the ones before have made. */
-static baum_status (*const STAGES[])(baum_simulation *run) = {
-  make_states,    start_as_designed, choose_solver,  baum_i_run_check_velocities,
-  choose_problem, make_account,      make_crossings, make_integrator,
-  make_companion, warn_redundancy,   warn_settings,  accept_start,
-};
-
-static baum_status prepare(baum_simulation *run, const baum_mechanism *mechanism)
+/* Each step builds on those before it. */
+static baum_status prepare(baum_simulation *run, const baum_mechanism *m)
 {
   const baum_simulation_options *o = &run->options;
-  BAUM_I_TRY(o->check_derivatives ? baum_mechanism_check_derivatives(mechanism) : BAUM_OK);
-  BAUM_I_TRY(baum_i_workspace_create(mechanism, solver_choice(o->solver), &run->workspace));
-  for (size_t k = 0; k < sizeof STAGES / sizeof STAGES[0]; k++) {
-    BAUM_I_TRY(STAGES[k](run));
-  }
-  return BAUM_OK;
+  const baum_i_kkt_choice choice = o->solver == BAUM_SOLVER_KLU  ? BAUM_I_KKT_KLU
+                                   : o->solver == BAUM_SOLVER_QR ? BAUM_I_KKT_QR
+                                                                 : BAUM_I_KKT_AUTO;
+  run->counters.error_estimate = (double)NAN;
+  BAUM_I_TRY(o->check_derivatives ? baum_mechanism_check_derivatives(m) : BAUM_OK);
+  BAUM_I_TRY(baum_i_workspace_create(m, choice, &run->workspace));
+  BAUM_I_TRY(make_states(run));
+  BAUM_I_TRY(baum_i_run_start(run, o->start_time, m->design_q, m->design_v));
+  BAUM_I_TRY(choose_solver(run));
+  BAUM_I_TRY(baum_i_run_check_velocities(run));
+  BAUM_I_TRY(choose_problem(run));
+  BAUM_I_TRY(o->energy_account ? baum_i_account_create(run) : BAUM_OK);
+  BAUM_I_TRY(run->integrator->without_freedom ? BAUM_OK : baum_i_crossings_create(run));
+  BAUM_I_TRY(baum_i_integrator_create(run->integrator, &run->problem, &run->trial, &run->self));
+  BAUM_I_TRY(baum_i_companion_is_wanted(run) ? baum_i_companion_create(run) : BAUM_OK);
+  BAUM_I_TRY(warn_redundancy(run));
+  warn_settings(run);
+  return accept_start(run);
 }
 
 static baum_status check_create(const baum_mechanism *mechanism,
                                 const baum_simulation_options *options)
 {
   const char *call = "baum_simulation_create";
-  if (!mechanism || !options) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s NULL", call,
-                       mechanism ? "options are" : "the mechanism is");
-  }
+  BAUM_I_TRY(baum_i_check_frozen(mechanism, call));
+  BAUM_I_TRY(baum_i_check_given(call, "options", options != NULL));
   if (!baum_i_is_struct_size(options->struct_size, sizeof *options)) {
     return baum_i_fail(BAUM_ERR_STRUCT,
                        "%s: struct_size of the options is %zu, must be %zu, or that of an older "
                        "version; start from baum_simulation_options_default()",
                        call, options->struct_size, sizeof *options);
-  }
-  if (!mechanism->frozen) {
-    return baum_i_fail(BAUM_ERR_STATE, "%s: the mechanism is not frozen", call);
   }
   return BAUM_OK;
 }
@@ -225,9 +185,7 @@ static baum_status check_create(const baum_mechanism *mechanism,
 baum_status baum_simulation_create(const baum_mechanism *mechanism,
                                    const baum_simulation_options *options, baum_simulation **out)
 {
-  if (!out) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "baum_simulation_create: out is NULL");
-  }
+  BAUM_I_TRY(baum_i_check_given("baum_simulation_create", "out", out != NULL));
   *out = NULL;
   BAUM_I_TRY(check_create(mechanism, options));
   baum_simulation_options checked = baum_simulation_options_default();
@@ -235,9 +193,7 @@ baum_status baum_simulation_create(const baum_mechanism *mechanism,
   checked.struct_size = sizeof checked;
   BAUM_I_TRY(baum_i_options_check(&checked));
   baum_simulation *run = baum_i_alloc(1, sizeof *run);
-  if (!run) {
-    return baum_i_fail_memory();
-  }
+  BAUM_I_TRY(baum_i_check_memory(run));
   run->options = checked;
   run->integrator = checked.integrator;
   atomic_init(&run->cancelled, 0);

@@ -1,5 +1,4 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "simulate/singular_step.h"
 
 #include <float.h>
 #include <math.h>
@@ -58,7 +57,7 @@ baum_status baum_i_run_project(baum_simulation *run, double t)
 static double find_present_pivot(const baum_simulation *run)
 {
   const baum_i_crossings *p = run->crossings;
-  const baum_i_knot *last = p->recent_count > 0 ? &p->recent[p->recent_count - 1] : NULL;
+  const baum_i_knot *last = p->recent_count > 0 ? baum_i_last_knot(p) : NULL;
   return last && last->t == run->state.t ? last->pivot : find_pivot(run);
 }
 

@@ -8,8 +8,6 @@
 #include "simulate/companion.h"
 #include "simulate/crossing.h"
 #include "simulate/events.h"
-#include "simulate/rows.h"
-#include "simulate/schedule.h"
 
 /* Largest displacement that assembly may make: of lengths relative to their scale, of angles in
  * radians. A design configuration further off is more likely to be mounted on a branch that its
@@ -39,16 +37,11 @@ static void name_worst_joint(baum_simulation *run, double t, const double *drawn
                              char label[BAUM_I_LABEL_SIZE])
 {
   baum_workspace *w = run->workspace;
-  memcpy(label, "no joint", sizeof "no joint");
-  if (w->mechanism->nc == 0 || baum_i_position_stage(w, t, drawn) != BAUM_OK) {
-    return;
+  int row = -1;
+  if (w->mechanism->nc > 0 && baum_i_position_stage(w, t, drawn) == BAUM_OK) {
+    (void)baum_i_row_sizes(w, w->phi, &row);
   }
-  baum_i_row_displacements(w, w->rhs);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    w->rhs[i] = w->phi[i] / w->rhs[i];
-  }
-  int row = baum_i_largest(w->rhs, w->mechanism->nc, NULL);
-  (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, row), label);
+  (void)baum_i_row_label(w->mechanism, row, label);
 }
 
 static baum_status fail_far(baum_simulation *run, const double *drawn, const baum_i_body *body,
@@ -106,10 +99,9 @@ static baum_status check_rows(baum_simulation *run, const double *rows, double a
   for (int i = 0; i < w->mechanism->nc; i++) {
     if (!(fabs(rows[i]) <= allowed * w->rhs[i])) {
       char label[BAUM_I_LABEL_SIZE];
-      (void)baum_i_joint_label(w->mechanism, baum_i_row_joint(w->mechanism, i), label);
       return baum_i_fail(BAUM_ERR_INCONSISTENT,
                          "t = %.9g s: the start is not exact: %s has %s = %.3g %s", run->trial.t,
-                         label, what, rows[i], unit);
+                         baum_i_row_label(w->mechanism, i, label), what, rows[i], unit);
     }
   }
   return BAUM_OK;
@@ -137,15 +129,9 @@ static const double ROUNDING = 1e-13;   /* of the rows at these velocities, like
 /* Share of the size by which the row is off that is off the most; 0 where nothing moves. */
 static double find_worst_rate(const baum_i_state *state, baum_workspace *w, int *row, double *size)
 {
-  double nu = 0.0;
-  baum_i_row_displacements(w, w->work_c);
-  for (int i = 0; i < w->mechanism->nc; i++) {
-    nu = fmax(nu, fabs(w->nu[i]) / w->work_c[i]);
-    w->work_c[i] = w->phi_rate[i] / w->work_c[i];
-  }
-  double worst = 0.0;
+  double nu = baum_i_row_sizes(w, w->nu, row);
+  double worst = baum_i_row_sizes(w, w->phi_rate, row);
   *size = fmax(nu, baum_i_scaled_size(w->mechanism, state->v));
-  *row = baum_i_largest(w->work_c, w->mechanism->nc, &worst);
   return *size > baum_i_rest_rate(w->mechanism) ? worst / *size : 0.0;
 }
 
@@ -153,7 +139,7 @@ static baum_status tell_open(baum_simulation *run, int row, double rate, double 
 {
   const baum_mechanism *m = run->workspace->mechanism;
   char label[BAUM_I_LABEL_SIZE];
-  (void)baum_i_joint_label(m, baum_i_row_joint(m, row), label);
+  (void)baum_i_row_label(m, row, label);
   if (change > CONTRADICTS) {
     return baum_i_fail(BAUM_ERR_INCONSISTENT,
                        "t = %.9g s: the given velocities and the constraints contradict each "
@@ -301,10 +287,8 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
                                const double *v)
 {
   const char *call = "baum_simulation_set_state";
-  if (!run || !q || !v) {
-    return baum_i_fail(BAUM_ERR_ARGUMENT, "%s: %s is NULL", call,
-                       !run ? "the simulation" : (q ? "v" : "q"));
-  }
+  BAUM_I_TRY(baum_i_run_may_be_changed(run, call));
+  BAUM_I_TRY(baum_i_check_given(call, q ? "v" : "q", q && v));
   const baum_mechanism *m = run->workspace->mechanism;
   bool may_be_free = run->options.start == BAUM_START_ASSEMBLE;
   BAUM_I_TRY(baum_i_check_finite(call, "t", "s", t));
@@ -315,7 +299,7 @@ static baum_status check_state(const baum_simulation *run, double t, const doubl
   for (int i = 0; i < m->nv; i++) {
     BAUM_I_TRY(check_entry(call, 'v', i, v[i], may_be_free));
   }
-  return baum_i_run_may_be_changed(run, call);
+  return BAUM_OK;
 }
 
 /* Whether a whole state violates the constraints no more than this run has already done, as one of
@@ -325,12 +309,11 @@ static bool is_of_this_run(baum_simulation *run, double t, const double *q, cons
   baum_workspace *w = run->workspace;
   double phi = 0.0;
   double phi_rate = 0.0;
+  bool is_whole = true;
   for (int i = 0; i < w->mechanism->nv; i++) {
-    if (isnan(v[i])) {
-      return false;
-    }
+    is_whole = is_whole && !isnan(v[i]);
   }
-  if (baum_i_violation(w, t, q, v) != BAUM_OK) {
+  if (!is_whole || baum_i_violation(w, t, q, v) != BAUM_OK) {
     return false;
   }
   (void)baum_i_largest(w->phi, w->mechanism->nc, &phi);

@@ -11,12 +11,9 @@
  * The quick grid has the first five of these steps, and five tolerances over the same span.
  */
 #include <math.h>
-#include <string.h>
 
-#include <baum/version.h>
-
-#include "base/alloc.h"
 #include "base/sized.h"
+#include "base/text.h"
 #include "dynamics/dynamics.h"
 #include "integrate/integrator.h"
 #include "mechanism/definition.h"
@@ -182,8 +179,9 @@ static baum_status add_gains(const grid *g, baum_simulation_options o)
   return BAUM_OK;
 }
 
-static baum_status add_integrator(const grid *g, const baum_integrator *integrator)
+static baum_status add_integrator(void *user, const baum_integrator *integrator)
 {
+  const grid *g = user;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   bool all = g->wanted->formulation == BAUM_FORMULATION_DEFAULT;
@@ -195,25 +193,6 @@ static baum_status add_integrator(const grid *g, const baum_integrator *integrat
     o.formulation = (baum_formulation)f;
     if (wanted && baum_i_integrator_offers(integrator, o.formulation)) {
       BAUM_I_TRY(add_gains(g, o));
-    }
-  }
-  return BAUM_OK;
-}
-
-bool baum_i_study_in_build(const baum_integrator *integrator)
-{
-  const char *name = integrator->name;
-  bool of_sundials = strncmp(name, "cvode", 5) == 0 || strcmp(name, "ida") == 0;
-  return !of_sundials || baum_has("sundials");
-}
-
-static baum_status add_all(const grid *g)
-{
-  const baum_integrator *integrator = NULL;
-  for (int k = 0; (integrator = baum_integrator_at(k)) != NULL; k++) {
-    bool wanted = !g->wanted->integrator || g->wanted->integrator == integrator;
-    if (wanted && baum_i_study_in_build(integrator)) {
-      BAUM_I_TRY(add_integrator(g, integrator));
     }
   }
   return BAUM_OK;
@@ -232,17 +211,10 @@ baum_status baum_study_add_standard(baum_study *study, const baum_study_grid *gr
   BAUM_I_TRY(check_grid(&wanted));
   grid g = {.study = study, .wanted = &wanted};
   BAUM_I_TRY(baum_i_study_rate(study, &g.rate));
-  int entries = study->entry_count;
-  int methods = study->method_count;
-  baum_status status = add_all(&g);
-  if (status == BAUM_OK && study->entry_count == entries) {
-    const char *formulation = baum_formulation_name(wanted.formulation);
-    status = baum_i_fail(BAUM_ERR_ARGUMENT,
-                         "study grid: this build has no such integrator with the formulation %s",
-                         formulation ? formulation : "that is asked for");
-  }
-  if (status != BAUM_OK) {
-    baum_i_study_truncate(study, entries, methods);
-  }
-  return status;
+  const char *formulation = baum_formulation_name(wanted.formulation);
+  char missing[BAUM_I_NAME_SIZE];
+  baum_i_print(missing, sizeof missing,
+               "study grid: this build has no such integrator with the formulation %s",
+               formulation ? formulation : "that is asked for");
+  return baum_i_study_add_each(study, wanted.integrator, add_integrator, &g, missing);
 }

@@ -102,32 +102,14 @@ int baum_i_length(const char *text)
 }
 
 /* What stands for a character; NULL: the character itself. */
-typedef const char *escape_fn(char c);
-
-static void put_escaped(baum_i_buffer *buffer, const char *text, escape_fn *escape)
+static const char *escape(char c, baum_i_quoting quoting)
 {
-  while (*text) {
-    const unsigned char *s = (const unsigned char *)text;
-    size_t count = character(s);
-    bool is_control = s[0] < 0x20 || s[0] == 0x7f;
-    const char *instead = count == 0 ? "\xef\xbf\xbd" : is_control ? " " : escape(*text);
-    if (instead) {
-      baum_i_put(buffer, instead);
-    } else {
-      put_bytes(buffer, text, count);
-    }
-    text += count ? count : 1;
+  if (quoting == BAUM_I_PLAIN) {
+    return NULL;
   }
-}
-
-static const char *plain(char c)
-{
-  (void)c;
-  return NULL;
-}
-
-static const char *json(char c)
-{
+  if (quoting == BAUM_I_CSV) {
+    return c == '"' ? "\"\"" : NULL;
+  }
   switch (c) {
   case '"': return "\\\"";
   case '\\': return "\\\\";
@@ -136,24 +118,20 @@ static const char *json(char c)
   }
 }
 
-static const char *csv(char c)
+void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting)
 {
-  return c == '"' ? "\"\"" : NULL;
-}
-
-void baum_i_put_plain(baum_i_buffer *buffer, const char *text)
-{
-  put_escaped(buffer, text, plain);
-}
-
-void baum_i_put_json(baum_i_buffer *buffer, const char *text)
-{
-  put_escaped(buffer, text, json);
-}
-
-void baum_i_put_csv(baum_i_buffer *buffer, const char *text)
-{
-  put_escaped(buffer, text, csv);
+  while (*text) {
+    const unsigned char *s = (const unsigned char *)text;
+    size_t count = character(s);
+    bool is_control = s[0] < 0x20 || s[0] == 0x7f;
+    const char *instead = count == 0 ? "\xef\xbf\xbd" : is_control ? " " : escape(*text, quoting);
+    if (instead) {
+      baum_i_put(buffer, instead);
+    } else {
+      put_bytes(buffer, text, count);
+    }
+    text += count ? count : 1;
+  }
 }
 
 /* ---- numbers ---- */

@@ -22,11 +22,10 @@ void baum_i_putf(baum_i_buffer *buffer, const char *format, ...) BAUM_I_PRINTF(2
 /* A text at the left of a column of so many characters. */
 void baum_i_put_left(baum_i_buffer *buffer, const char *text, int width);
 
-/* Texts of users as they are, within HTML, also in attributes in double quotes, and within the
- * quotes of JSON and CSV. Bytes that are no UTF-8 become U+FFFD, control characters spaces. */
-void baum_i_put_plain(baum_i_buffer *buffer, const char *text);
-void baum_i_put_json(baum_i_buffer *buffer, const char *text);
-void baum_i_put_csv(baum_i_buffer *buffer, const char *text);
+/* Put a text of the user as it is, or escaped for the quotes of JSON or CSV. Bytes that are not
+ * UTF-8 become U+FFFD, control characters spaces. */
+typedef enum baum_i_quoting { BAUM_I_PLAIN, BAUM_I_JSON, BAUM_I_CSV } baum_i_quoting;
+void baum_i_put_user_text(baum_i_buffer *buffer, const char *text, baum_i_quoting quoting);
 
 /* A number as text, which lives to the end of the full expression. */
 typedef struct baum_i_number {

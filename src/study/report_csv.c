@@ -8,7 +8,7 @@ static void put_cell(baum_i_buffer *out, const baum_i_field *field, const void *
     baum_i_put(out, baum_i_exact(baum_i_field_number(field, entry), "").text);
   } else if (baum_i_field_text(field, entry)) {
     baum_i_put(out, "\"");
-    baum_i_put_csv(out, baum_i_field_text(field, entry));
+    baum_i_put_user_text(out, baum_i_field_text(field, entry), BAUM_I_CSV);
     baum_i_put(out, "\"");
   }
 }

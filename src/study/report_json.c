@@ -18,7 +18,7 @@ static void put_text(baum_i_buffer *out, const char *key, const char *text)
   put_key(out, key);
   baum_i_put(out, text ? "\"" : "null");
   if (text) {
-    baum_i_put_json(out, text);
+    baum_i_put_user_text(out, text, BAUM_I_JSON);
     baum_i_put(out, "\"");
   }
 }

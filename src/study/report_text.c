@@ -31,7 +31,7 @@ static void put_heading(const baum_i_snapshot *snapshot, baum_i_buffer *out)
 {
   const baum_i_environment *e = &snapshot->environment;
   const baum_study_reference *r = &snapshot->reference;
-  baum_i_put_plain(out, snapshot->title);
+  baum_i_put_user_text(out, snapshot->title, BAUM_I_PLAIN);
   baum_i_putf(out, "\nspan       %s s to %s s, %d samples\n", baum_i_short(snapshot->t0, 6).text,
               baum_i_short(snapshot->t1, 6).text,
               (int)(r->samples ? r->samples : snapshot->options.samples));
@@ -55,7 +55,7 @@ static void put_advice(const baum_i_snapshot *snapshot, baum_i_buffer *out)
   for (int k = 0; k < BAUM_I_ADVICE; k++) {
     const baum_i_advice *advice = &snapshot->advice[BAUM_STUDY_WORK][k];
     baum_i_putf(out, "%7.0e  ", advice->error);
-    baum_i_put_plain(out, advice->why);
+    baum_i_put_user_text(out, advice->why, BAUM_I_PLAIN);
     baum_i_put(out, "\n");
   }
 }
@@ -178,7 +178,7 @@ static void put_messages(const baum_i_snapshot *snapshot, baum_i_buffer *out)
     const baum_study_entry *entry = &snapshot->entries[k].entry;
     if (entry->message[0]) {
       baum_i_putf(out, "%s: %s: ", entry->name, baum_study_state_name(entry->state));
-      baum_i_put_plain(out, entry->message);
+      baum_i_put_user_text(out, entry->message, BAUM_I_PLAIN);
       baum_i_put(out, "\n");
     }
   }

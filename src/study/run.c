@@ -39,27 +39,23 @@ static baum_study_state state_of(const baum_i_outcome *outcome, bool timed_out)
   return outcome->status < BAUM_OK ? BAUM_STUDY_FAILED : BAUM_STUDY_DONE;
 }
 
-/* Nothing is graded below what the reference is known to. */
-static double graded(double difference, double uncertainty)
+/* The whole span and its end. Nothing is graded below what the reference is known to. */
+static void grade(const double difference[2], double uncertainty, double *whole, double *end)
 {
-  return isnan(difference) ? difference : fmax(difference, uncertainty);
+  *whole = isnan(difference[0]) ? difference[0] : fmax(difference[0], uncertainty);
+  *end = isnan(difference[1]) ? difference[1] : fmax(difference[1], uncertainty);
 }
 
-static void grade(const baum_study *study, const baum_i_differences *d, baum_study_entry *entry)
+static void grade_all(const baum_study_reference *r, const baum_i_differences *d,
+                      baum_study_entry *out)
 {
-  const baum_study_reference *r = &study->reference.out;
-  entry->at_floor = d->error[0] <= r->uncertainty;
-  entry->error = graded(d->error[0], r->uncertainty);
-  entry->error_final = graded(d->error[1], r->uncertainty);
-  entry->error_half = graded(d->error[2], r->uncertainty);
-  entry->error_q = graded(d->q[0], r->uncertainty_q);
-  entry->error_q_final = graded(d->q[1], r->uncertainty_q);
-  entry->error_v = graded(d->v[0], r->uncertainty_v);
-  entry->error_v_final = graded(d->v[1], r->uncertainty_v);
-  entry->error_lambda = graded(d->lambda[0], r->uncertainty_lambda);
-  entry->error_lambda_final = graded(d->lambda[1], r->uncertainty_lambda);
-  entry->energy_error = graded(d->energy[0], r->uncertainty_energy);
-  entry->energy_error_final = graded(d->energy[1], r->uncertainty_energy);
+  out->at_floor = d->error[0] <= r->uncertainty;
+  grade(d->error, r->uncertainty, &out->error, &out->error_final);
+  grade(d->error + 1, r->uncertainty, &out->error_final, &out->error_half);
+  grade(d->q, r->uncertainty_q, &out->error_q, &out->error_q_final);
+  grade(d->v, r->uncertainty_v, &out->error_v, &out->error_v_final);
+  grade(d->lambda, r->uncertainty_lambda, &out->error_lambda, &out->error_lambda_final);
+  grade(d->energy, r->uncertainty_energy, &out->energy_error, &out->energy_error_final);
 }
 
 static void take_motion(const baum_i_outcome *outcome, baum_study_entry *entry)
@@ -97,7 +93,7 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
   take_motion(outcome, out);
   if (out->state == BAUM_STUDY_DONE && study->reference.samples.values) {
     baum_i_differences d = baum_i_study_compare(study, &study->reference.samples, values);
-    grade(study, &d, out);
+    grade_all(&study->reference.out, &d, out);
     out->off = d.q[0] > OFF || out->branch_warnings > 0;
   }
   entry->limit = deadline->limit;
@@ -106,9 +102,9 @@ static void take_outcome(const baum_study *study, const baum_i_outcome *outcome,
 
 /* ---- the workers ---- */
 
-static void give_up(workers *c, baum_status status)
+static void note_failure(workers *c, baum_status status)
 {
-  if (c->status == BAUM_OK) {
+  if (status != BAUM_OK && c->status == BAUM_OK) {
     c->status = status;
     baum_i_message_keep(&c->message);
   }
@@ -176,10 +172,7 @@ static void finish_entry(workers *c, baum_i_entry *entry)
     double *too_fine = &c->study->methods[entry->out.method].too_fine;
     *too_fine = fmax(*too_fine, baum_i_setting(&entry->options));
   }
-  baum_status status = baum_i_study_file_entry(c->file, entry);
-  if (status != BAUM_OK) {
-    give_up(c, status);
-  }
+  note_failure(c, baum_i_study_file_entry(c->file, entry));
   report(c);
 }
 
@@ -197,7 +190,7 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   bool stopped = outcome.status == BAUM_STOP_CANCELLED && !deadline.timed_out;
   baum_i_lock_take(&c->lock);
   if (outcome.status == BAUM_ERR_MEMORY) {
-    give_up(c, baum_i_fail_memory());
+    note_failure(c, baum_i_fail_memory());
   } else if (!stopped) {
     if (passed) {
       pass_over(c, entry);
@@ -209,58 +202,53 @@ static void measure_entry(workers *c, baum_i_entry *entry, double *values)
   baum_i_lock_give(&c->lock);
 }
 
-/* Memory for the samples of one run, or NULL. */
-static double *samples_of(workers *c)
+/* What is done to an entry; values: samples of one run to work in. */
+typedef void entry_fn(workers *c, baum_i_entry *entry, double *values);
+
+static void run_entries(workers *c, entry_fn *work)
 {
   size_t size = (size_t)c->study->reference.samples.n * (size_t)baum_i_study_layout(c->study).width;
   double *values = baum_i_alloc(size, sizeof *values);
   if (!values) {
     baum_i_lock_take(&c->lock);
-    give_up(c, baum_i_fail_memory());
+    note_failure(c, baum_i_fail_memory());
     baum_i_lock_give(&c->lock);
+    return;
   }
-  return values;
+  baum_i_entry *entry = NULL;
+  while ((entry = next_entry(c)) != NULL) {
+    work(c, entry, values);
+  }
+  baum_i_free(values);
 }
 
 static void measure(void *self, int k)
 {
   (void)k;
-  workers *c = self;
-  double *values = samples_of(c);
-  if (!values) {
-    return;
-  }
-  baum_i_entry *entry = NULL;
-  while ((entry = next_entry(c)) != NULL) {
-    measure_entry(c, entry, values);
-  }
-  baum_i_free(values);
+  run_entries(self, measure_entry);
 }
 
 /* ---- validations ---- */
 
+static void validate_entry(workers *c, baum_i_entry *entry, double *values)
+{
+  baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
+  double error = (double)NAN;
+  baum_status status = baum_i_study_validate(c->study, entry, &deadline, values, &error);
+  baum_i_lock_take(&c->lock);
+  if (status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
+    entry->out.error_validated = error;
+    entry->stage = BAUM_I_VALIDATED;
+    status = baum_i_study_file_entry(c->file, entry);
+  }
+  note_failure(c, status);
+  baum_i_lock_give(&c->lock);
+}
+
 static void validate(void *self, int k)
 {
   (void)k;
-  workers *c = self;
-  double *values = samples_of(c);
-  baum_i_entry *entry = NULL;
-  while (values && (entry = next_entry(c)) != NULL) {
-    baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
-    double error = (double)NAN;
-    baum_status status = baum_i_study_validate(c->study, entry, &deadline, values, &error);
-    baum_i_lock_take(&c->lock);
-    if (status == BAUM_OK && !baum_i_deadline_stops(&deadline)) {
-      entry->out.error_validated = error;
-      entry->stage = BAUM_I_VALIDATED;
-      status = baum_i_study_file_entry(c->file, entry);
-    }
-    if (status != BAUM_OK) {
-      give_up(c, status);
-    }
-    baum_i_lock_give(&c->lock);
-  }
-  baum_i_free(values);
+  run_entries(self, validate_entry);
 }
 
 /* Those that are to be validated into the order; returns whether there are some. */
@@ -283,13 +271,12 @@ static void validate_all(workers *c)
     return;
   }
   baum_i_deadline deadline = deadline_of(c, VALIDATED_FOR);
-  baum_status status =
-    c->study->validated ? BAUM_OK : baum_i_study_make_validations(c->study, &deadline);
-  if (status != BAUM_OK) {
-    give_up(c, status);
-    return;
+  if (!c->study->validated) {
+    note_failure(c, baum_i_study_make_validations(c->study, &deadline));
   }
-  run_workers(c, validate);
+  if (c->status == BAUM_OK) {
+    run_workers(c, validate);
+  }
 }
 
 /* ---- order ---- */
@@ -348,12 +335,21 @@ static baum_status set_order(workers *c)
 
 /* ---- times ---- */
 
+/* What a run costs on any machine: evaluations of right-hand sides or residuals, factorizations,
+ * and the linear systems of implicit methods. An explicit step counts 2 a stage, a step of CVODE's
+ * Adams method 3 for each iteration. Matrices of IDA and BDF are larger than that of (7), and what
+ * SUNDIALS does between evaluations is not counted: CPU time shows it. */
+static double work_of(const baum_study_entry *r)
+{
+  return (double)(r->evaluations + r->factorizations + r->nonlinear_iterations);
+}
+
 static void take_times(const baum_i_outcome *first, const double least[2], int repeats,
                        baum_i_entry *entry)
 {
   entry->out.evaluations = first->counters.evaluations;
   entry->out.factorizations = first->counters.factorizations;
-  entry->out.work = baum_i_study_work(entry);
+  entry->out.work = work_of(&entry->out);
   entry->out.cpu = least[0];
   entry->out.cpu_spread = repeats > 1 ? least[1] - least[0] : (double)NAN;
   entry->out.repeats = repeats;
@@ -402,10 +398,7 @@ static void time_entries(workers *c)
       return;
     }
     if (is_untimed(entry)) {
-      baum_status status = time_entry(c, entry);
-      if (status != BAUM_OK) {
-        give_up(c, status);
-      }
+      note_failure(c, time_entry(c, entry));
     }
     report(c);
   }
@@ -463,10 +456,10 @@ static baum_status prepare(workers *c)
   return was_known ? BAUM_OK : baum_i_study_file_reference(c->file, study);
 }
 
-static void run_entries(workers *c)
+static void run_all(workers *c)
 {
   if (!baum_i_lock_make(&c->lock)) {
-    give_up(c, baum_i_fail_memory());
+    note_failure(c, baum_i_fail_memory());
     return;
   }
   run_workers(c, measure);
@@ -521,7 +514,7 @@ baum_status baum_study_run(baum_study *study)
   workers c = {.study = study, .wall_end = baum_i_wall_seconds() + study->options.time_budget};
   baum_status status = begin(&c);
   if (status == BAUM_OK) {
-    run_entries(&c);
+    run_all(&c);
   }
   status = status == BAUM_OK || status == BAUM_STOP_CANCELLED ? conclude(&c) : status;
   baum_status closed = baum_i_study_file_close(c.file);

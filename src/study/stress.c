@@ -3,6 +3,7 @@
  * */
 #include <math.h>
 
+#include "base/text.h"
 #include "integrate/integrator.h"
 #include "study/study.h"
 
@@ -63,23 +64,13 @@ static baum_status add_gains(const ladders *l, baum_simulation_options o)
   return BAUM_OK;
 }
 
-static baum_status add_integrator(const ladders *l, const baum_integrator *integrator)
+static baum_status add_integrator(void *user, const baum_integrator *integrator)
 {
+  const ladders *l = user;
   baum_simulation_options o = baum_simulation_options_default();
   o.integrator = integrator;
   BAUM_I_TRY(add_settings(l, &o));
   return baum_integrator_offers(integrator, BAUM_FORMULATION_BAUMGARTE) ? add_gains(l, o) : BAUM_OK;
-}
-
-static baum_status add_all(const ladders *l, const baum_integrator *only)
-{
-  const baum_integrator *integrator = NULL;
-  for (int k = 0; (integrator = baum_integrator_at(k)) != NULL; k++) {
-    if ((!only || only == integrator) && baum_i_study_in_build(integrator)) {
-      BAUM_I_TRY(add_integrator(l, integrator));
-    }
-  }
-  return BAUM_OK;
 }
 
 baum_status baum_study_add_stress(baum_study *study, const baum_integrator *integrator)
@@ -90,16 +81,9 @@ baum_status baum_study_add_stress(baum_study *study, const baum_integrator *inte
   }
   double rate = 0.0;
   BAUM_I_TRY(baum_i_study_rate(study, &rate));
-  int entries = study->entry_count;
-  int methods = study->method_count;
-  const ladders l = {.study = study, .period = 2.0 * PI / rate};
-  baum_status status = add_all(&l, integrator);
-  if (status == BAUM_OK && study->entry_count == entries) {
-    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s: this build has no %s with a step or a tolerance",
-                         call, baum_integrator_name(integrator));
-  }
-  if (status != BAUM_OK) {
-    baum_i_study_truncate(study, entries, methods);
-  }
-  return status;
+  ladders l = {.study = study, .period = 2.0 * PI / rate};
+  char missing[BAUM_I_NAME_SIZE];
+  baum_i_print(missing, sizeof missing, "%s: this build has no %s with a step or a tolerance", call,
+               baum_integrator_name(integrator));
+  return baum_i_study_add_each(study, integrator, add_integrator, &l, missing);
 }

@@ -6,6 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include <baum/version.h>
+
 #include "base/alloc.h"
 #include "base/sized.h"
 #include "base/text.h"
@@ -75,7 +77,8 @@ baum_status baum_study_create(const baum_mechanism *mechanism, double t0, double
   return BAUM_OK;
 }
 
-void baum_i_study_truncate(baum_study *study, int entries, int methods)
+/* Free entries from `entries` on, and give up methods likewise. */
+static void truncate(baum_study *study, int entries, int methods)
 {
   for (int k = entries; k < study->entry_count; k++) {
     baum_i_free(study->entries[k]->row_gains);
@@ -85,12 +88,41 @@ void baum_i_study_truncate(baum_study *study, int entries, int methods)
   study->method_count = methods;
 }
 
+/* Integrators of SUNDIALS are listed without it, too. */
+static bool is_in_build(const baum_integrator *integrator)
+{
+  const char *name = integrator->name;
+  bool of_sundials = strncmp(name, "cvode", 5) == 0 || strcmp(name, "ida") == 0;
+  return !of_sundials || baum_has("sundials");
+}
+
+baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only,
+                                  baum_i_add_fn *add, void *user, const char *missing)
+{
+  int entries = study->entry_count;
+  int methods = study->method_count;
+  baum_status status = BAUM_OK;
+  const baum_integrator *integrator = NULL;
+  for (int k = 0; status == BAUM_OK && (integrator = baum_integrator_at(k)) != NULL; k++) {
+    if ((!only || only == integrator) && is_in_build(integrator)) {
+      status = add(user, integrator);
+    }
+  }
+  if (status == BAUM_OK && study->entry_count == entries) {
+    status = baum_i_fail(BAUM_ERR_ARGUMENT, "%s", missing);
+  }
+  if (status != BAUM_OK) {
+    truncate(study, entries, methods);
+  }
+  return status;
+}
+
 void baum_study_destroy(baum_study *study)
 {
   if (!study || study->running) {
     return;
   }
-  baum_i_study_truncate(study, 0, 0);
+  truncate(study, 0, 0);
   baum_i_free(study->entries);
   baum_i_free(study->methods);
   baum_i_free(study->channels);

@@ -128,8 +128,12 @@ baum_status baum_i_study_take(void *to, size_t size, const void *from, const cha
 /* BAUM_ERR_STATE within baum_study_run(). */
 baum_status baum_i_study_check_idle(const baum_study *study, const char *call);
 
-/* Give up entries and methods from these numbers on. */
-void baum_i_study_truncate(baum_study *study, int entries, int methods);
+/* Add settings for each integrator of this build, or for `only` one. */
+typedef baum_status baum_i_add_fn(void *user, const baum_integrator *integrator);
+
+/* All settings or none. `missing` is the message where this build has none to add. */
+baum_status baum_i_study_add_each(baum_study *study, const baum_integrator *only,
+                                  baum_i_add_fn *add, void *user, const char *missing);
 
 /* ---- grid.c ---- */
 
@@ -137,9 +141,6 @@ void baum_i_study_truncate(baum_study *study, int entries, int methods);
  * more. A rough run that fails tells what it has seen. What baum_simulation_create() returns, and
  * BAUM_STOP_CANCELLED. */
 baum_status baum_i_study_rate(baum_study *study, double *rate);
-
-/* Those of SUNDIALS are there by name without it. */
-bool baum_i_study_in_build(const baum_integrator *integrator);
 
 /* ---- names.c ---- */
 
@@ -253,10 +254,6 @@ baum_status baum_i_study_file_open(baum_study *study, baum_i_study_file **out);
 baum_status baum_i_study_file_reference(baum_i_study_file *file, const baum_study *study);
 baum_status baum_i_study_file_entry(baum_i_study_file *file, const baum_i_entry *entry);
 baum_status baum_i_study_file_close(baum_i_study_file *file);
-
-/* ---- work.c ---- */
-
-double baum_i_study_work(const baum_i_entry *entry);
 
 /* ---- methods.c ---- */
 

@@ -66,7 +66,7 @@ static void a_wrong_struct_size_or_null_is_refused(void **state)
   }
   o = good_options();
   check_refused(NULL, &o, BAUM_ERR_ARGUMENT, "baum_simulation_create: the mechanism is NULL");
-  check_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options are NULL");
+  check_refused(parts.mechanism, NULL, BAUM_ERR_ARGUMENT, "options is NULL");
   ASSERT_SAYS(baum_simulation_create(parts.mechanism, &o, NULL), BAUM_ERR_ARGUMENT, "out is NULL");
   baum_mechanism *copy = NULL;
   assert_int_equal(baum_mechanism_copy(parts.mechanism, &copy), BAUM_OK);

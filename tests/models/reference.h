@@ -15,7 +15,8 @@ typedef struct reference {
   int samples;
   int width;
   const double *t;     /* (samples) [s] */
-  const double *q;     /* (samples x width) */
+  const double *q;     /* (samples x width) NULL: those of the catalogue */
+  const char *entry;   /* of the catalogue, where q is NULL */
   const char *lengths; /* (width) 'm' for a length, 'r' for an angle */
   void (*columns)(const double *q,
                   double *out); /* (width) of all coordinates; NULL: they are the coordinates */

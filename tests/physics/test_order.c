@@ -32,15 +32,12 @@ static const reference REFERENCES[] = {
                 .q = A01_PENDULUM_Q[0],
                 .lengths = "mm"},
   [FREE_CRANK] = {.samples = 3,
-                  .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+                  .width = 9,
                   .t = SLIDER_CRANK_ECCENTRIC_T,
-                  .q = SLIDER_CRANK_ECCENTRIC_Q[0],
+                  .entry = "slider_crank_eccentric",
                   .lengths = "mmrmmrmmr"},
-  [FOUR_BAR] = {.samples = 5,
-                .width = FOUR_BAR_WIDTH,
-                .t = FOUR_BAR_T,
-                .q = FOUR_BAR_Q[0],
-                .lengths = "mmrmmrmmr"},
+  [FOUR_BAR] =
+    {.samples = 5, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
 /* Steps of the coarsest rung, by order. Order 4 begins late, because its term of order 5 is larger

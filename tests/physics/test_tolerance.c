@@ -39,20 +39,17 @@ static const reference REFERENCES[REFERENCE_COUNT] = {
                 .q = A01_PENDULUM_Q[0],
                 .lengths = "mm"},
   [FREE_CRANK] = {.samples = 9,
-                  .width = SLIDER_CRANK_ECCENTRIC_WIDTH,
+                  .width = 9,
                   .t = SLIDER_CRANK_ECCENTRIC_T,
-                  .q = SLIDER_CRANK_ECCENTRIC_Q[0],
+                  .entry = "slider_crank_eccentric",
                   .lengths = "mmrmmrmmr"},
   [DRIVEN_CRANK] = {.samples = 9,
                     .width = SLIDER_CRANK_DRIVEN_WIDTH,
                     .t = SLIDER_CRANK_DRIVEN_T,
                     .q = SLIDER_CRANK_DRIVEN_Q[0],
                     .lengths = "mmrmmrmmr"},
-  [FOUR_BAR] = {.samples = 9,
-                .width = FOUR_BAR_WIDTH,
-                .t = FOUR_BAR_T,
-                .q = FOUR_BAR_Q[0],
-                .lengths = "mmrmmrmmr"},
+  [FOUR_BAR] =
+    {.samples = 9, .width = 9, .t = FOUR_BAR_T, .entry = "four_bar", .lengths = "mmrmmrmmr"},
 };
 
 /* By which factor the error falls per decade: slope of a line through the logarithms, which single

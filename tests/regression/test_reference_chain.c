@@ -12,9 +12,9 @@
 
 static const reference NINE = {.name = "chain N = 3",
                                .samples = CHAIN_SAMPLES,
-                               .width = CHAIN_WIDTH,
+                               .width = 9,
                                .t = CHAIN_T,
-                               .q = CHAIN_Q[0],
+                               .entry = "chain_3",
                                .lengths = "mmrmmrmmr"};
 
 static void adams_reaches_the_reference_within_1e_9(void **state)

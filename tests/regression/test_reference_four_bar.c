@@ -12,9 +12,9 @@
 
 static const reference NINE = {.name = "four-bar",
                                .samples = FOUR_BAR_SAMPLES,
-                               .width = FOUR_BAR_WIDTH,
+                               .width = 9,
                                .t = FOUR_BAR_T,
-                               .q = FOUR_BAR_Q[0],
+                               .entry = "four_bar",
                                .lengths = "mmrmmrmmr"};
 
 static void adams_reaches_the_reference_within_1e_8(void **state)

@@ -282,7 +282,7 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_simulation_options o = kinematic_options();
   o.step = 1e-3;
   check_refused(mechanism, &o, BAUM_ERR_ARGUMENT,
-                "step is 0.001, but kinematics solves|give neither step nor tolerance");
+                "step is 0.001 s, but kinematics solves|give neither step nor tolerance");
   o = kinematic_options();
   o.rtol = 1e-6;
   check_refused(mechanism, &o, BAUM_ERR_ARGUMENT, "rtol is 1e-06, but kinematics solves");

@@ -167,7 +167,8 @@ static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
   def.point[1] = 0.5 + 2.0 * s + 3.0 * c;
   double points[4];
-  assert_int_equal(baum_i_planar_points(scene.mechanism, &def, "x", points), BAUM_OK);
+  assert_int_equal(baum_i_planar_points(scene.mechanism, &(baum_i_element){.def = &def}, points),
+                   BAUM_OK);
   ASSERT_NEAR(points[0], 2.0, 1e-15, 0.0);
   ASSERT_NEAR(points[1], 3.0, 1e-15, 0.0);
   ASSERT_NEAR(points[2], def.point[0], 0.0, 0.0);
@@ -187,7 +188,8 @@ static void a_particle_is_at_its_point_up_to_rounding(void **state)
   def.point[0] = 0.3;
   def.point[1] = 0.0;
   double points[4] = {1.0, 1.0, 1.0, 1.0};
-  assert_int_equal(baum_i_planar_points(scene.mechanism, &def, "x", points), BAUM_OK);
+  assert_int_equal(baum_i_planar_points(scene.mechanism, &(baum_i_element){.def = &def}, points),
+                   BAUM_OK);
   ASSERT_NEAR(points[2], 0.0, 0.0, 0.0);
   ASSERT_NEAR(points[3], 0.0, 0.0, 0.0);
   baum_mechanism_destroy(scene.mechanism);

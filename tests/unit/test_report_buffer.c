@@ -13,12 +13,10 @@
 
 #include "study/report_buffer.h"
 
-typedef void put_fn(baum_i_buffer *buffer, const char *text);
-
-static void check_put(put_fn *put, const char *text, const char *want)
+static void check_put(baum_i_quoting quoting, const char *text, const char *want)
 {
   baum_i_buffer buffer = {0};
-  put(&buffer, text);
+  baum_i_put_user_text(&buffer, text, quoting);
   assert_false(buffer.failed);
   assert_string_equal(buffer.text, want);
   assert_int_equal(buffer.used, strlen(want));
@@ -28,22 +26,22 @@ static void check_put(put_fn *put, const char *text, const char *want)
 static void json_ends_no_script_that_it_stands_in(void **state)
 {
   (void)state;
-  check_put(baum_i_put_json, "</script><!--", "\\u003c/script>\\u003c!--");
+  check_put(BAUM_I_JSON, "</script><!--", "\\u003c/script>\\u003c!--");
 }
 
 static void json_and_csv_keep_their_quotes(void **state)
 {
   (void)state;
-  check_put(baum_i_put_json, "a\"b\\c", "a\\\"b\\\\c");
-  check_put(baum_i_put_csv, "a\"b\\c, d", "a\"\"b\\c, d");
+  check_put(BAUM_I_JSON, "a\"b\\c", "a\\\"b\\\\c");
+  check_put(BAUM_I_CSV, "a\"b\\c, d", "a\"\"b\\c, d");
 }
 
 static void control_characters_become_spaces(void **state)
 {
   (void)state;
-  check_put(baum_i_put_csv, "a\x1b[1m\r\nb\x7f", "a [1m  b ");
-  check_put(baum_i_put_json, "a\tb\nc", "a b c");
-  check_put(baum_i_put_plain, "a\x1b]0;<b>\"", "a ]0;<b>\"");
+  check_put(BAUM_I_CSV, "a\x1b[1m\r\nb\x7f", "a [1m  b ");
+  check_put(BAUM_I_JSON, "a\tb\nc", "a b c");
+  check_put(BAUM_I_PLAIN, "a\x1b]0;<b>\"", "a ]0;<b>\"");
 }
 
 static void what_is_no_utf8_is_replaced(void **state)
@@ -51,15 +49,14 @@ static void what_is_no_utf8_is_replaced(void **state)
   (void)state;
   const char *const good[] = {"\xc3\xa9", "\xe2\x82\xac", "\xf0\x9f\x98\x80", "\xf4\x8f\xbf\xbf"};
   for (size_t k = 0; k < sizeof good / sizeof good[0]; k++) {
-    check_put(baum_i_put_json, good[k], good[k]);
+    check_put(BAUM_I_JSON, good[k], good[k]);
   }
-  check_put(baum_i_put_json, "\xff", "\xef\xbf\xbd");
-  check_put(baum_i_put_json, "\x80z", "\xef\xbf\xbdz");
-  check_put(baum_i_put_json, "\xc3", "\xef\xbf\xbd");                 /* cut off */
-  check_put(baum_i_put_json, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/", too long */
-  check_put(baum_i_put_json, "\xed\xa0\x80",
-            "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
-  check_put(baum_i_put_json, "\xf4\x90\x80\x80",     /* beyond Unicode */
+  check_put(BAUM_I_JSON, "\xff", "\xef\xbf\xbd");
+  check_put(BAUM_I_JSON, "\x80z", "\xef\xbf\xbdz");
+  check_put(BAUM_I_JSON, "\xc3", "\xef\xbf\xbd");                 /* cut off */
+  check_put(BAUM_I_JSON, "\xc0\xaf", "\xef\xbf\xbd\xef\xbf\xbd"); /* "/", too long */
+  check_put(BAUM_I_JSON, "\xed\xa0\x80", "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd"); /* surrogate */
+  check_put(BAUM_I_JSON, "\xf4\x90\x80\x80", /* beyond Unicode */
             "\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd\xef\xbf\xbd");
 }
 

@@ -18,7 +18,7 @@
 static const struct {
   int version;
   uint64_t list;
-} VERSIONS[] = {{9, 0x448b4b059414f4fd}};
+} VERSIONS[] = {{9, 0x448b4b059414f4fd}, {10, 0x448b4b059414f4fd}};
 
 enum { VERSION_COUNT = sizeof VERSIONS / sizeof *VERSIONS };
 

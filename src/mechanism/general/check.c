@@ -186,6 +186,44 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
   return compare(&c, at);
 }
 
+/* Entries of a field in the places of their derivatives, so that messages name the derivative. */
+typedef struct rearranged {
+  const baum_i_field *field;
+  const baum_i_derived *pairs;
+  int pair_count;
+} rearranged;
+
+static baum_status rearranged_field(const void *context, const baum_i_local *at, double *out)
+{
+  const rearranged *r = context;
+  baum_i_local here = *at;
+  double *values = baum_i_take(&here, r->field->size);
+  BAUM_I_TRY(r->field->evaluate(r->field->context, &here, values));
+  memset(out, 0, (size_t)r->field->size * sizeof *out);
+  for (int k = 0; k < r->pair_count; k++) {
+    out[r->pairs[k].entry] = values[r->pairs[k].of];
+  }
+  return BAUM_OK;
+}
+
+baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
+                                   const baum_i_field *field, const baum_i_derived *pairs,
+                                   int pair_count, const baum_i_ray *ray, const baum_i_local *at)
+{
+  baum_i_local here = *at;
+  double *values = baum_i_take(&here, field->size);
+  double *given = baum_i_take(&here, field->size);
+  BAUM_I_TRY(field->evaluate(field->context, &here, values));
+  memset(given, 0, (size_t)field->size * sizeof *given);
+  for (int k = 0; k < pair_count; k++) {
+    given[pairs[k].entry] = values[pairs[k].entry];
+  }
+  const rearranged r = {field, pairs, pair_count};
+  const baum_i_field derived = {.evaluate = rearranged_field, .context = &r, .size = field->size};
+  const baum_i_claim claim = {function, source, given};
+  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &derived, ray, &here);
+}
+
 /* Largest given entry of each row, each times what its coordinate relevantly changes. */
 static void find_row_size(const baum_i_claim *claim, const baum_i_local *at,
                           baum_i_variable variable, int size, double *direction, double *row_size)
@@ -301,38 +339,20 @@ static void set_pose(place *p, int pose)
   baum_i_point_set(&p->point, times[pose], p->q, p->v);
 }
 
-/* One element at one pose. */
-typedef baum_status check_fn(const void *element, baum_i_point *point);
-
-static baum_status check_body(const void *element, baum_i_point *point)
-{
-  const baum_i_body *body = element;
-  return body->type->check(body, point);
-}
-
-static baum_status check_joint(const void *element, baum_i_point *point)
-{
-  const baum_i_joint *joint = element;
-  return joint->type->check(joint, point);
-}
-
-static baum_status check_force(const void *element, baum_i_point *point)
-{
-  const baum_i_force *force = element;
-  return force->type->check(force, point);
-}
-
 static bool is_refusal(baum_status status)
 {
   return status == BAUM_ERR_CALLBACK || status == BAUM_ERR_NOT_FINITE;
 }
 
-static baum_status check_poses(check_fn *check, const void *element, place *p)
+static baum_status check_element(const baum_i_element *element, place *p)
 {
+  if (!element->definition->check_derivatives) {
+    return BAUM_OK;
+  }
   bool any = false;
   for (int pose = 0; pose < POSE_COUNT; pose++) {
     set_pose(p, pose);
-    baum_status status = check(element, &p->point);
+    baum_status status = element->definition->check_derivatives(element, &p->point);
     if (status != BAUM_OK && !is_refusal(status)) {
       return status;
     }
@@ -342,24 +362,15 @@ static baum_status check_poses(check_fn *check, const void *element, place *p)
     return BAUM_OK;
   }
   set_pose(p, 0); /* for the message of the design configuration */
-  return check(element, &p->point);
+  return element->definition->check_derivatives(element, &p->point);
 }
 
 static baum_status check_elements(const baum_mechanism *mechanism, place *p)
 {
-  for (int i = 1; i <= mechanism->body_count; i++) {
-    if (mechanism->bodies[i]->type->check) {
-      BAUM_I_TRY(check_poses(check_body, mechanism->bodies[i], p));
-    }
-  }
-  for (int i = 0; i < mechanism->joint_count; i++) {
-    if (mechanism->joints[i]->type->check) {
-      BAUM_I_TRY(check_poses(check_joint, mechanism->joints[i], p));
-    }
-  }
-  for (int i = 0; i < mechanism->force_count; i++) {
-    if (mechanism->forces[i]->type->check) {
-      BAUM_I_TRY(check_poses(check_force, mechanism->forces[i], p));
+  for (int i = 0; i < BAUM_I_FAMILIES; i++) {
+    const baum_i_family *family = baum_i_families[i];
+    for (int k = 0; k < baum_i_family_count(family, mechanism); k++) {
+      BAUM_I_TRY(check_element(family->at(mechanism, k), p));
     }
   }
   return BAUM_OK;

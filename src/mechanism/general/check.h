@@ -24,6 +24,18 @@ baum_status baum_i_compare_ray(const baum_i_claim *claim, const baum_i_stencil *
 baum_status baum_i_compare_columns(const baum_i_claim *claim, const baum_i_field *field,
                                    baum_i_variable variable, const baum_i_local *at);
 
+/* An entry of a function's output that is the derivative of another one. */
+typedef struct baum_i_derived {
+  int entry;
+  int of;
+} baum_i_derived;
+
+/* Compare entries of a function (field->size) with the derivatives of other ones along a ray. The
+ * function itself may fail, too. */
+baum_status baum_i_compare_entries(const baum_i_user_function *function, const char *source,
+                                   const baum_i_field *field, const baum_i_derived *pairs,
+                                   int pair_count, const baum_i_ray *ray, const baum_i_local *at);
+
 /* A function whose element says that it does not depend on velocities, against itself at rest. */
 baum_status baum_i_compare_with_rest(const baum_i_user_function *function,
                                      const baum_i_field *field, const baum_i_local *at);

@@ -48,3 +48,22 @@ void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_sp
     packed += (ptrdiff_t)nv * span->nl;
   }
 }
+
+static void pack_rows(const baum_mechanism *mechanism, const baum_i_joint *joint, const double *six,
+                      double *rows)
+{
+  if (rows) {
+    baum_i_columns_pack(mechanism, &joint->span, joint->rows, six, rows + joint->jacobian);
+  }
+}
+
+void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                const baum_i_joint_blocks *six, const baum_i_joint_blocks *blocks)
+{
+  pack_rows(mechanism, joint, six->jw_q, blocks->jw_q);
+  pack_rows(mechanism, joint, six->gamma_q, blocks->gamma_q);
+  pack_rows(mechanism, joint, six->gamma_v, blocks->gamma_v);
+  if (blocks->jtl_q) {
+    baum_i_columns_pack_square(mechanism, &joint->span, six->jtl_q, blocks->jtl_q + joint->square);
+  }
+}

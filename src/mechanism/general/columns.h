@@ -82,4 +82,9 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
                                 const double *six, double *packed);
 
+/* Second derivatives of a joint's rows over six columns to where they are wanted. nu_q stays zero:
+ * no joint with such rows has one. */
+void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
+                                const baum_i_joint_blocks *six, const baum_i_joint_blocks *blocks);
+
 #endif

@@ -80,11 +80,19 @@ static void add_square(const baum_i_inner x[2], const baum_i_outer *g, int colum
   }
 }
 
-void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, int columns,
-                               const double *w, double lambda, baum_i_composed_blocks *out)
+/* Over the first `columns`; jtl_q is columns x columns. */
+typedef struct wide_blocks {
+  double jw_q[BAUM_I_COMPOSED_COLUMNS];
+  double jtl_q[BAUM_I_COMPOSED_COLUMNS * BAUM_I_COMPOSED_COLUMNS];
+  double gamma_q[BAUM_I_COMPOSED_COLUMNS];
+  double gamma_v[BAUM_I_COMPOSED_COLUMNS];
+} wide_blocks;
+
+/* out arrives zeroed. */
+static void linearize(const baum_i_inner x[2], const baum_i_outer *g, int columns, const double *w,
+                      double lambda, wide_blocks *out)
 {
   const double w_along[2] = {along(&x[0], w), along(&x[1], w)};
-  *out = (baum_i_composed_blocks){.jw_q = {0.0}};
   for (int i = 0; i < 2; i++) {
     const double *first = g->first;
     double bend_w = 0.0;    /* G_ij (g_j w) */
@@ -125,23 +133,12 @@ void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *poin
   }
 }
 
-static void put(const baum_i_joint *joint, const baum_i_point *point, const double *wide,
-                double *blocks)
-{
-  if (blocks) {
-    baum_i_columns_pack(point->mechanism, &joint->span, 1, wide, blocks + joint->jacobian);
-  }
-}
-
 void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *point,
-                                const baum_i_composed_blocks *wide,
-                                const baum_i_joint_blocks *blocks)
+                                const baum_i_inner x[2], const baum_i_outer *g, const double *w,
+                                const double *lambda, const baum_i_joint_blocks *blocks)
 {
-  put(joint, point, wide->jw_q, blocks->jw_q);
-  put(joint, point, wide->gamma_q, blocks->gamma_q);
-  put(joint, point, wide->gamma_v, blocks->gamma_v);
-  if (blocks->jtl_q) {
-    baum_i_columns_pack_square(point->mechanism, &joint->span, wide->jtl_q,
-                               blocks->jtl_q + joint->square);
-  }
+  wide_blocks wide = {.jw_q = {0.0}};
+  linearize(x, g, 3 * joint->span.body_count, w, lambda ? lambda[joint->row] : 0.0, &wide);
+  const baum_i_joint_blocks all = {wide.jw_q, wide.jtl_q, wide.gamma_q, wide.gamma_v, NULL};
+  baum_i_columns_pack_blocks(point->mechanism, joint, &all, blocks);
 }

@@ -27,27 +27,16 @@ typedef struct baum_i_outer {
   double third[4];  /* G_000, G_001, G_011, G_111; only for gamma_q */
 } baum_i_outer;
 
-/* Over the first `columns`; jtl_q is columns x columns. */
-typedef struct baum_i_composed_blocks {
-  double jw_q[BAUM_I_COMPOSED_COLUMNS];
-  double jtl_q[BAUM_I_COMPOSED_COLUMNS * BAUM_I_COMPOSED_COLUMNS];
-  double gamma_q[BAUM_I_COMPOSED_COLUMNS];
-  double gamma_v[BAUM_I_COMPOSED_COLUMNS];
-} baum_i_composed_blocks;
-
 /* The six columns of a coordinate from those of the row. */
 void baum_i_composed_narrow(const baum_i_inner *inner, const double *wide, double six[6]);
-
-/* w (columns); out is set. */
-void baum_i_composed_linearize(const baum_i_inner x[2], const baum_i_outer *g, int columns,
-                               const double *w, double lambda, baum_i_composed_blocks *out);
 
 /* What is wanted of a row at its joint's place. */
 void baum_i_composed_put_row(const baum_i_joint *joint, const baum_i_point *point,
                              const baum_i_inner x[2], const baum_i_outer *g,
                              const baum_i_rows *out);
+/* w (columns of the row); lambda (nc) or NULL. */
 void baum_i_composed_put_blocks(const baum_i_joint *joint, const baum_i_point *point,
-                                const baum_i_composed_blocks *wide,
-                                const baum_i_joint_blocks *blocks);
+                                const baum_i_inner x[2], const baum_i_outer *g, const double *w,
+                                const double *lambda, const baum_i_joint_blocks *blocks);
 
 #endif

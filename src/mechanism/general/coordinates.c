@@ -331,8 +331,9 @@ static baum_status check_mass(const baum_i_body *body, const baum_i_local *at)
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_body *body, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_body *body = given;
   baum_i_local at = baum_i_gather(point, &body->span);
   BAUM_I_TRY(baum_i_coordinates_compare_manifold(body, &at));
   BAUM_I_TRY(check_mass(body, &at));
@@ -344,7 +345,8 @@ static const baum_i_body_type type = {
   .definition = {.kind = "user coordinates",
                  .size = sizeof(baum_coordinates_def),
                  .fields = fields,
-                 .check = check},
+                 .check = check,
+                 .check_derivatives = check_derivatives},
   .frame = BAUM_I_FRAME_NONE,
   .size = size,
   .positions = positions,
@@ -359,7 +361,6 @@ static const baum_i_body_type type = {
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(body, coordinates, type)

@@ -127,7 +127,6 @@ typedef struct state {
   const baum_i_joint *joints[2];
   baum_i_inner x[2];
   double values[3]; /* coordinate of joint_a, zero, scale: a place */
-  double f[LAW_SIZE];
   baum_i_outer g;
 } state;
 
@@ -141,29 +140,31 @@ static void set_inner(const baum_i_joint *joint, const baum_i_point *point, int 
   }
 }
 
-static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+static void set_places(const baum_i_joint *joint, const baum_i_point *point, state *s)
 {
   set_inner(joint, point, 0, s);
   set_inner(joint, point, 1, s);
   s->values[0] = s->x[0].c.value;
   s->values[1] = 0.0;
   s->values[2] = s->joints[0]->type->is_angle ? 1.0 : point->mechanism->length;
+}
+
+static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  set_places(joint, point, s);
+  double f[LAW_SIZE];
   baum_i_local at = place_at(point, s->values);
-  BAUM_I_TRY(law_at(joint, &at, s->f));
-  s->g = (baum_i_outer){.value = s->x[1].c.value - s->f[VALUE],
-                        .first = {-s->f[SLOPE], 1.0},
-                        .second = {-s->f[CURVATURE]}};
+  BAUM_I_TRY(law_at(joint, &at, f));
+  s->g = (baum_i_outer){
+    .value = s->x[1].c.value - f[VALUE], .first = {-f[SLOPE], 1.0}, .second = {-f[CURVATURE]}};
   return BAUM_OK;
 }
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    state s;
-    BAUM_I_TRY(state_at(group->joints[i], point, &s));
-    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-  }
+  state s;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -210,42 +211,33 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
     baum_i_composed_narrow(&s.x[i], w_wide, six);
     s.joints[i]->type->coordinate_linearize(s.joints[i], point, six, 1.0, &s.x[i].blocks);
   }
-  baum_i_composed_blocks wide;
-  baum_i_composed_linearize(s.x, &s.g, 3 * joint->span.body_count, w_wide,
-                            lambda ? lambda[joint->row] : 0.0, &wide);
-  baum_i_composed_put_blocks(joint, point, &wide, blocks);
+  baum_i_composed_put_blocks(joint, point, s.x, &s.g, w_wide, lambda, blocks);
   return BAUM_OK;
 }
 
 /* ---- checking what is given ---- */
 
-/* Value and slope in the places of their derivatives, so that the message names their entry. */
-static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
+static baum_status law_field(const void *joint, const baum_i_local *at, double *out)
 {
-  double f[LAW_SIZE];
-  BAUM_I_TRY(law_at(joint, at, f));
-  out[VALUE] = 0.0;
-  out[SLOPE] = f[VALUE];
-  out[CURVATURE] = f[SLOPE];
-  return BAUM_OK;
+  return law_at(joint, at, out);
 }
 
-static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
+  static const baum_i_derived pairs[] = {{SLOPE, VALUE}, {CURVATURE, SLOPE}};
+  const baum_i_joint *joint = element;
   const baum_coupling_def *def = joint->element.def;
   if (!def->law) {
     return BAUM_OK;
   }
   state s;
-  BAUM_I_TRY(state_at(joint, point, &s));
+  set_places(joint, point, &s);
   double direction[1];
-  const double given[LAW_SIZE] = {0.0, s.f[SLOPE], s.f[CURVATURE]};
   baum_i_local at = place_at(point, s.values);
   baum_i_user_function law = function(joint);
-  baum_i_field field = {.evaluate = derived_field, .context = joint, .size = LAW_SIZE};
-  baum_i_claim claim = {&law, "law", given};
+  baum_i_field field = {.evaluate = law_field, .context = joint, .size = LAW_SIZE};
   baum_i_ray ray = baum_i_column_ray(&at, BAUM_I_VARIABLE_Q, 0, direction);
-  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &at);
+  return baum_i_compare_entries(&law, "law", &field, pairs, 2, &ray, &at);
 }
 
 static const baum_i_joint_type type = {
@@ -253,13 +245,14 @@ static const baum_i_joint_type type = {
                  .size = sizeof(baum_coupling_def),
                  .fields = fields,
                  .check = check,
-                 .parameter_count = PARAMETER_COUNT},
+                 .parameter_count = PARAMETER_COUNT,
+                 .check_derivatives = check_derivatives},
   .scleronomic = true,
   .row_count = 1,
   .lower = lower,
-  .evaluate = evaluate,
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .linearize = linearize,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(joint, coupling, type)

@@ -43,12 +43,11 @@ static void polynomial(const double *numbers, double t, double s[3])
   s[2] = dds;
 }
 
-static baum_status motion_of(const baum_i_joint *joint, baum_i_point *point,
-                             baum_i_motion_fn *motion, double s[3])
+static baum_status motion_of(const baum_i_joint *joint, baum_i_point *point, double s[3])
 {
   const double *numbers = point->parameters + joint->element.parameter;
   if (numbers[BAUM_I_DRIVER_POLYNOMIAL] == 0.0) {
-    return motion(joint, point, s);
+    return joint->type->motion(joint, point, s);
   }
   polynomial(numbers, point->t, s);
   return BAUM_OK;
@@ -74,12 +73,12 @@ baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point,
 
 /* ---- evaluation ---- */
 
-static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
-                                baum_i_motion_fn *motion, const baum_i_rows *out)
+baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
+                                   const baum_i_rows *out)
 {
   double s[3] = {0.0};
   if (out->phi || out->nu || out->gamma) {
-    BAUM_I_TRY(motion_of(joint, point, motion, s));
+    BAUM_I_TRY(motion_of(joint, point, s));
   }
   const baum_i_joint *driven = driven_by(point->mechanism, joint->element.def);
   baum_i_coordinate c;
@@ -100,23 +99,6 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
   return BAUM_OK;
 }
 
-baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                                   baum_i_motion_fn *motion, const baum_i_rows *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    BAUM_I_TRY(evaluate_one(group->joints[i], point, motion, out));
-  }
-  return BAUM_OK;
-}
-
-static void put_row(const baum_i_joint *joint, const baum_mechanism *mechanism, const double *six,
-                    double *rows_of_all)
-{
-  if (rows_of_all) {
-    baum_i_columns_pack(mechanism, &joint->span, 1, six, rows_of_all + joint->jacobian);
-  }
-}
-
 baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
                                     const double *lambda, const baum_i_joint_blocks *blocks)
 {
@@ -126,12 +108,8 @@ baum_status baum_i_driver_linearize(const baum_i_joint *joint, baum_i_point *poi
   baum_i_columns_gather(point, &joint->span, w, w_six);
   baum_i_coordinate_blocks six;
   driven->type->coordinate_linearize(driven, point, w_six, lambda ? lambda[joint->row] : 0.0, &six);
-  put_row(joint, mechanism, six.jw_q, blocks->jw_q);
-  put_row(joint, mechanism, six.gamma_q, blocks->gamma_q);
-  put_row(joint, mechanism, six.gamma_v, blocks->gamma_v);
-  if (blocks->jtl_q) {
-    baum_i_columns_pack_square(mechanism, &joint->span, six.jtl_q, blocks->jtl_q + joint->square);
-  }
+  const baum_i_joint_blocks wide = {six.jw_q, six.jtl_q, six.gamma_q, six.gamma_v, NULL};
+  baum_i_columns_pack_blocks(mechanism, joint, &wide, blocks);
   return BAUM_OK;
 }
 

@@ -35,17 +35,19 @@ enum {
 /* Put a polynomial in force; the replace_law of types. */
 void baum_i_driver_replace_law(double *parameters, double t0, const double s[3]);
 
-/* Value, rate and acceleration of s at the point's time; failures as in phi. */
-typedef baum_status baum_i_motion_fn(const baum_i_joint *driver, baum_i_point *point, double s[3]);
-
 /* Check that s is finite; source says in the message where it comes from: "law()". */
 baum_status baum_i_check_motion(const baum_i_joint *driver, baum_i_point *point, const char *source,
                                 const double s[3]);
 
-baum_status baum_i_driver_evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                                   baum_i_motion_fn *motion, const baum_i_rows *out);
-
 /* ---- members of the type struct ---- */
+
+#define BAUM_I_DRIVER_MEMBERS(MOTION)                                                           \
+  .planar = true, .drives = true, .motion = (MOTION), .replace_law = baum_i_driver_replace_law, \
+  .row_count = 1, .evaluate = baum_i_evaluate_each, .evaluate_one = baum_i_driver_evaluate,     \
+  .linearize = baum_i_driver_linearize, .place = baum_i_driver_place
+
+baum_status baum_i_driver_evaluate(const baum_i_joint *joint, baum_i_point *point,
+                                   const baum_i_rows *out);
 
 /* Check of the joint alone. */
 baum_status baum_i_driver_check(const baum_mechanism *mechanism, const void *def,

@@ -59,59 +59,39 @@ static baum_status law(const baum_i_joint *joint, baum_i_point *point, double s[
 
 /* ---- checking what is given ---- */
 
-/* Value and rate in the places of their derivatives, so that the message names their entry. */
-static baum_status derived_field(const void *joint, const baum_i_local *at, double *out)
+static baum_status law_field(const void *joint, const baum_i_local *at, double *out)
 {
-  double s[LAW_SIZE];
-  BAUM_I_TRY(law_at(joint, at->point, at->t, s));
-  out[0] = 0.0;
-  out[1] = s[0];
-  out[2] = s[1];
-  return BAUM_OK;
+  return law_at(joint, at->point, at->t, out);
 }
 
 /* A law may begin and end where it likes: where it refuses, nothing is to be told. */
-static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
-  double given[LAW_SIZE];
+  static const baum_i_derived pairs[] = {{1, 0}, {2, 1}};
+  const baum_i_joint *joint = element;
   const baum_driver_def *def = joint->element.def;
-  if (!def->law || law(joint, point, given) != BAUM_OK) {
+  if (!def->law) {
     return BAUM_OK;
   }
-  given[0] = 0.0;
   const baum_i_local at = {.point = point, .t = point->t, .free = point->scratch};
-  const baum_i_user_function function = {
-    .element = &joint->element, .name = "law", .rows = LAW_SIZE};
-  const baum_i_field field = {.evaluate = derived_field, .context = joint, .size = LAW_SIZE};
+  const baum_i_user_function function = {&joint->element, "law", LAW_SIZE, 0, def->user};
+  const baum_i_field field = {.evaluate = law_field, .context = joint, .size = LAW_SIZE};
   const baum_i_ray ray = {.dt = 1.0, .rate = 1.0};
-  const baum_i_claim claim = {&function, "law in t", given};
-  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &at);
+  baum_status status = baum_i_compare_entries(&function, "law in t", &field, pairs, 2, &ray, &at);
+  return status == BAUM_ERR_ARGUMENT ? status : BAUM_OK;
 }
 
 /* ---- type ---- */
-
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  return baum_i_driver_evaluate(group, point, law, out);
-}
 
 static const baum_i_joint_type type = {
   .definition = {.kind = "driver",
                  .size = sizeof(baum_driver_def),
                  .fields = fields,
                  .check = baum_i_driver_check,
-                 .parameter_count = BAUM_I_DRIVER_NUMBERS},
-  .planar = true,
-  .scleronomic = false,
-  .drives = true,
-  .replace_law = baum_i_driver_replace_law,
-  .row_count = 1,
+                 .parameter_count = BAUM_I_DRIVER_NUMBERS,
+                 .check_derivatives = check_derivatives},
+  BAUM_I_DRIVER_MEMBERS(law),
   .lower = lower,
-  .evaluate = evaluate,
-  .linearize = baum_i_driver_linearize,
-  .check = check_derivatives,
-  .place = baum_i_driver_place,
 };
 
 BAUM_I_DEFINE(joint, driver, type)

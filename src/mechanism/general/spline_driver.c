@@ -160,12 +160,6 @@ static baum_status motion(const baum_i_joint *driver, baum_i_point *point, doubl
 
 /* ---- type ---- */
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  return baum_i_driver_evaluate(group, point, motion, out);
-}
-
 static const baum_i_joint_type type = {
   .definition = {.kind = "spline driver",
                  .size = sizeof(baum_spline_driver_def),
@@ -174,14 +168,7 @@ static const baum_i_joint_type type = {
                  .own = own,
                  .release = release,
                  .parameter_count = BAUM_I_DRIVER_NUMBERS}, /* all zero at first */
-  .planar = true,
-  .scleronomic = false,
-  .drives = true,
-  .replace_law = baum_i_driver_replace_law,
-  .row_count = 1,
-  .evaluate = evaluate,
-  .linearize = baum_i_driver_linearize,
-  .place = baum_i_driver_place,
+  BAUM_I_DRIVER_MEMBERS(motion),
 };
 
 BAUM_I_DEFINE(joint, spline_driver, type)

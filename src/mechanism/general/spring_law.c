@@ -35,34 +35,17 @@ baum_status baum_i_call_spring_law(const baum_i_spring_law *spring, baum_i_point
 
 /* ---- check ---- */
 
-/* The tension, at the place of the entry that is to be its derivative; zeros elsewhere. */
-typedef struct entry {
-  const baum_i_spring_law *spring;
-  int which;
-} entry;
-
-static baum_status tension_field(const void *context, const baum_i_local *at, double *out)
+static baum_status law_field(const void *spring, const baum_i_local *at, double *out)
 {
-  const entry *e = context;
-  double entries[ENTRIES];
-  BAUM_I_TRY(call(e->spring, at, entries));
-  for (int i = 0; i < ENTRIES; i++) {
-    out[i] = i == e->which ? entries[VALUE] : 0.0;
-  }
-  return BAUM_OK;
+  return call(spring, at, out);
 }
 
-static baum_status check_entry(const entry *e, const baum_i_local *at, double value)
+static baum_status tension_field(const void *spring, const baum_i_local *at, double *out)
 {
-  baum_i_user_function f = function(e->spring);
-  double given[ENTRIES] = {0.0};
-  given[e->which] = value;
-  double direction[1];
-  baum_i_variable variable = e->which == BY_RATE ? BAUM_I_VARIABLE_V : BAUM_I_VARIABLE_Q;
-  baum_i_ray ray = baum_i_column_ray(at, variable, 0, direction);
-  baum_i_field field = {.evaluate = tension_field, .context = e, .size = ENTRIES};
-  baum_i_claim claim = {&f, "law()[0]", given};
-  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, at);
+  double entries[ENTRIES];
+  BAUM_I_TRY(call(spring, at, entries));
+  out[0] = entries[VALUE];
+  return BAUM_OK;
 }
 
 baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_point *point,
@@ -79,16 +62,15 @@ baum_status baum_i_check_spring_law(const baum_i_spring_law *spring, baum_i_poin
                            .v = &rate,
                            .scale = &scale,
                            .free = point->scratch};
-  double given[ENTRIES];
-  BAUM_I_TRY(call(spring, &at, given));
-  for (int which = BY_LENGTH; which <= BY_RATE; which++) {
-    BAUM_I_TRY(check_entry(&(entry){spring, which}, &at, given[which]));
+  static const baum_i_derived pairs[2] = {
+    [BAUM_I_VARIABLE_Q] = {BY_LENGTH, VALUE}, [BAUM_I_VARIABLE_V] = {BY_RATE, VALUE}};
+  baum_i_user_function f = function(spring);
+  baum_i_field whole = {.evaluate = law_field, .context = spring, .size = ENTRIES};
+  for (baum_i_variable by = BAUM_I_VARIABLE_Q; by <= BAUM_I_VARIABLE_V; by++) {
+    double direction[1];
+    baum_i_ray ray = baum_i_column_ray(&at, by, 0, direction);
+    BAUM_I_TRY(baum_i_compare_entries(&f, "law()[0]", &whole, &pairs[by], 1, &ray, &at));
   }
-  if (!spring->depends_on_rate) {
-    baum_i_user_function f = function(spring);
-    entry value = {spring, VALUE};
-    baum_i_field field = {.evaluate = tension_field, .context = &value, .size = 1};
-    return baum_i_compare_with_rest(&f, &field, &at);
-  }
-  return BAUM_OK;
+  baum_i_field tension = {.evaluate = tension_field, .context = spring, .size = 1};
+  return spring->depends_on_rate ? BAUM_OK : baum_i_compare_with_rest(&f, &tension, &at);
 }

@@ -69,8 +69,9 @@ static baum_i_user_function function(const baum_i_joint *joint, const char *name
   return (baum_i_user_function){&joint->element, name, joint->rows, cols, def_of(joint)->user};
 }
 
-static baum_status phi_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+static baum_status phi_at(const void *constraint, const baum_i_local *at, double *out)
 {
+  const baum_i_joint *joint = constraint;
   baum_i_user_function f = function(joint, "phi", 0);
   return baum_i_call_q(&f, def_of(joint)->phi, at, out);
 }
@@ -94,11 +95,6 @@ static baum_status given_gamma_at(const baum_i_joint *joint, const baum_i_local 
 }
 
 /* ---- fields to difference ---- */
-
-static baum_status phi_field(const void *context, const baum_i_local *at, double *out)
-{
-  return phi_at(context, at, out);
-}
 
 static baum_status minus_phi_field(const void *context, const baum_i_local *at, double *out)
 {
@@ -139,14 +135,15 @@ static baum_status jacobian_at(const baum_i_joint *joint, const baum_i_local *at
   if (def_of(joint)->jacobian) {
     return given_jacobian_at(joint, at, out);
   }
-  baum_i_field field = field_of(phi_field, joint);
+  baum_i_field field = field_of(phi_at, joint);
   return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, out);
 }
 
 static const baum_i_ray time_ray = {.dt = 1.0, .rate = 1.0};
 
-static baum_status nu_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+static baum_status nu_at(const void *constraint, const baum_i_local *at, double *out)
 {
+  const baum_i_joint *joint = constraint;
   if (def_of(joint)->nu) {
     return given_nu_at(joint, at, out);
   }
@@ -189,8 +186,9 @@ static baum_status find_line(const baum_i_joint *joint, const baum_i_local *at, 
   return BAUM_OK;
 }
 
-static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, double *out)
+static baum_status gamma_at(const void *constraint, const baum_i_local *at, double *out)
 {
+  const baum_i_joint *joint = constraint;
   const baum_user_constraint_def *def = def_of(joint);
   if (def->gamma) {
     return given_gamma_at(joint, at, out);
@@ -212,8 +210,7 @@ static baum_status gamma_at(const baum_i_joint *joint, const baum_i_local *at, d
 
 /* ---- evaluation ---- */
 
-static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
-                                const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
   baum_i_local at = baum_i_gather(point, &joint->span);
   BAUM_I_TRY(out->phi ? phi_at(joint, &at, out->phi + joint->row) : BAUM_OK);
@@ -225,15 +222,6 @@ static baum_status evaluate_one(const baum_i_joint *joint, baum_i_point *point,
   }
   if (out->gamma) {
     BAUM_I_TRY(gamma_at(joint, &at, out->gamma + joint->row));
-  }
-  return BAUM_OK;
-}
-
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
-{
-  for (int i = 0; i < group->count; i++) {
-    BAUM_I_TRY(evaluate_one(group->joints[i], point, out));
   }
   return BAUM_OK;
 }
@@ -298,7 +286,7 @@ static baum_status curvature(const baum_i_joint *joint, const baum_i_local *at, 
   double *first = work + at->nl;
   double *other = first + at->nl;
   double *turned = at->span ? first : direction; /* where the part along j is */
-  baum_i_field field = field_of(phi_field, joint);
+  baum_i_field field = field_of(phi_at, joint);
   baum_i_ray ray = {.dq = direction, .dq_first = at->span ? first : NULL, .rate = 1.0};
   memset(direction, 0, 2 * (size_t)at->nl * sizeof *direction);
   direction[i] = at->scale[i];
@@ -355,38 +343,13 @@ static baum_status linearize_products(const second *s, const baum_i_local *at)
   return def_of(s->joint)->jacobian ? products_by_columns(s, at) : products_by_pairs(s, at);
 }
 
-static baum_status gamma_field(const void *context, const baum_i_local *at, double *out)
+/* (size x nl) of what may itself come from differences; none where out is NULL. */
+static baum_status linearize_by(const baum_i_joint *joint, baum_i_field_fn *call, bool is_given,
+                                baum_i_variable variable, const baum_i_local *at, double *out)
 {
-  return gamma_at(context, at, out);
-}
-
-static baum_status linearize_gamma(const baum_i_joint *joint, const baum_i_local *at,
-                                   double *gamma_q, double *gamma_v)
-{
-  baum_i_field field = field_of(gamma_field, joint);
-  field.rough = !def_of(joint)->gamma;
-  if (gamma_q) {
-    BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, gamma_q));
-  }
-  if (gamma_v) {
-    BAUM_I_TRY(baum_i_difference_columns(&field, BAUM_I_VARIABLE_V, at, gamma_v));
-  }
-  return BAUM_OK;
-}
-
-static baum_status nu_field(const void *context, const baum_i_local *at, double *out)
-{
-  return nu_at(context, at, out);
-}
-
-static baum_status linearize_nu(const baum_i_joint *joint, const baum_i_local *at, double *nu_q)
-{
-  if (!nu_q) {
-    return BAUM_OK;
-  }
-  baum_i_field field = field_of(nu_field, joint);
-  field.rough = !def_of(joint)->nu;
-  return baum_i_difference_columns(&field, BAUM_I_VARIABLE_Q, at, nu_q);
+  baum_i_field field = field_of(call, joint);
+  field.rough = !is_given;
+  return out ? baum_i_difference_columns(&field, variable, at, out) : BAUM_OK;
 }
 
 static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, const double *w,
@@ -401,9 +364,14 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
               .jw_q = baum_i_block_at(blocks->jw_q, joint->jacobian),
               .jtl_q = baum_i_block_at(blocks->jtl_q, joint->square)};
   BAUM_I_TRY(linearize_products(&s, &at));
-  BAUM_I_TRY(linearize_gamma(joint, &at, baum_i_block_at(blocks->gamma_q, joint->jacobian),
-                             baum_i_block_at(blocks->gamma_v, joint->jacobian)));
-  return linearize_nu(joint, &at, baum_i_block_at(blocks->nu_q, joint->jacobian));
+  bool gamma = def_of(joint)->gamma != NULL;
+  bool nu = def_of(joint)->nu != NULL;
+  double *gamma_q = baum_i_block_at(blocks->gamma_q, joint->jacobian);
+  double *gamma_v = baum_i_block_at(blocks->gamma_v, joint->jacobian);
+  double *nu_q = baum_i_block_at(blocks->nu_q, joint->jacobian);
+  BAUM_I_TRY(linearize_by(joint, gamma_at, gamma, BAUM_I_VARIABLE_Q, &at, gamma_q));
+  BAUM_I_TRY(linearize_by(joint, gamma_at, gamma, BAUM_I_VARIABLE_V, &at, gamma_v));
+  return linearize_by(joint, nu_at, nu, BAUM_I_VARIABLE_Q, &at, nu_q);
 }
 
 /* ---- checking what is given ---- */
@@ -417,7 +385,7 @@ static baum_status check_jacobian(const baum_i_joint *joint, const baum_i_local 
   double *given = baum_i_take(&here, joint->rows * at->nl);
   BAUM_I_TRY(given_jacobian_at(joint, &here, given));
   baum_i_user_function f = function(joint, "jacobian", at->nl);
-  baum_i_field field = field_of(phi_field, joint);
+  baum_i_field field = field_of(phi_at, joint);
   baum_i_claim claim = {&f, "phi", given};
   return baum_i_compare_columns(&claim, &field, BAUM_I_VARIABLE_Q, &here);
 }
@@ -443,23 +411,21 @@ static baum_status check_gamma(const baum_i_joint *joint, const baum_i_local *at
   if (!def->gamma) {
     return BAUM_OK;
   }
+  bool by_rate = def->jacobian && def->nu;
   baum_i_local here = *at;
   double *given = baum_i_take(&here, joint->rows);
+  BAUM_I_TRY(given_gamma_at(joint, &here, given));
   baum_i_ray ray = {.dt = 1.0, .dq = at->v, .rate = fmax(baum_i_local_rate(at), 1.0)};
   baum_i_user_function f = function(joint, "gamma", 0);
-  BAUM_I_TRY(given_gamma_at(joint, &here, given));
-  if (def->jacobian && def->nu) {
-    baum_i_field field = field_of(minus_rate_field, joint);
-    baum_i_claim claim = {&f, "jacobian and nu", given};
-    return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, &here);
-  }
-  baum_i_field field = field_of(minus_phi_field, joint);
-  baum_i_claim claim = {&f, "phi", given};
-  return baum_i_compare_ray(&claim, &baum_i_stencil_second, &field, &ray, &here);
+  baum_i_field field = field_of(by_rate ? minus_rate_field : minus_phi_field, joint);
+  baum_i_claim claim = {&f, by_rate ? "jacobian and nu" : "phi", given};
+  return baum_i_compare_ray(&claim, by_rate ? &baum_i_stencil_first : &baum_i_stencil_second,
+                            &field, &ray, &here);
 }
 
-static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_joint *joint = given;
   baum_i_local at = baum_i_gather(point, &joint->span);
   baum_i_local here = at;
   double *value = baum_i_take(&here, joint->rows);
@@ -472,11 +438,12 @@ static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *po
 static const baum_i_joint_type type = {
   .definition = {.kind = "user constraint",
                  .size = sizeof(baum_user_constraint_def),
-                 .fields = fields},
+                 .fields = fields,
+                 .check_derivatives = check_derivatives},
   .rows = rows,
-  .evaluate = evaluate,
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .linearize = linearize,
-  .check = check_derivatives,
   .noise = noise,
 };
 

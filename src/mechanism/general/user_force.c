@@ -70,22 +70,25 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return baum_i_given_force_block(&f, &at, BAUM_I_VARIABLE_V, force_v);
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *force, baum_i_point *point)
 {
+  const baum_i_force *element = force;
   baum_i_given_force f = given(element);
   baum_i_local at = baum_i_gather(point, &element->span);
   return baum_i_given_force_check(&f, &at);
 }
 
 static const baum_i_force_type type = {
-  .definition = {.kind = "user force", .size = sizeof(baum_user_force_def), .fields = fields},
+  .definition = {.kind = "user force",
+                 .size = sizeof(baum_user_force_def),
+                 .fields = fields,
+                 .check_derivatives = check_derivatives},
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
   .power_is_whole = true,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, user_force, type)

@@ -28,8 +28,6 @@ static const baum_i_def_field fields[] = {
 
 static const double axes[2][2] = {{1.0, 0.0}, {0.0, 1.0}};
 
-/* ---- definition ---- */
-
 /* ---- the curve ---- */
 
 static baum_i_user_function function(const baum_i_joint *joint)
@@ -70,7 +68,7 @@ typedef struct state {
   baum_i_outer g;
 } state;
 
-static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+static void set_places(const baum_i_joint *joint, const baum_i_point *point, state *s)
 {
   s->pair = baum_i_planar_pair_at(joint, point);
   for (int i = 0; i < 2; i++) {
@@ -81,6 +79,11 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
     s->values[2 + i] = 0.0;
     s->values[4 + i] = point->mechanism->length;
   }
+}
+
+static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, state *s)
+{
+  set_places(joint, point, s);
   baum_i_local at = place_at(point, s->values);
   double f[CURVE_SIZE];
   BAUM_I_TRY(curve_at(joint, &at, f));
@@ -89,14 +92,11 @@ static baum_status state_at(const baum_i_joint *joint, baum_i_point *point, stat
   return BAUM_OK;
 }
 
-static baum_status evaluate(const baum_i_joint_group *group, baum_i_point *point,
-                            const baum_i_rows *out)
+static baum_status evaluate(const baum_i_joint *joint, baum_i_point *point, const baum_i_rows *out)
 {
-  for (int i = 0; i < group->count; i++) {
-    state s;
-    BAUM_I_TRY(state_at(group->joints[i], point, &s));
-    baum_i_composed_put_row(group->joints[i], point, s.x, &s.g, out);
-  }
+  state s;
+  BAUM_I_TRY(state_at(joint, point, &s));
+  baum_i_composed_put_row(joint, point, s.x, &s.g, out);
   return BAUM_OK;
 }
 
@@ -137,74 +137,45 @@ static baum_status linearize(const baum_i_joint *joint, baum_i_point *point, con
   for (int i = 0; i < 2; i++) {
     baum_i_axis_linearize(&s.pair, axes[i], w_six, 1.0, &s.x[i].blocks);
   }
-  baum_i_composed_blocks wide;
-  baum_i_composed_linearize(s.x, &s.g, BAUM_I_PLANAR_COLUMNS, w_six,
-                            lambda ? lambda[joint->row] : 0.0, &wide);
-  baum_i_composed_put_blocks(joint, point, &wide, blocks);
+  baum_i_composed_put_blocks(joint, point, s.x, &s.g, w_six, lambda, blocks);
   return BAUM_OK;
 }
 
 /* ---- checking what is given ---- */
 
-/* Entries, and whose derivative by x or by y they are. */
-static const int derived[2][3][2] = {
-  {{F_X, F}, {F_XX, F_X}, {F_XY, F_Y}},
-  {{F_Y, F}, {F_XY, F_X}, {F_YY, F_Y}},
-};
-
-typedef struct column_of {
-  const baum_i_joint *joint;
-  int by; /* 0: x, 1: y */
-} column_of;
-
-/* What is differenced, in the places of its derivatives, so that the message names their entry. */
-static baum_status derived_field(const void *context, const baum_i_local *at, double *out)
+static baum_status curve_field(const void *joint, const baum_i_local *at, double *out)
 {
-  const column_of *column = context;
-  double f[CURVE_SIZE];
-  BAUM_I_TRY(curve_at(column->joint, at, f));
-  memset(out, 0, CURVE_SIZE * sizeof *out);
-  for (int i = 0; i < 3; i++) {
-    out[derived[column->by][i][0]] = f[derived[column->by][i][1]];
-  }
-  return BAUM_OK;
+  return curve_at(joint, at, out);
 }
 
-static baum_status check_column(const column_of *column, const baum_i_local *at,
-                                const double f[CURVE_SIZE])
+static baum_status check_derivatives(const void *element, baum_i_point *point)
 {
-  double given[CURVE_SIZE] = {0.0};
-  for (int i = 0; i < 3; i++) {
-    int entry = derived[column->by][i][0];
-    given[entry] = f[entry];
-  }
-  double direction[2];
-  baum_i_user_function curve = function(column->joint);
-  baum_i_field field = {.evaluate = derived_field, .context = column, .size = CURVE_SIZE};
-  baum_i_claim claim = {&curve, "curve", given};
-  baum_i_ray ray = baum_i_column_ray(at, BAUM_I_VARIABLE_Q, column->by, direction);
-  return baum_i_compare_ray(&claim, &baum_i_stencil_first, &field, &ray, at);
-}
-
-static baum_status check_derivatives(const baum_i_joint *joint, baum_i_point *point)
-{
+  static const baum_i_derived pairs[2][3] = {/* by x, by y */
+                                             {{F_X, F}, {F_XX, F_X}, {F_XY, F_Y}},
+                                             {{F_Y, F}, {F_XY, F_X}, {F_YY, F_Y}}};
+  const baum_i_joint *joint = element;
   state s;
-  double f[CURVE_SIZE];
-  BAUM_I_TRY(state_at(joint, point, &s));
+  set_places(joint, point, &s);
   baum_i_local at = place_at(point, s.values);
-  BAUM_I_TRY(curve_at(joint, &at, f));
+  baum_i_user_function curve = function(joint);
+  baum_i_field field = {.evaluate = curve_field, .context = joint, .size = CURVE_SIZE};
   for (int by = 0; by < 2; by++) {
-    const column_of column = {joint, by};
-    BAUM_I_TRY(check_column(&column, &at, f));
+    double direction[2];
+    baum_i_ray ray = baum_i_column_ray(&at, BAUM_I_VARIABLE_Q, by, direction);
+    BAUM_I_TRY(baum_i_compare_entries(&curve, "curve", &field, pairs[by], 3, &ray, &at));
   }
   return BAUM_OK;
 }
 
 static const baum_i_joint_type type = {
-  BAUM_I_PLANAR_JOINT(planar_curve, "planar point on a curve", baum_i_planar_check_axis, 0, 1),
+  .definition = {BAUM_I_PLANAR_DEFINITION(planar_curve, "planar point on a curve",
+                                          baum_i_planar_check_axis, 0),
+                 .check_derivatives = check_derivatives},
+  BAUM_I_PLANAR_MEMBERS(1),
+  .evaluate = baum_i_evaluate_each,
+  .evaluate_one = evaluate,
   .lower = baum_i_planar_lower_points,
   .linearize = linearize,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(joint, planar_curve, type)

@@ -101,9 +101,9 @@ baum_status baum_i_planar_check_angle(const baum_mechanism *mechanism, baum_body
 baum_status baum_i_planar_check_angles(const baum_mechanism *mechanism, const void *def,
                                        const char *label);
 
-/* Points on both bodies from an element's definition and the design configuration, s[0..1] on a, s[2..3] on
- * b. A particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are checked when
- * they are given). */
+/* Points on both bodies from an element's definition and the design configuration, s[0..1] on a,
+ * s[2..3] on b. A particle with `point` away from it: BAUM_ERR_ARGUMENT (point_a and point_b are
+ * checked when they are given). */
 baum_status baum_i_planar_points(const baum_mechanism *mechanism, const baum_i_element *element,
                                  double s[4]);
 

@@ -146,11 +146,6 @@ BAUM_I_INLINE baum_status baum_i_planar_evaluate(const baum_i_joint_group *group
   return BAUM_OK;
 }
 
-/* Put one joint's second derivatives where the caller wants them;
- * nu_q is zero for every planar joint. */
-void baum_i_planar_put(const baum_i_joint *joint, const baum_mechanism *mechanism,
-                       const baum_i_planar_blocks *six, const baum_i_joint_blocks *blocks);
-
 static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
                                                   const baum_i_point *point, const double *w,
                                                   const double *lambda,
@@ -163,7 +158,8 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
   baum_i_columns_gather(point, &joint->span, w, w_six);
   baum_i_planar_blocks six = {.jw_q = {0.0}};
   kernel(&pair, w_six, lambda ? lambda + joint->row : none, &six);
-  baum_i_planar_put(joint, point->mechanism, &six, blocks);
+  const baum_i_joint_blocks wide = {six.jw_q, six.jtl_q, six.gamma_q, six.gamma_v, NULL};
+  baum_i_columns_pack_blocks(point->mechanism, joint, &wide, blocks);
   return BAUM_OK;
 }
 
@@ -183,15 +179,17 @@ static inline baum_status baum_i_planar_linearize(const baum_i_joint *joint,
     return baum_i_planar_linearize(joint, point, w, lambda, KERNEL, blocks);                    \
   }
 
-/* The members that types of joints of two bodies share; their points come before OWN numbers. */
-#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                  \
-  .definition = {.kind = (TITLE),                                                           \
-                 .size = sizeof(baum_##NAME##_def),                                         \
-                 .fields = fields,                                                          \
-                 .check = (CHECK),                                                          \
-                 .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)},                         \
+/* What definitions, and members of types, of joints of two bodies share; their points come before
+ * OWN numbers. */
+#define BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)                                 \
+  .kind = (TITLE), .size = sizeof(baum_##NAME##_def), .fields = fields, .check = (CHECK), \
+  .parameter_count = BAUM_I_PLANAR_NUMBERS + (OWN)
+#define BAUM_I_PLANAR_MEMBERS(ROWS)                                                         \
   .planar = true, .scleronomic = true, .row_count = (ROWS), .extent = baum_i_planar_extent, \
-  .evaluate = evaluate, .place = baum_i_planar_place
+  .place = baum_i_planar_place
+#define BAUM_I_PLANAR_JOINT(NAME, TITLE, CHECK, OWN, ROWS)                                 \
+  .definition = {BAUM_I_PLANAR_DEFINITION(NAME, TITLE, CHECK, OWN)}, .evaluate = evaluate, \
+  BAUM_I_PLANAR_MEMBERS(ROWS)
 
 void baum_i_planar_place(const baum_i_joint *joint, const baum_i_point *point, double at[2]);
 

@@ -209,8 +209,9 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_force *element = given;
   spring s = spring_at(element, point);
   baum_i_spring_law law = law_of(element, point);
   return s.length == 0.0
@@ -223,14 +224,14 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_planar_spring_def),
                  .fields = fields,
                  .check = baum_i_planar_check_apart,
-                 .parameter_count = PARAMETER_COUNT},
+                 .parameter_count = PARAMETER_COUNT,
+                 .check_derivatives = check_derivatives},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, planar_spring, type)

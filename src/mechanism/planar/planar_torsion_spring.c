@@ -141,8 +141,9 @@ static baum_status linearize(const baum_i_force *element, baum_i_point *point,
   return BAUM_OK;
 }
 
-static baum_status check_derivatives(const baum_i_force *element, baum_i_point *point)
+static baum_status check_derivatives(const void *given, baum_i_point *point)
 {
+  const baum_i_force *element = given;
   twist now = twist_at(element, point);
   baum_i_spring_law law = law_of(element, point);
   return baum_i_check_spring_law(&law, point, now.angle, now.rate, 1.0);
@@ -153,14 +154,14 @@ static const baum_i_force_type type = {
                  .size = sizeof(baum_planar_torsion_spring_def),
                  .fields = fields,
                  .check = check,
-                 .parameter_count = BAUM_I_SPRING_NUMBERS},
+                 .parameter_count = BAUM_I_SPRING_NUMBERS,
+                 .check_derivatives = check_derivatives},
   .lower = lower,
   .force = force,
   .depends_on_velocity = depends_on_velocity,
   .potential = potential,
   .linearize = linearize,
   .power = power,
-  .check = check_derivatives,
 };
 
 BAUM_I_DEFINE(force, planar_torsion_spring, type)

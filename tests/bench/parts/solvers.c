@@ -101,7 +101,6 @@ typedef struct klu_solver {
   double *scale; /* (n) found once, which is in KLU's favour */
   void *backend;
   baum_i_pattern pattern; /* to time the filling by itself */
-  double *matrix;
 } klu_solver;
 
 static void klu_destroy(void *self)
@@ -110,7 +109,6 @@ static void klu_destroy(void *self)
   if (s) {
     baum_i_klu_ops.destroy(s->backend);
     baum_i_pattern_clear(&s->pattern);
-    free(s->matrix);
     free(s->scale);
     free(s->c.x);
     free(s);
@@ -126,8 +124,7 @@ static bool klu_set_up(klu_solver *s, scene *at)
     return false;
   }
   s->scale = calloc((size_t)s->c.n + 1, sizeof *s->scale);
-  s->matrix = calloc((size_t)s->pattern.column_start[s->c.n], sizeof *s->matrix);
-  if (!s->scale || !s->matrix) {
+  if (!s->scale) {
     return false;
   }
   baum_i_scale_compute(structure, &s->c.values, s->scale);
@@ -151,7 +148,7 @@ static bool klu_run(void *self, int last_phase)
   klu_solver *s = self;
   bool done = run_geometry(&s->c);
   if (done && last_phase == PHASE_ASSEMBLY) {
-    baum_i_pattern_fill(&s->pattern, &s->c.values, s->scale, s->matrix);
+    baum_i_pattern_fill(&s->pattern, &s->c.values, s->scale, 1.0);
   }
   if (done && last_phase >= PHASE_FACTOR) {
     done = baum_i_klu_ops.factor(s->backend, &s->c.values, s->scale, BAUM_I_EFFORT_KEEP) == BAUM_OK;
