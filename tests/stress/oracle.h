@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The motion of one freedom, x'' = f(x, x'), far more accurately than any run: long double, and for
+/* The motion of one degree of freedom, x'' = f(x, x'), far more accurately than any run: long double, and for
  * stiff forces too.
  */
 #ifndef BAUM_TEST_ORACLE_H

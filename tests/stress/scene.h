@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mechanisms of one freedom whose motion is known from one equation for one angle, with every
+/* Mechanisms of one degree of freedom whose motion is known from one equation for one angle, with every
  * number that the stress grid goes through. SI units; `units` only says in which ones the mechanism
  * is built.
  */
