@@ -4,7 +4,7 @@
 usage: check_messages.py --check|--write PROJECT
        check_messages.py --untriggered COVERAGE_JSON PROJECT
 
-The first form compares the page with the sources; --write writes it. It also refuses messages of more than three sentences.
+The first form compares the page with the sources; --write writes it. It also refuses messages of more than three clauses.
 The second form reads the lines that the tests executed (gcovr --json, stage coverage) and lists the messages that no test
 triggered. A message that shares its line with a condition counts as triggered only if both outcomes of the line occurred.
 """
@@ -16,7 +16,7 @@ from pathlib import Path
 
 # Functions that set a message: index of status or code, index of the format.
 SINKS = {"baum_i_fail": (0, 1), "baum_i_run_warn": (1, 4), "baum_i_catalog_fail": (0, 1), "baum_fail": (0, 1)}
-MOST_SENTENCES = 3
+MOST_CLAUSES = 3
 LITERAL = re.compile(r'"((?:[^"\\]|\\.)*)"')
 SPEC = re.compile(r"%[-+ #0-9.*]*(?:ll|l|z|h)?[a-zA-Z%]")
 HEAD = """# Messages
@@ -188,9 +188,9 @@ def main(arguments):
         missing = list(untriggered(project, found, executed(arguments[1])))
         print("\n".join(missing), f"\n{len(missing)} messages that no test triggers")
         return 0
-    failures = [f"src/{name}:{first}: more than {MOST_SENTENCES} sentences: {readable(text)}"
+    failures = [f"src/{name}:{first}: more than {MOST_CLAUSES} clauses: {readable(text)}"
                 for messages in found.values() for name, _, text, first, _ in messages
-                if len(re.findall(r"[.!?;](?= )", readable(text).replace("...", ""))) >= MOST_SENTENCES]
+                if len(re.findall(r"[.!?;](?= )", readable(text).replace("...", ""))) >= MOST_CLAUSES]
     target = project / "docs" / "messages.md"
     if arguments[0] == "--write":
         target.write_text(page(found), encoding="utf-8")

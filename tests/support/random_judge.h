@@ -28,9 +28,9 @@ typedef struct random_tally {
   uint64_t worst_seed;
 } random_tally;
 
-/* One mechanism of the kind that its seed determines: at its design configuration in motion, at another
- * that fulfils the constraints, and, with independent rows, at one that does not. What is wrong or
- * a false alarm is printed. `room` holds the mechanism. */
+/* One mechanism of the kind that its seed determines: at its design configuration in motion, at
+ * another that fulfils the constraints, and, with independent rows, at one that does not. Prints
+ * what is wrong or a false alarm. `room` holds the mechanism. */
 void random_judge(random_mechanism *room, uint64_t seed, random_tally *tally);
 
 #endif
