@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What happens at times: a pendulum that falls against a stop and bounces, at times that the run
-finds, and one that is kicked by a torque at times that are known before."""
+"""Events and break times: a pendulum bounces at a stop, at times that the run finds; and a torque
+kicks a pendulum at times that are known in advance."""
 import sys
 
 import numpy as np
@@ -37,15 +37,15 @@ def quarter(angle):
 
 
 def exact_times():
-    """Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into
-    1 - cos(angle)."""
+    """Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
+    proportional to 1 - cos(angle)."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
     return quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
 
 
 def bounces(m):
-    """Times [s] and rates before [rad/s]."""
+    """Times [s] of the bounces and angular velocities before them [rad/s]."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")
     rows = []

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pendulum by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
+"""A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
 
 import sys
 
@@ -31,7 +31,7 @@ def pendulum():
 
 
 def period():
-    """Of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
+    """Period of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
     arithmetic-geometric mean."""
     a, b = 1.0, np.sqrt(0.5)
     for _ in range(6):

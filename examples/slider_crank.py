@@ -38,7 +38,7 @@ COLUMNS = {
 
 
 def slider_crank():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
+    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -57,7 +57,7 @@ def slider_at(t):
 
 
 def simulate(m, gains, times):
-    """A run and what the table says of it; Phi_3 is the first row of pin B."""
+    """A run and its row of the table; Phi_3 is the first row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -67,12 +67,12 @@ def simulate(m, gains, times):
 
 
 def check(report, runs, said):
-    """What the paper says of its eight sets, in numbers."""
+    """Checks of the paper's statements on its eight sets."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # the start is forgotten after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # initial violations have decayed after half of the run
             report.expect(f"{name}, last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)

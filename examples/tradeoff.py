@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What accuracy costs, from Python: a study of the slider-crank, released at 150 rad/s, and the
-settings that it recommends, tried."""
+"""Accuracy against cost, from Python: a study of the slider-crank, released at 150 rad/s, and the
+runs that try its recommendations."""
 import sys
 
 import numpy as np
@@ -17,7 +17,7 @@ COLUMNS = {
 
 
 def slider_crank():
-    """Three bodies in a rough design configuration with the crank at angle 0; assembly does the rest."""
+    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(0.0765, 0), held=True,
                           angular_velocity=150)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the Python examples share: tables, checks that decide, the JSON file with both.
+"""Shared by the Python examples: tables, checks that decide the exit code, the JSON file with both.
 
 The JSON is as that of the C examples:
 "name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
@@ -50,7 +50,7 @@ class Report:
 
     @staticmethod
     def _number(value):
-        """A value for JSON, which knows no NaN."""
+        """A value for JSON, which has no NaN."""
         return (
             value
             if isinstance(value, (str, int))
@@ -58,7 +58,7 @@ class Report:
         )
 
     def counters(self, counters):
-        """Print and keep what a run has cost."""
+        """Print and keep the cost of a run."""
         kept = {
             key: getattr(counters, key)
             for key in ("steps", "evaluations", "rejected", "factorizations")
@@ -67,7 +67,7 @@ class Report:
         self._tables["counters"] = kept
 
     def expect(self, name, value, limit):
-        """A check that value <= limit; what is not a number fails."""
+        """Check that value <= limit; NaN fails."""
         ok = bool(value <= limit)
         print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")
         self._checks.append({"name": name, "value": self._number(value), "limit": limit, "ok": ok})
