@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What happens at times: a pendulum that falls against a stop and bounces, at times that the run
-finds, and one that is kicked by a torque at times that are known before."""
-
+"""Events and break times: a pendulum bounces at a stop, at times that the run finds; and a torque
+kicks a pendulum at times that are known in advance."""
 import sys
 
 import baum
@@ -10,7 +9,7 @@ from baum.typing import Array
 from support.report import Report
 
 LENGTH = 1.0  # [m] of a uniform rod of 1 kg
-ANGLE = 1.0  # [rad] at which it is let go
+ANGLE = 1.0  # [rad] at which it is released
 STOP = 0.0  # [rad] straight below the pin
 RESTITUTION = 0.9  # of the speed that a bounce leaves
 BOUNCES = 8
@@ -37,17 +36,17 @@ def quarter(angle: float) -> float:
     return float(np.pi / (2 * a) * np.sqrt(2 * LENGTH / (3 * 9.81)))
 
 
-def exact_times() -> Array:
-    """Every bounce leaves RESTITUTION^2 of the energy, which the next swing turns into
-    1 - cos(angle)."""
+def exact_times():
+    """Every bounce leaves RESTITUTION^2 of the energy. The next swing converts it into height,
+    proportional to 1 - cos(angle)."""
     left = RESTITUTION ** (2 * np.arange(1, BOUNCES)) * (1 - np.cos(ANGLE))
     between = [2 * quarter(angle) for angle in np.arccos(1 - left)]
     times: Array = quarter(ANGLE) + np.concatenate([[0], np.cumsum(between)])
     return times
 
 
-def bounces(m: baum.Mechanism) -> Array:
-    """Times [s] and angular velocities before [rad/s], two rows."""
+def bounces(m):
+    """Times [s] of the bounces and angular velocities before them [rad/s]."""
     s = m.simulation("rk8", rtol=1e-10)
     s.event("pin", STOP, direction=-1, name="stop")
     rows: list[tuple[float, float]] = []

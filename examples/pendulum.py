@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A pendulum by one function: 1 kg on a massless rod of 1 m, let go from the horizontal."""
+"""A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
 
 import sys
 from typing import Any
@@ -22,16 +22,16 @@ COLUMNS = {
 }
 
 
-def pendulum() -> baum.Mechanism:
-    """Phi(q) = x^2 + y^2 - 1 is all that the library needs to know about the rod."""
+def pendulum():
+    """Phi(q) = x^2 + y^2 - 1: the only thing the library needs to know about the rod."""
     m = baum.Mechanism()
     bob = m.planar_particle("bob", mass=1, position=(1, 0))
     m.constraint("rod", [bob], rows=1, phi=lambda t, q: q @ q - 1)
     return m.freeze()
 
 
-def period() -> float:
-    """Of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
+def period():
+    """Period of a swing through 180 degrees [s]: 4 K(k) sqrt(l/g), k^2 = 1/2, K by the
     arithmetic-geometric mean."""
     a, b = 1.0, np.sqrt(0.5)
     for _ in range(6):

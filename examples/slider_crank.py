@@ -45,8 +45,8 @@ COLUMNS = {
 }
 
 
-def slider_crank() -> baum.Mechanism:
-    """Three bodies in a rough design configuration with the crank at angle 0, for assembly."""
+def slider_crank():
+    """Three bodies in a rough design configuration with the crank at angle 0; assembly closes the joints."""
     m = baum.Mechanism(gravity=(0, -9.81))
     crank = m.planar_body("crank", mass=0.038, inertia=7.4e-5, position=(R / 2, 0))
     rod = m.planar_body("rod", mass=0.038, inertia=5.9e-4, position=(R + L / 2, 0))
@@ -65,8 +65,8 @@ def slider_at(t: Array) -> Array:
     return x
 
 
-def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.Run, Row]:
-    """A run and its row in the table; Phi_3 is the first row of pin B."""
+def simulate(m, gains, times):
+    """A run and its row of the table; Phi_3 is the first row of pin B."""
     run = m.simulate(times, "euler", step=H, formulation="baumgarte", gains=gains, record=["B.phi"])
     phi3, c = abs(run["B.phi"][:, 0]), run.counters
     z = baum.stability("euler", c.alpha * H, (c.beta * H) ** 2)
@@ -75,13 +75,13 @@ def simulate(m: baum.Mechanism, gains: baum.Gains, times: Array) -> tuple[baum.R
     return run, dict(zip(list(COLUMNS)[1:], row))
 
 
-def check(report: Report, runs: dict[str, baum.Run], said: dict[str, Row]) -> None:
-    """What the paper says of its eight sets, in numbers."""
+def check(report, runs, said):
+    """Checks of the paper's statements on its eight sets."""
     quarters = {name: np.split(abs(run["B.phi"][1:, 0]), 4) for name, run in runs.items()}
     growth = {name: last.max() / third.max() for name, (_, _, third, last) in quarters.items()}
     report.expect("none: Phi_3 grows, 3rd / last quarter", 1 / growth["none"], 0.9)
     for name, row in said.items():
-        if row["spectral_radius"] ** 5000 < 0.01:  # the start is forgotten after half of the run
+        if row["spectral_radius"] ** 5000 < 0.01:  # initial violations have decayed after half of the run
             report.expect(f"{name}, last / 3rd", growth[name], 1.05)
     largest = max(row["max_phi3"] for name, row in said.items() if name != "none")
     report.expect("gains against none: largest Phi_3", largest / said["none"]["max_phi3"], 0.1)

@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A study of a mechanism that is nothing but Python functions: a bead on a wire y = x^2 - x^4 / 4
+"""A study of a mechanism given entirely by Python functions: a bead on a wire y = x^2 - x^4 / 4
 in oil. Which method is cheapest depends on what an evaluation costs: here it is Python that costs,
-so that the number of evaluations is what counts."""
-
+so that the number of evaluations determines the cost."""
 import sys
 
 import baum

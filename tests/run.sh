@@ -140,6 +140,7 @@ stage_coverage() {
     grep -v ' 100% *$' build/coverage/below.txt
     return 1
   }
+  "$venv/bin/python" tests/layout/check_messages.py --untriggered "$all.json" .
 }
 
 # What stage asan leaves out.

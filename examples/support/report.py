@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the Python examples share: tables, checks that decide, the JSON file with both.
+"""Shared by the Python examples: tables, checks that decide the exit code, the JSON file with both.
 
 The JSON is as that of the C examples:
 "name": {"columns": {key: title}, "rows": [{key: value}]}, "checks", "ok".
@@ -52,8 +52,8 @@ class Report:
         return "-" if isinstance(value, float) and math.isnan(value) else format(value, form)
 
     @staticmethod
-    def _number(value: Any) -> Any:
-        """A value for JSON, which knows no NaN."""
+    def _number(value):
+        """A value for JSON, which has no NaN."""
         return (
             value
             if isinstance(value, (str, int))
@@ -62,8 +62,8 @@ class Report:
             else None
         )
 
-    def counters(self, counters: Counters) -> None:
-        """Print and keep what a run has cost."""
+    def counters(self, counters):
+        """Print and keep the cost of a run."""
         kept = {
             key: getattr(counters, key)
             for key in ("steps", "evaluations", "rejected", "factorizations")
@@ -71,8 +71,8 @@ class Report:
         print("   ".join(f"{key} {value}" for key, value in kept.items()))
         self._tables["counters"] = kept
 
-    def expect(self, name: str, value: float, limit: float) -> None:
-        """A check that value <= limit; what is not a number fails."""
+    def expect(self, name, value, limit):
+        """Check that value <= limit; NaN fails."""
         ok = bool(value <= limit)
         print(f"check  {name:40}  {value:8.1e} <= {limit:<7.1e}  {'ok' if ok else 'FAILED'}")
         self._checks.append({"name": name, "value": self._number(value), "limit": limit, "ok": ok})

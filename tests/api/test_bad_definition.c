@@ -461,7 +461,7 @@ static void freezing_refuses_points_that_do_not_fit(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* It lay on `point` when the slot was added; where it is drawn now, freezing can tell. */
+/* It was at `point` when the slot was added; freezing sees where it is designed now. */
 static void freezing_refuses_a_slot_whose_particle_was_moved_off_it(void **state)
 {
   (void)state;

@@ -322,7 +322,7 @@ static void nets_that_blocks_would_fill_are_told(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void masses_that_are_not_known_as_drawn_are_told(void **state)
+static void masses_unknown_in_the_design_configuration_are_reported(void **state)
 {
   (void)state;
   baum_mechanism *m = make_late();
@@ -346,7 +346,7 @@ static void masses_that_are_not_known_as_drawn_are_told(void **state)
   baum_mechanism_destroy(m);
 }
 
-static void blocks_alone_stop_close_to_a_singular_pose(void **state)
+static void blocks_alone_stop_close_to_a_singular_configuration(void **state)
 {
   (void)state;
   model m;
@@ -399,8 +399,8 @@ int main(void)
     cmocka_unit_test(many_joints_below_that_are_fine),
     cmocka_unit_test(masses_that_cannot_be_inverted_are_named),
     cmocka_unit_test(nets_that_blocks_would_fill_are_told),
-    cmocka_unit_test(masses_that_are_not_known_as_drawn_are_told),
-    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_pose),
+    cmocka_unit_test(masses_unknown_in_the_design_configuration_are_reported),
+    cmocka_unit_test(blocks_alone_stop_close_to_a_singular_configuration),
     cmocka_unit_test(no_joints_are_no_nodes),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);

@@ -222,7 +222,7 @@ static int change_all(const baum_study *study, int32_t done, int32_t total, void
   return 0;
 }
 
-static void progress_cannot_change_what_is_under_way(void **state)
+static void progress_cannot_change_a_running_study(void **state)
 {
   baum_study *study = make(*state);
   const baum_simulation_options o = rk4(0.01);
@@ -511,7 +511,7 @@ int main(void)
     cmocka_unit_test(options_out_of_range_are_refused_by_name),
     cmocka_unit_test(sizes_that_cannot_be_meant_are_refused_with_their_limit),
     cmocka_unit_test(grids_out_of_range_are_refused_and_add_nothing),
-    cmocka_unit_test(progress_cannot_change_what_is_under_way),
+    cmocka_unit_test(progress_cannot_change_a_running_study),
     cmocka_unit_test(settings_that_are_none_are_refused_whatever_takes_long),
     cmocka_unit_test(what_error_means_is_told_by_name),
     cmocka_unit_test(what_is_not_known_yet_is_refused),

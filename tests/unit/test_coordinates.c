@@ -132,7 +132,7 @@ static void move(test_point *p)
 
 /* ---- evaluation ---- */
 
-static void the_drawing_is_the_start(void **state)
+static void the_design_is_the_start(void **state)
 {
   (void)state;
   arm a = {0};
@@ -153,7 +153,7 @@ static void the_drawing_is_the_start(void **state)
   test_point_close(&p);
 }
 
-static void what_is_not_drawn_is_zero_free_and_of_scale_one(void **state)
+static void what_is_not_designed_is_zero_free_and_of_scale_one(void **state)
 {
   (void)state;
   arm a = {0};
@@ -419,8 +419,8 @@ static void a_definition_comes_back_as_it_was_given(void **state)
 int main(void)
 {
   const struct CMUnitTest tests[] = {
-    cmocka_unit_test(the_drawing_is_the_start),
-    cmocka_unit_test(what_is_not_drawn_is_zero_free_and_of_scale_one),
+    cmocka_unit_test(the_design_is_the_start),
+    cmocka_unit_test(what_is_not_designed_is_zero_free_and_of_scale_one),
     cmocka_unit_test(mass_force_and_potential_are_those_given),
     cmocka_unit_test(missing_derivatives_are_differenced_to_1e_11),
     cmocka_unit_test(given_derivatives_are_used_as_they_are),

@@ -95,7 +95,7 @@ static void user_coordinates_have_no_place_in_the_plane(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void points_are_given_in_one_way_only(void **state)
+static void points_are_given_either_in_ground_or_in_body_axes(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
@@ -141,7 +141,7 @@ static void a_particle_is_its_own_point(void **state)
                 "joint 1 \"B\": point_b is (0, -2) m, must be (0, 0) on the particle body 4 "
                 "\"bead\"");
 
-  /* Against the drawing it is looked at when that is final. */
+  /* It is compared with the design configuration when that is final. */
   def = pin(scene.crank, scene.ball);
   def.point[0] = -0.6;
   def.point[1] = 0.9;
@@ -156,12 +156,12 @@ static void a_particle_is_its_own_point(void **state)
 
 /* ---- design configuration ---- */
 
-static void a_point_in_the_drawing_is_turned_into_body_axes(void **state)
+static void a_point_of_the_design_is_converted_into_body_axes(void **state)
 {
   (void)state;
   planar_scene scene = planar_scene_make();
   baum_planar_revolute_def def = pin(scene.link, BAUM_GROUND);
-  /* Link is drawn at (1, 0.5), 0.4 rad: its point (2, 3). */
+  /* Link is designed at (1, 0.5), 0.4 rad: its point (2, 3). */
   double c = cos(0.4);
   double s = sin(0.4);
   def.point[0] = 1.0 + 2.0 * c - 3.0 * s;
@@ -220,7 +220,7 @@ static void design_frames_are_at_rest(void **state)
   baum_mechanism_destroy(scene.mechanism);
 }
 
-static void a_driver_leaves_the_size_of_the_drawing_alone(void **state)
+static void a_driver_does_not_change_the_size_of_the_design(void **state)
 {
   (void)state;
   double length[2];
@@ -306,12 +306,12 @@ int main(void)
     cmocka_unit_test(definitions_between_two_bodies_begin_alike),
     cmocka_unit_test(bodies_that_cannot_be_joined_are_refused),
     cmocka_unit_test(user_coordinates_have_no_place_in_the_plane),
-    cmocka_unit_test(points_are_given_in_one_way_only),
+    cmocka_unit_test(points_are_given_either_in_ground_or_in_body_axes),
     cmocka_unit_test(a_particle_is_its_own_point),
-    cmocka_unit_test(a_point_in_the_drawing_is_turned_into_body_axes),
+    cmocka_unit_test(a_point_of_the_design_is_converted_into_body_axes),
     cmocka_unit_test(a_particle_is_at_its_point_up_to_rounding),
     cmocka_unit_test(design_frames_are_at_rest),
-    cmocka_unit_test(a_driver_leaves_the_size_of_the_drawing_alone),
+    cmocka_unit_test(a_driver_does_not_change_the_size_of_the_design),
     cmocka_unit_test(packing_leaves_out_what_a_particle_does_not_have),
     cmocka_unit_test(scattering_adds_what_gathering_takes),
   };

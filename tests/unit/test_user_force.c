@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* User forces. The example acts on two bodies of user coordinates (x, y), (b, th, ga), named in the
- * other order, so that it is passed (b, th, ga, x, y): f = k (y - sin b) pulls y back and turns b,
- * and there is a damper on x.
- */
+/* User forces. The example acts on two bodies of user coordinates (x, y), (b, th, ga), named in
+ * the other order, so that it is passed (b, th, ga, x, y): f = k (y - sin b) pulls y back and
+ * rotates b, and there is a damper on x. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
