@@ -35,6 +35,12 @@ const char *baum_i_heard(void);
 /* Set the message for BAUM_ERR_MEMORY and return it. */
 baum_status baum_i_fail_memory(void);
 
+/* BAUM_OK if memory was obtained, else baum_i_fail_memory(). */
+static inline baum_status baum_i_check_memory(const void *memory)
+{
+  return memory ? BAUM_OK : baum_i_fail_memory();
+}
+
 /* A saved message, for calls whose failure does not matter. */
 typedef struct baum_i_kept_message {
   char text[BAUM_I_MESSAGE_SIZE];
