@@ -7,25 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const baum_i_catalog_mechanism *const MECHANISMS[] = {
-  &baum_i_pendulum_a01,
-  &baum_i_pendulum_sundials,
-  &baum_i_pendulum_mebdf,
-  &baum_i_slider_crank,
-  &baum_i_slider_crank_eccentric,
-  &baum_i_slider_crank_driven,
-  &baum_i_slider_crank_simeon,
-  &baum_i_slider_crank_sundials,
-  &baum_i_four_bar,
-  &baum_i_n_four_bar,
-  &baum_i_andrews_angles,
-  &baum_i_andrews_bodies,
-  &baum_i_andrews_a03,
-  &baum_i_car_axis,
-  &baum_i_chain_of_3,
-  &baum_i_chain_of_n,
-};
-
+#define ADDRESS(name) &baum_i_##name,
+static const baum_i_catalog_mechanism *const MECHANISMS[] = {BAUM_I_CATALOG_LIST(ADDRESS)};
 enum { COUNT = sizeof MECHANISMS / sizeof MECHANISMS[0], MESSAGE = 1024 };
 
 baum_status baum_i_catalog_fail(baum_status status, const char *format, ...)

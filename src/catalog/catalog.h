@@ -72,22 +72,18 @@ typedef struct baum_i_catalog_mechanism {
   .samples = NAME##_SAMPLES, .t = NAME##_T, .columns = 1, .q = NAME##_Q, .v = NAME##_V, \
   .digits_q = DIGITS_Q, .digits_v = DIGITS_V
 
-extern const baum_i_catalog_mechanism baum_i_pendulum_a01;
-extern const baum_i_catalog_mechanism baum_i_pendulum_sundials;
-extern const baum_i_catalog_mechanism baum_i_pendulum_mebdf;
-extern const baum_i_catalog_mechanism baum_i_slider_crank;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_eccentric;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_driven;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_simeon;
-extern const baum_i_catalog_mechanism baum_i_slider_crank_sundials;
-extern const baum_i_catalog_mechanism baum_i_four_bar;
-extern const baum_i_catalog_mechanism baum_i_n_four_bar;
-extern const baum_i_catalog_mechanism baum_i_andrews_angles;
-extern const baum_i_catalog_mechanism baum_i_andrews_bodies;
-extern const baum_i_catalog_mechanism baum_i_andrews_a03;
-extern const baum_i_catalog_mechanism baum_i_car_axis;
-extern const baum_i_catalog_mechanism baum_i_chain_of_3;
-extern const baum_i_catalog_mechanism baum_i_chain_of_n;
+/* All mechanisms, in the order of their entries. */
+/* clang-format off */
+#define BAUM_I_CATALOG_LIST(X) \
+  X(pendulum_a01) X(pendulum_sundials) X(pendulum_mebdf) \
+  X(slider_crank) X(slider_crank_eccentric) X(slider_crank_driven) X(slider_crank_simeon) \
+  X(slider_crank_sundials) X(four_bar) X(n_four_bar) \
+  X(andrews_angles) X(andrews_bodies) X(andrews_a03) \
+  X(car_axis) X(chain_of_3) X(chain_of_n)
+/* clang-format on */
+
+#define BAUM_I_CATALOG_DECLARE(name) extern const baum_i_catalog_mechanism baum_i_##name;
+BAUM_I_CATALOG_LIST(BAUM_I_CATALOG_DECLARE)
 
 /* Returns the status of a call that is not BAUM_OK. */
 #define BAUM_I_CATALOG_TRY(call) \

@@ -420,30 +420,27 @@ static void give_all(baum_i_block_builder *u)
 
 static void clear(baum_i_block_builder *u)
 {
-  const void *const arrays[] = {
-    u->nodes.items,
-    u->sides.items,
-    u->full_sides.items,
-    u->entries.items,
-    u->alike.items,
-    u->opposite.items,
-    u->first_pairs.items,
-    u->full_pairs.items,
-    u->zeros.items,
-    u->targets.items,
-    u->dense_sides.items,
-    u->neighbours.items,
-    u->column_body,
-    u->body_block_of,
-    u->dense_of,
-    u->sorted_start,
-    u->sorted,
-    u->graph_start,
-    u->arm_of,
-    u->is_set,
-  };
-  enum { COUNT = sizeof arrays / sizeof arrays[0] };
-  for (int i = 0; i < COUNT; i++) {
+  const void *const arrays[] = {u->nodes.items,
+                                u->sides.items,
+                                u->full_sides.items,
+                                u->entries.items,
+                                u->alike.items,
+                                u->opposite.items,
+                                u->first_pairs.items,
+                                u->full_pairs.items,
+                                u->zeros.items,
+                                u->targets.items,
+                                u->dense_sides.items,
+                                u->neighbours.items,
+                                u->column_body,
+                                u->body_block_of,
+                                u->dense_of,
+                                u->sorted_start,
+                                u->sorted,
+                                u->graph_start,
+                                u->arm_of,
+                                u->is_set};
+  for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
     baum_i_free(arrays[i]);
   }
 }

@@ -77,15 +77,8 @@ static bool make_room(baum_i_kkt *kkt)
   return true;
 }
 
-static ladder_rung top_rung_of(baum_i_kkt_choice choice)
-{
-  switch (choice) {
-  case BAUM_I_KKT_KLU: return RUNG_CAREFUL;
-  case BAUM_I_KKT_QR: return RUNG_CHOOSE;
-  case BAUM_I_KKT_AUTO: break;
-  }
-  return RUNG_LAST;
-}
+static const ladder_rung TOP_RUNG[] = {
+  [BAUM_I_KKT_AUTO] = RUNG_LAST, [BAUM_I_KKT_KLU] = RUNG_CAREFUL, [BAUM_I_KKT_QR] = RUNG_CHOOSE};
 
 baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_choice choice,
                               baum_i_kkt **out)
@@ -101,7 +94,7 @@ baum_status baum_i_kkt_create(const baum_i_kkt_structure *structure, baum_i_kkt_
   kkt->present = &kkt->first;
   kkt->first.ops = choice == BAUM_I_KKT_QR ? &baum_i_qr_ops : &baum_i_klu_ops;
   kkt->last.ops = &baum_i_qr_ops;
-  kkt->top_rung = top_rung_of(choice);
+  kkt->top_rung = TOP_RUNG[choice];
   if (!make_room(kkt) || kkt->first.ops->create(structure, &kkt->first.self) != BAUM_OK) {
     baum_i_kkt_destroy(kkt);
     return baum_i_fail_memory();
@@ -157,16 +150,10 @@ static double present_rcond(const baum_i_kkt *kkt)
 }
 
 /* The first solver follows the rung; the last one knows one effort. */
-static baum_i_kkt_effort effort_of(ladder_rung rung)
-{
-  switch (rung) {
-  case RUNG_KEEP: return BAUM_I_EFFORT_KEEP;
-  case RUNG_CAREFUL: return BAUM_I_EFFORT_CAREFUL;
-  case RUNG_CHOOSE:
-  case RUNG_LAST: break;
-  }
-  return BAUM_I_EFFORT_CHOOSE;
-}
+static const baum_i_kkt_effort EFFORT[] = {[RUNG_KEEP] = BAUM_I_EFFORT_KEEP,
+                                           [RUNG_CHOOSE] = BAUM_I_EFFORT_CHOOSE,
+                                           [RUNG_CAREFUL] = BAUM_I_EFFORT_CAREFUL,
+                                           [RUNG_LAST] = BAUM_I_EFFORT_CHOOSE};
 
 static baum_status make_last(baum_i_kkt *kkt)
 {
@@ -185,7 +172,7 @@ static baum_status factor_at(baum_i_kkt *kkt, ladder_rung rung)
   kkt->present_rung = rung;
   kkt->counters.factorizations++;
   kkt->counters.full_factorizations += rung != RUNG_KEEP;
-  baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, effort_of(rung));
+  baum_status status = solver->ops->factor(solver->self, &kkt->values, kkt->scale, EFFORT[rung]);
   solver->has_pivots = status == BAUM_OK && solver->ops->keeps_pivots;
   if (status == BAUM_OK && rung != RUNG_KEEP) {
     solver->chosen_rcond = present_rcond(kkt);

@@ -256,16 +256,6 @@ static baum_status check_needs(const rule_type *rule, const baum_i_gain_context 
   return BAUM_OK;
 }
 
-static baum_status check_draft(const rule_type *rule, const baum_i_gain_draft *gains)
-{
-  if (isfinite(gains->alpha) && isfinite(gains->beta)) {
-    return BAUM_OK;
-  }
-  return baum_i_fail(BAUM_ERR_ARGUMENT,
-                     "gains %s: alpha = %g 1/s, beta = %g 1/s is beyond the range of double",
-                     rule->name, gains->alpha, gains->beta);
-}
-
 /* ---- Choice --------------------------------------------------------------- */
 
 static baum_status make_draft(const rule_type *rule, const double value[2],
@@ -274,7 +264,12 @@ static baum_status make_draft(const rule_type *rule, const double value[2],
   BAUM_I_TRY(check_numbers(rule, value));
   BAUM_I_TRY(check_needs(rule, context));
   rule->apply(value, context, out);
-  return check_draft(rule, out);
+  if (!isfinite(out->alpha) || !isfinite(out->beta)) {
+    return baum_i_fail(BAUM_ERR_ARGUMENT,
+                       "gains %s: alpha = %g 1/s, beta = %g 1/s is beyond the range of double",
+                       rule->name, out->alpha, out->beta);
+  }
+  return BAUM_OK;
 }
 
 static bool is_without_step(const baum_i_gain_context *context)
@@ -291,16 +286,6 @@ static double largest_step(const baum_i_gain_context *context, const baum_i_gain
   }
   double ratio = gains->beta > 0.0 ? gains->alpha / gains->beta : OVERDAMPED;
   return WITHIN_REGION * baum_i_stability_limit(context->method, ratio) / gains->alpha;
-}
-
-/* Refuses a rule whose point the method does not have. */
-static baum_status check_deadbeat(const baum_i_gain_context *context,
-                                  const baum_i_gain_draft *gains, double radius)
-{
-  if (radius <= DEAD) {
-    return BAUM_OK;
-  }
-  return baum_i_gain_refuse_deadbeat(context, gains->alpha_h, gains->beta2_h2, radius);
 }
 
 static void amplify(const baum_i_gain_context *context, const baum_i_gain_draft *gains,
@@ -326,11 +311,12 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
   amplify(context, &numbers, &choice.amplification);
   choice.rule = (baum_gain_rule)(rule - rules);
   choice.max_step = largest_step(context, &numbers);
-  if (choice.rule == BAUM_GAINS_DEADBEAT) {
-    BAUM_I_TRY(check_deadbeat(context, &numbers, choice.amplification.spectral_radius));
+  double radius = choice.amplification.spectral_radius;
+  if (choice.rule == BAUM_GAINS_DEADBEAT && !(radius <= DEAD)) {
+    return baum_i_gain_refuse_deadbeat(context, numbers.alpha_h, numbers.beta2_h2, radius);
   }
   if (choice.amplification.stability == BAUM_UNSTABLE && !context->allow_unstable) {
-    return baum_i_gain_refuse(context, &numbers, choice.amplification.spectral_radius);
+    return baum_i_gain_refuse(context, &numbers, radius);
   }
   baum_i_gain_explain(rule->name, context, &numbers, &choice);
   *out = choice;
@@ -339,42 +325,37 @@ baum_status baum_i_gains_choose(const baum_gains *gains, const baum_i_gain_conte
 
 /* ---- Constructors --------------------------------------------------------- */
 
-static baum_gains make(baum_gain_rule rule, double first, double second)
-{
-  return (baum_gains){(int32_t)rule, {first, second}};
-}
-
 baum_gains baum_gains_fixed(double alpha, double beta)
 {
-  return make(BAUM_GAINS_FIXED, alpha, beta);
+  return (baum_gains){BAUM_GAINS_FIXED, {alpha, beta}};
 }
 
 baum_gains baum_gains_scaled(double alpha_h, double beta2_h2)
 {
-  return make(BAUM_GAINS_SCALED, alpha_h, beta2_h2);
+  return (baum_gains){BAUM_GAINS_SCALED, {alpha_h, beta2_h2}};
 }
 
 baum_gains baum_gains_taylor(void)
 {
-  return make(BAUM_GAINS_TAYLOR, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_TAYLOR, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_frequency(double hertz, double damping_ratio)
 {
-  return make(BAUM_GAINS_FREQUENCY, hertz, damping_ratio);
+  return (baum_gains){BAUM_GAINS_FREQUENCY, {hertz, damping_ratio}};
 }
 
 baum_gains baum_gains_deadbeat(void)
 {
-  return make(BAUM_GAINS_DEADBEAT, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_DEADBEAT, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_auto(void)
 {
-  return make(BAUM_GAINS_AUTO, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_AUTO, {0.0, 0.0}};
 }
 
 baum_gains baum_gains_best_damping(void)
 {
-  return make(BAUM_GAINS_BEST_DAMPING, 0.0, 0.0);
+  return (baum_gains){BAUM_GAINS_BEST_DAMPING, {0.0, 0.0}};
 }
