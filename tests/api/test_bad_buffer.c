@@ -179,7 +179,7 @@ static void seal(saved *s)
 }
 
 /* Neither crashes nor is taken halfway, whatever lengths and numbers it has. */
-static void random_words_under_a_good_sum(void **state)
+static void random_bytes_under_a_good_checksum(void **state)
 {
   (void)state;
   scene s = open_scene();
@@ -471,7 +471,7 @@ int main(void)
     cmocka_unit_test(cut_off_at_every_length),
     cmocka_unit_test(every_byte_changed),
     cmocka_unit_test(two_signs_changed),
-    cmocka_unit_test(random_words_under_a_good_sum),
+    cmocka_unit_test(random_bytes_under_a_good_checksum),
     cmocka_unit_test(other_versions),
     cmocka_unit_test(other_mechanisms),
     cmocka_unit_test(runs_with_other_options),

@@ -187,7 +187,7 @@ static baum_i_coordinate coordinate_at(const test_point *p)
   return c;
 }
 
-/* Six columns of the joint's bodies, left out where they have none, to nv. */
+/* Six columns of the joint's bodies, skipped where they have none, to nv. */
 static void spread_six(const test_point *p, const double six[6], double *full)
 {
   memset(full, 0, (size_t)p->nv * sizeof *full);

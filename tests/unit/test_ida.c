@@ -133,9 +133,9 @@ static cost run_it(const integrator_setup *setup, bool differences, double t)
   return out;
 }
 
-/* The exact Jacobian may not need more than the dense one from IDA's own differences, which knows
- * nothing of ours, but for the luck of other digits, 15 % so far. A term left out or with a wrong
- * sign costs 2 to 40 times as much. */
+/* The exact Jacobian may not need more than the dense one from IDA's own differences, which
+ * knows nothing of ours, but for the luck of other digits, 15 % so far. A missing term or a
+ * wrong sign costs 2 to 40 times as much. */
 static void compare_jacobians(const char *name, baum_mechanism *mechanism,
                               baum_formulation formulation, double gain, double t)
 {

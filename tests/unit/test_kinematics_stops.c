@@ -82,8 +82,8 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   close_run(run, mechanism);
 }
 
-/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64 and
- * -116 degrees there is no pose. */
+/* The rod of 0.14 m is too short for the offset of 0.05 m and the crank of 0.1 m: between -64
+ * and -116 degrees there is no configuration. */
 static void a_rod_too_short_locks_the_crank_whatever_the_start(void **state)
 {
   (void)state;
@@ -159,7 +159,7 @@ static int part(double t, const double *q, double *out, void *user)
   return 0;
 }
 
-static void rows_left_out_that_do_not_follow_any_longer_stop_the_run(void **state)
+static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
 {
   (void)state;
   baum_mechanism *mechanism = NULL;
@@ -257,7 +257,7 @@ static void a_law_that_stops_is_left_alone(void **state)
 
 /* ---- what is refused at create ---- */
 
-static void freedom_is_refused_with_its_number_and_advice(void **state)
+static void degrees_of_freedom_are_refused_with_their_number_and_advice(void **state)
 {
   (void)state;
   baum_simulation_options o = kinematic_options();
@@ -306,7 +306,7 @@ static void settings_of_other_integrators_are_refused(void **state)
   baum_mechanism_destroy(mechanism);
 }
 
-/* A start as it is drawn is solved like any other configuration; one that is far off is refused. */
+/* A design configuration is solved like any other configuration; one that is far off is refused. */
 static void a_start_off_the_constraints_is_solved_or_refused(void **state)
 {
   (void)state;
@@ -425,7 +425,7 @@ static void a_run_explains_itself_and_others_suggest_it(void **state)
 }
 
 /* At both ends of the last step and inside; outside of it nothing is known. */
-static void poses_are_given_inside_the_last_step_only(void **state)
+static void configurations_are_returned_inside_the_last_step_only(void **state)
 {
   (void)state;
   slider_crank data = {0.1, 0.16, 0.05, 1, {.angle = 0.3, .rate = 1.0}};
@@ -464,18 +464,18 @@ int main(void)
     cmocka_unit_test(a_rod_too_short_locks_the_crank_whatever_the_start),
     cmocka_unit_test(outputs_up_to_the_lock_up_are_given),
     cmocka_unit_test(where_branches_cross_a_run_stops),
-    cmocka_unit_test(rows_left_out_that_do_not_follow_any_longer_stop_the_run),
+    cmocka_unit_test(omitted_rows_that_no_longer_follow_stop_the_run),
     cmocka_unit_test(a_law_that_fails_leaves_the_last_good_step),
     cmocka_unit_test(a_law_that_jumps_is_an_error),
     cmocka_unit_test(a_law_that_stops_is_left_alone),
-    cmocka_unit_test(freedom_is_refused_with_its_number_and_advice),
+    cmocka_unit_test(degrees_of_freedom_are_refused_with_their_number_and_advice),
     cmocka_unit_test(settings_of_other_integrators_are_refused),
     cmocka_unit_test(a_start_off_the_constraints_is_solved_or_refused),
     cmocka_unit_test(a_restart_that_fails_changes_nothing),
     cmocka_unit_test(a_singular_state_cannot_be_set),
     cmocka_unit_test(a_singular_start_is_refused),
     cmocka_unit_test(a_run_explains_itself_and_others_suggest_it),
-    cmocka_unit_test(poses_are_given_inside_the_last_step_only),
+    cmocka_unit_test(configurations_are_returned_inside_the_last_step_only),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
