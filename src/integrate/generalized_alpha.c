@@ -11,21 +11,20 @@
  *   alpha_m = (2 rho - 1) / (rho + 1),  alpha_f = rho / (rho + 1),
  *   gamma = 1/2 + alpha_f - alpha_m,  beta = (gamma + 1/2)^2 / 4
  *
- * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as the constraints have:
- * a disturbance of the multipliers falls to a tenth in ten steps. Oscillations that are resolved
- * are hardly damped.
+ * rho = 0.8 is the spectral radius for infinitely fast oscillations, such as those of the
+ * constraints: a disturbance of the multipliers falls to a tenth in ten steps. Resolved
+ * oscillations are hardly damped.
  *
- * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h, and
- * begins so, else the multipliers would be of first order for some steps. For a step of another
- * length the difference is scaled.
+ * a is not the acceleration at t but, to second order, that at t + (alpha_m - alpha_f) h. It starts
+ * with that value; otherwise the multipliers would be of first order for some steps. For a step of
+ * another length the difference is scaled.
  *
- * The first step after every beginning starts from the state projected onto the constraints: a
- * violation would become velocities of its size over h, which no equation takes back at once.
+ * The first step after every start begins at the state projected onto the constraints: a violation
+ * would become velocities of its size over h, which no equation removes at once.
  *
  * Newton's method with the exact matrix, by dv = gamma / (beta h) dx and so on, in scaled
  * multipliers: step_matrix.h. (Where q is no vector it is exact but for terms of h times the
- * angular velocity: x is added at q, not at q_1.)
- */
+ * angular velocity: x is added at q, not at q_1.) */
 #include "integrate/generalized_alpha.h"
 
 #include <float.h>
@@ -44,29 +43,29 @@ static const double BETA = 25.0 / 81.0;
 
 enum { ITERATIONS = 20 };
 
-/* A change of the positions by this share of what the accelerations do in a step is the last:
- * multipliers and accelerations are then right to that share. It is not asked for less than some
- * roundings of the positions, or of their scale where they are small beside it, as those of a body
- * at the origin. */
+/* A change of the positions by this share of what the accelerations do in a step is the last one:
+ * multipliers and accelerations are then accurate to that share. It need not fall below some
+ * roundings of the positions, or of their scale if they are small beside it, as for a body at the
+ * origin. */
 static const double CONVERGED = 1e-9;
 static const double ROUNDINGS = 8.0 * DBL_EPSILON;
-/* Changes that have stopped falling, and are no more than so many of these roundings, are rounding,
- * too. */
+/* Changes that have stopped falling are rounding up to this many of these roundings. */
 static const double STALLED = 64.0;
-/* Changes up to this that have stopped falling are compared with what rounding makes of the
- * equations: that of a large coordinate is much in the scale of a small one that is tied to it. */
+/* Changes up to this size that have stopped falling are compared with the effect of rounding on the
+ * equations: rounding of a large coordinate is much in the scale of a small one that is tied to
+ * it. */
 static const double LARGEST_NOISE = 1e-7;
 static const double NOISES = 16.0;
 static const double NUDGE = 4.0 * DBL_EPSILON;
 
-/* Of a step, for the derivative of the acceleration by a difference: truncation is this share of
- * terms of second order, rounding its inverse of one unit. */
+/* Share of a step over which the acceleration is differentiated: truncation is this share of terms
+ * of second order, rounding its inverse of one unit. */
 static const double SHIFT = 1e-3;
 
 /* Steps that differ by less than this share need no other a. */
 static const double SAME_STEP = 1e-6;
 
-/* What a step leaves to the next. */
+/* What the next step needs of one. */
 typedef struct alpha_past {
   double *rate;   /* (nv) v' */
   double *a;      /* (nv) */
@@ -97,8 +96,8 @@ typedef struct alpha_run {
 
 /* ---- begin ---- */
 
-/* v' and lambda of (5); a by a difference along the motion, for steps of the grid whatever the
- * first one is. */
+/* Find v' and lambda by (5), and a by a difference along the motion, for steps of the grid whatever
+ * the first one is. */
 static baum_status begin(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state)
 {
   double h = problem->direction * problem->step;
@@ -147,7 +146,7 @@ static void move_end(alpha_run *run, const baum_mechanism *m, const baum_i_state
   baum_i_move_from(m, state->q, 1.0, run->moved, run->y);
 }
 
-/* With v' and lambda as they are. */
+/* Predict the end of the step with v' and lambda unchanged. */
 static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state *state, double h)
 {
   double *v = run->y + run->nq;
@@ -163,7 +162,7 @@ static void predict(alpha_run *run, const baum_mechanism *m, const baum_i_state 
   memcpy(v + run->nv, run->now.lambda, (size_t)run->nc * sizeof *run->y);
 }
 
-/* A change x of all unknowns. */
+/* Apply a change x of all unknowns. */
 static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *state,
                   const baum_i_step_ratios *ratios)
 {
@@ -179,7 +178,7 @@ static void apply(alpha_run *run, const baum_mechanism *m, const baum_i_state *s
   }
 }
 
-/* One iteration of Newton's; the size of its change of the positions. */
+/* Take one Newton iteration and find the size of its change of the positions. */
 static baum_status improve(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
                            double t, const baum_i_step_ratios *ratios, double *size)
 {
@@ -203,8 +202,8 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   return BAUM_OK;
 }
 
-/* Size of the change of the positions that rounding asks for: what the equations change by when all
- * unknowns do so in their last digits, with signs of its own in each row, for rows are rounded each
+/* Find the change of the positions that rounding asks for: the change of the equations if all
+ * unknowns change in their last digits, with its own sign in each row, because each row is rounded
  * by itself. */
 static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
                               const baum_i_step_ratios *ratios, double *noise)
@@ -272,8 +271,8 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  /* So that every trial from a state begins alike: the first steps project, whether they are kept
-   * or not. */
+  /* Every trial from a state must start alike, so the first steps project whether they are kept or
+   * not. */
   if (!run->known || run->first) {
     BAUM_I_TRY(baum_i_project(problem->workspace, state->t, state->q, state->v));
   }
@@ -292,7 +291,7 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   return BAUM_OK;
 }
 
-/* The past of a step off the grid is given up, as every method does it. */
+/* A step off the grid ends the history, as in every method. */
 static void accept(void *self, const baum_i_problem *problem, const baum_i_state *state)
 {
   alpha_run *run = self;

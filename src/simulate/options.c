@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Options of a run: defaults, and what is refused. */
+/* Defaults and checks of the options of a run. */
 #include "simulate/options.h"
 
 #include <math.h>
@@ -157,7 +157,7 @@ static baum_status check_choices(const baum_simulation_options *o)
   return o->max_steps > 0 ? BAUM_OK : refuse("max_steps", "", (double)o->max_steps, "must be > 0");
 }
 
-/* The pair of integrator and formulation. */
+/* Check that the integrator offers the formulation. */
 static baum_status check_pair(baum_simulation_options *o)
 {
   const baum_formulation *offered = o->integrator->formulations;
@@ -177,7 +177,7 @@ static baum_status check_pair(baum_simulation_options *o)
   return baum_i_fail(BAUM_ERR_UNSUPPORTED,
                      "simulation options: %s does not offer the formulation %s; it offers %s%s%s",
                      o->integrator->name, name ? name : "of that number",
-                     list[0] ? list : "none, for no freedom is left", why ? "; " : "",
+                     list[0] ? list : "none, because no degree of freedom is left", why ? "; " : "",
                      why ? why : "");
 }
 
@@ -206,8 +206,8 @@ static baum_status check_row_gains(const baum_simulation_options *o)
   return BAUM_OK;
 }
 
-/* At index 1 multipliers are as smooth as accelerations. In other forms what an implicit method
- * takes for their error does not fall with the step as it should. */
+/* At index 1 multipliers are as smooth as accelerations. In other forms the error estimate of an
+ * implicit method does not fall with the step as it should. */
 static baum_status check_multipliers(const baum_simulation_options *o)
 {
   if (isinf(o->tolerance_lambda)) {
@@ -227,7 +227,7 @@ static baum_status check_multipliers(const baum_simulation_options *o)
   }
   return baum_i_fail(BAUM_ERR_ARGUMENT,
                      "simulation options: tolerance_lambda is %g, but with the formulation %s the "
-                     "error of multipliers cannot be tested, for its estimate grows as steps "
+                     "error of multipliers cannot be tested, because its estimate grows as steps "
                      "shrink; leave it infinite, or choose baumgarte or unstabilized",
                      o->tolerance_lambda, baum_formulation_name(o->formulation));
 }

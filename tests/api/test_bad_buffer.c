@@ -136,10 +136,10 @@ static void every_byte_changed(void **state)
   for (size_t k = 0; k < s.other.size; k++) {
     for (int bit = 0; bit < 8; bit++) {
       s.other.bytes[k] ^= (unsigned char)(1 << bit);
-      const char *words = k < AT_NUMBER       ? "none of baum_simulation_save()"
-                          : k < AT_VERSION    ? "another order of bytes"
+      const char *words = k < AT_NUMBER       ? "not written by baum_simulation_save()"
+                          : k < AT_VERSION    ? "another byte order"
                           : k < AT_SIZE       ? "version"
-                          : k >= AT_STRUCTURE ? "damaged: its sum"
+                          : k >= AT_STRUCTURE ? "damaged: its checksum"
                                               : "";
       check_refused(s.run, s.other.bytes, s.other.size, words);
       s.other.bytes[k] ^= (unsigned char)(1 << bit);
@@ -259,7 +259,7 @@ static void other_mechanisms(void **state)
       if (i != k) {
         saved before = save(runs[i]);
         check_refused(runs[i], s.bytes, s.size,
-                      numbers ? "another mechanism: elements are the same, but not all masses"
+                      numbers ? "another mechanism: the elements are the same, but masses"
                               : "another mechanism: kinds, number or connections");
         check_unchanged(runs[i], &before);
         free(before.bytes);
@@ -353,10 +353,10 @@ static void foreign_bytes(void **state)
   (void)state;
   scene s = open_scene();
   unsigned char zeros[4096] = {0};
-  check_refused(s.run, zeros, sizeof zeros, "none of baum_simulation_save()");
+  check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
   memset(zeros, 0xff, sizeof zeros);
-  check_refused(s.run, zeros, sizeof zeros, "none of baum_simulation_save()");
-  check_refused(s.run, s.run, 64, "none of baum_simulation_save()"); /* not even of bytes */
+  check_refused(s.run, zeros, sizeof zeros, "not written by baum_simulation_save()");
+  check_refused(s.run, s.run, 64, "not written by baum_simulation_save()"); /* not even of bytes */
   close_scene(&s);
 }
 

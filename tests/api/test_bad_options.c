@@ -445,7 +445,7 @@ static void sample_times_that_are_not_monotone_change_nothing(void **state)
                            {0.06, 0.07, (double)INFINITY}};
   for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
     ASSERT_SAYS(baum_simulation_sample(run, bad[k], 3, &energy, 1, rows, &done), BAUM_ERR_ARGUMENT,
-                "baum_simulation_sample: times[| s|must be finite and go one way");
+                "baum_simulation_sample: times[| s|must be finite and monotonic");
     assert_int_equal(done, 0);
     assert_true(rows[0] == 7.0);
   }

@@ -213,7 +213,7 @@ static void part(const method *with, void *context)
     check(baum_simulation_advance_to(run, END));
     check(baum_simulation_counters(run, &counters, sizeof counters));
     bool warned =
-      warns(run, counters.warnings, "motor\" that was left out as redundant is violated", "t = ");
+      warns(run, counters.warnings, "omitted redundant row of joint", "motor\" is violated");
     expect(warned == (k == 1), with, "motors that part are told of", k);
     /* off by the method's own violation, 1e-2 at first order; the last of its own steps may go
      * beyond END */

@@ -461,7 +461,7 @@ static void a_driver_can_be_set_in_a_run(void **state)
   slider_crank_motion(&data, -0.1, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);
   ASSERT_SAYS(baum_simulation_set_driver(run, motor, 1.5, 2.0, 0.0), BAUM_ERR_INCONSISTENT,
-              "t = 5 s: kinematics: no pose|lead drivers on from where they are");
+              "t = 5 s: kinematics: no configuration|let drivers continue from where they are");
   advance(run, 6.0);
   slider_crank_motion(&data, 1.9, x);
   ASSERT_NEAR(baum_simulation_q(run)[SLIDER_X], x[0], 0.0, EXACT);

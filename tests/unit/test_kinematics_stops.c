@@ -61,10 +61,9 @@ static void run_into_lock(const slider_crank *data, tally *worst)
   baum_mechanism *mechanism = slider_crank_make(data);
   baum_simulation *run = open_run(mechanism);
   double end = 10.0 / fabs(data->drive.rate);
-  ASSERT_SAYS(
-    baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
-    "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|the first "
-    "of them joint ");
+  ASSERT_SAYS(baum_simulation_advance_to(run, end), BAUM_ERR_SINGULAR,
+              "t = |kinematics: the mechanism locks up here: |\"motor\" asks for more than|above "
+              "all joint ");
   double t = baum_simulation_time(run);
   double angle = data->drive.angle + data->drive.rate * t;
   double x[3];
@@ -179,7 +178,7 @@ static void omitted_rows_that_no_longer_follow_stop_the_run(void **state)
   assert_int_equal(baum_mechanism_freeze(mechanism), BAUM_OK);
   baum_simulation *run = open_run(mechanism);
   ASSERT_SAYS(baum_simulation_advance_to(run, 2.0), BAUM_ERR_CONVERGENCE,
-              "kinematics: a row of |\"rows\" that was left out as redundant does not follow");
+              "kinematics: a row of |\"rows\" that was omitted as redundant no longer");
   /* A violation of 1e-6 passes for none. */
   ASSERT_NEAR(baum_simulation_time(run), 0.5 + 1e-3, 0.0, 1e-6);
   close_run(run, mechanism);
@@ -238,7 +237,7 @@ static void a_law_that_jumps_is_an_error(void **state)
 {
   (void)state;
   meet(9, BAUM_ERR_CONVERGENCE,
-       "t = 0.7|kinematics: no pose is found close by|the law of |\"motor\" may jump here");
+       "t = 0.7|kinematics: no configuration is found nearby|the law of |\"motor\" may jump here");
 }
 
 static void a_law_that_stops_is_left_alone(void **state)
@@ -300,9 +299,9 @@ static void settings_of_other_integrators_are_refused(void **state)
     o = kinematic_options();
     o.formulation = (baum_formulation)f;
     assert_false(baum_integrator_offers(o.integrator, o.formulation));
-    check_refused(
-      mechanism, &o, BAUM_ERR_UNSUPPORTED,
-      "kinematics does not offer the formulation |it offers none, for no freedom is left");
+    check_refused(mechanism, &o, BAUM_ERR_UNSUPPORTED,
+                  "kinematics does not offer the formulation |it offers none, because no degree of "
+                  "freedom is left");
   }
   baum_mechanism_destroy(mechanism);
 }
@@ -326,7 +325,7 @@ static void a_start_off_the_constraints_is_solved_or_refused(void **state)
     baum_status status = baum_simulation_set_state(run, 0.0, q, v);
     if (far) {
       ASSERT_SAYS(status, BAUM_ERR_INCONSISTENT,
-                  "kinematics: no pose that fulfils the constraints is found close to");
+                  "kinematics: no configuration that satisfies the constraints is found near");
     } else {
       assert_int_equal(status, BAUM_OK);
     }
@@ -411,7 +410,7 @@ static void a_run_explains_itself_and_others_suggest_it(void **state)
   baum_simulation *run = open_run(mechanism);
   const char *text = baum_simulation_explain(run);
   assert_non_null(strstr(text, "integrator    kinematics: Phi(q, t) = 0 is solved to rounding"));
-  assert_non_null(strstr(text, "no freedom is left"));
+  assert_non_null(strstr(text, "no degree of freedom is left"));
   assert_null(strstr(text, "formulation"));
   assert_null(strstr(text, "nan"));
   baum_simulation_destroy(run);
