@@ -12,6 +12,8 @@
 #include <baum/baum.h>
 
 #include "message.h"
+#include "models.h"
+#include "study_entries.h"
 
 /* A rod of 1 m on a pin, driven at 1 rad/s if `driven`. */
 static baum_mechanism *rod_on_a_pin(bool driven)
@@ -126,6 +128,40 @@ static void a_step_to_infinity_is_an_error(void **state)
   baum_mechanism_destroy(m);
 }
 
+static int no_solution(double t, double *q, double *v, double *lambda, void *user)
+{
+  (void)t;
+  (void)q;
+  (void)v;
+  (void)lambda;
+  (void)user;
+  return -1;
+}
+
+static void a_study_that_has_run_keeps_its_reference(void **state)
+{
+  (void)state;
+  model m;
+  assert_int_equal(model_pendulum_rod(&MODEL_PENDULUM_A01, &m), BAUM_OK);
+  const baum_study_options options = small_study_options();
+  baum_study *study = small_study(m.mechanism, &options);
+  assert_true(baum_study_run(study) >= BAUM_OK);
+  ASSERT_SAYS(baum_study_set_solution(study, no_solution, NULL, 9.0), BAUM_ERR_STATE,
+              "baum_study_set_solution|the reference");
+  baum_study_reference r;
+  assert_int_equal(baum_study_reference_read(study, &r, sizeof r), BAUM_OK);
+  double t = 0.0;
+  assert_int_equal(baum_study_reference_sample(study, r.samples - 1, &t, NULL, NULL, NULL),
+                   BAUM_OK);
+  const int32_t missing[] = {-1, r.samples};
+  for (int i = 0; i < 2; i++) {
+    ASSERT_SAYS(baum_study_reference_sample(study, missing[i], &t, NULL, NULL, NULL),
+                BAUM_ERR_ARGUMENT, "baum_study_reference_sample: k is");
+  }
+  baum_study_destroy(study);
+  model_destroy(&m);
+}
+
 int main(void)
 {
   const struct CMUnitTest tests[] = {
@@ -134,6 +170,7 @@ int main(void)
     cmocka_unit_test(a_step_below_the_rounding_of_time_is_an_error),
     cmocka_unit_test(factors_that_hardly_damp_are_warned_of),
     cmocka_unit_test(a_step_to_infinity_is_an_error),
+    cmocka_unit_test(a_study_that_has_run_keeps_its_reference),
   };
   return cmocka_run_group_tests(tests, NULL, NULL);
 }
