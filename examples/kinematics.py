@@ -5,11 +5,12 @@ configuration follows from the constraints alone, and the torque of the motor fr
 A pin of the crank runs in a slot of the rocker, and so does a pin of the ram, which a guide keeps
 level. With the crank at angle p the ram is at x = H R cos(p) / (D + R sin(p)).
 """
+
 import sys
 
-import numpy as np
-
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 R, D, H = 0.1, 0.25, 0.6  # [m] crank, its shaft and the ram above the pivot of the rocker
@@ -43,7 +44,7 @@ def shaper():
     return m.freeze()
 
 
-def ram_at(t):
+def ram_at(t: Array) -> Array:
     """x [m], x' and x'' of the ram, from the closed form."""
     sine, cosine = np.sin(OMEGA * t), np.cos(OMEGA * t)
     height = D + R * sine
@@ -56,10 +57,11 @@ def ram_at(t):
 def turning_times():
     """Times [s] at which the ram reverses: sin(p) = -R / D; in between it goes back."""
     more = np.arcsin(R / D)
-    return np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    times: Array = np.array([np.pi + more, 2 * np.pi - more]) / OMEGA
+    return times
 
 
-def main():
+def main() -> int:
     report = Report("kinematics")
     m = shaper()
     times = np.linspace(0, 2 * np.pi / OMEGA, SAMPLES + 1)

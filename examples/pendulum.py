@@ -2,13 +2,13 @@
 """A pendulum given by one function: 1 kg on a massless rod of 1 m, released from the horizontal."""
 
 import sys
-
-import numpy as np
+from typing import Any
 
 import baum
+import numpy as np
 from support.report import Report
 
-METHOD = (
+METHOD: dict[str, Any] = (
     dict(integrator="cvode_adams", rtol=1e-9)
     if baum.has("sundials")
     else dict(integrator="rk4", step=2e-3)
@@ -36,10 +36,10 @@ def period():
     a, b = 1.0, np.sqrt(0.5)
     for _ in range(6):
         a, b = (a + b) / 2, np.sqrt(a * b)
-    return 2 * np.pi / a * np.sqrt(1 / 9.81)
+    return float(2 * np.pi / a * np.sqrt(1 / 9.81))
 
 
-def main():
+def main() -> int:
     report = Report("pendulum")
     m = pendulum()
     lowest = period() * (0.25 + 0.5 * np.arange(8))

@@ -6,12 +6,14 @@ Lengths, masses and inertias: Flores, Leine, Glocker, Multibody System Dynamics 
 Table 1. The eccentricity and the other numbers of the runs are choices made here, because the
 paper's are not known. The motion is known in closed form: each run shows its error too.
 """
+
 import sys
 import warnings
-
-import numpy as np
+from typing import Any
 
 import baum
+import numpy as np
+from baum.typing import Array
 from support.report import Report
 
 R, L, E = 0.153, 0.306, 0.05  # [m] crank, rod, height of the guide
@@ -29,11 +31,17 @@ GAINS = {
     "stiff, alpha = beta = 1/h": baum.scaled(1, 1),
 }
 
+Row = dict[str, Any]
 COLUMNS = {
-    "gains": ("gains", "25s"), "alpha": ("alpha [1/s]", "9.1f"), "beta": ("beta [1/s]", "9.1f"),
-    "spectral_radius": ("largest |z|", "9.5f"), "stability": ("class", "8s"),
-    "max_phi3": ("max|Phi_3| [m]", "9.2e"), "final_phi3": ("at the end [m]", "9.2e"),
-    "max_phi": ("max|Phi|", "9.2e"), "slider_error": ("slider off by [m]", "9.1e"),
+    "gains": ("gains", "25s"),
+    "alpha": ("alpha [1/s]", "9.1f"),
+    "beta": ("beta [1/s]", "9.1f"),
+    "spectral_radius": ("largest |z|", "9.5f"),
+    "stability": ("class", "8s"),
+    "max_phi3": ("max|Phi_3| [m]", "9.2e"),
+    "final_phi3": ("at the end [m]", "9.2e"),
+    "max_phi": ("max|Phi|", "9.2e"),
+    "slider_error": ("slider off by [m]", "9.1e"),
 }
 
 
@@ -51,9 +59,10 @@ def slider_crank():
     return m.freeze()
 
 
-def slider_at(t):
+def slider_at(t: Array) -> Array:
     """x of the slider [m], from the closed loop."""
-    return R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
+    x: Array = R * np.cos(OMEGA * t) + np.sqrt(L**2 - (E - R * np.sin(OMEGA * t)) ** 2)
+    return x
 
 
 def simulate(m, gains, times):
@@ -82,7 +91,7 @@ def check(report, runs, said):
     report.expect("stiff: slider off by [m]", said[name]["slider_error"], 1e-4)
 
 
-def plot(path, runs):
+def plot(path: str, runs: dict[str, baum.Run]) -> None:
     """Phi_3 over time, each set in a frame of its own."""
     import matplotlib.pyplot as plt
 
@@ -95,9 +104,9 @@ def plot(path, runs):
     figure.savefig(path)
 
 
-def main():
+def main() -> int:
     report = Report("slider_crank", plot="draw the third constraint there; needs Matplotlib")
-    m, times = slider_crank(), H * np.arange(10001)
+    m, times = slider_crank(), H * np.arange(10001.0)
     print(f"{m}: {m.mobility()}\nexplicit Euler, h = {H:g} s, crank at {OMEGA:g} rad/s for 1 s\n")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", baum.Warning)  # of marginal gains, as the table shows

@@ -13,8 +13,8 @@
 #include "mechanism/planar/planar.h"
 
 /* -J^T lambda over the joint's local columns. */
-static void generalized(const baum_workspace *w, const baum_i_joint *joint, const double *lambda,
-                        double *out)
+static void find_generalized_force(const baum_workspace *w, const baum_i_joint *joint,
+                                   const double *lambda, double *out)
 {
   const double *block = w->jacobian + joint->jacobian;
   int nl = joint->span.nl;
@@ -27,8 +27,8 @@ static void generalized(const baum_workspace *w, const baum_i_joint *joint, cons
 }
 
 /* Force and moment about `at` of one side of a planar joint. */
-static void about_point(const baum_i_frame *frame, const double *side, int nv, const double at[2],
-                        double out[3])
+static void reduce_to_point(const baum_i_frame *frame, const double *side, int nv,
+                            const double at[2], double out[3])
 {
   out[0] = side[0];
   out[1] = side[1];
@@ -36,8 +36,8 @@ static void about_point(const baum_i_frame *frame, const double *side, int nv, c
   out[2] = moment - ((at[0] - frame->x) * side[1] - (at[1] - frame->y) * side[0]);
 }
 
-static void planar(const baum_workspace *w, const baum_i_joint *joint, const double *local,
-                   double out[3])
+static void find_planar_reaction(const baum_workspace *w, const baum_i_joint *joint,
+                                 const double *local, double out[3])
 {
   const baum_mechanism *m = w->mechanism;
   int a = joint->span.bodies[0];
@@ -46,10 +46,10 @@ static void planar(const baum_workspace *w, const baum_i_joint *joint, const dou
   joint->type->place(joint, &w->point, at);
   if (b != 0) {
     int offset = a != 0 ? m->bodies[a]->nv : 0;
-    about_point(&w->point.frames[b], local + offset, m->bodies[b]->nv, at, out);
+    reduce_to_point(&w->point.frames[b], local + offset, m->bodies[b]->nv, at, out);
     return;
   }
-  about_point(&w->point.frames[a], local, m->bodies[a]->nv, at, out);
+  reduce_to_point(&w->point.frames[a], local, m->bodies[a]->nv, at, out);
   for (int i = 0; i < 3; i++) {
     out[i] = -out[i];
   }
@@ -66,9 +66,9 @@ void baum_i_reaction(const baum_workspace *w, int joint, const double *lambda, d
   const baum_i_joint *j = w->mechanism->joints[joint];
   if (j->type->planar) {
     double local[6];
-    generalized(w, j, lambda, local);
-    planar(w, j, local, out);
+    find_generalized_force(w, j, lambda, local);
+    find_planar_reaction(w, j, local, out);
   } else {
-    generalized(w, j, lambda, out);
+    find_generalized_force(w, j, lambda, out);
   }
 }

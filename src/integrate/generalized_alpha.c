@@ -92,6 +92,7 @@ typedef struct alpha_run {
   double *dy;       /* (nq + nv + nc) zeros, v', unused */
   double *residual; /* (nq + nv + nc) */
   double *x;        /* (nv + nc) */
+  double *nudged;   /* (2 (nq + nv + nc)) y and dy in other last digits */
 } alpha_run;
 
 /* ---- begin ---- */
@@ -122,15 +123,6 @@ static baum_status begin(alpha_run *run, const baum_i_problem *problem, const ba
   run->known = true;
   run->first = true;
   return BAUM_OK;
-}
-
-/* So that every trial from a state begins alike: the first steps project, whether they are kept or
- * not. */
-static baum_status prepare(alpha_run *run, const baum_i_problem *problem, baum_i_state *state)
-{
-  bool begins = !run->known || run->first;
-  BAUM_I_TRY(begins ? baum_i_project(problem->workspace, state->t, state->q, state->v) : BAUM_OK);
-  return run->known ? BAUM_OK : begin(run, problem, state);
 }
 
 /* ---- one step ---- */
@@ -211,83 +203,33 @@ static baum_status improve(alpha_run *run, const baum_i_problem *problem, const 
   return BAUM_OK;
 }
 
-/* All unknowns up by some roundings; they are kept in `next`, which the end of the step fills. */
-static void nudge(alpha_run *run)
-{
-  double *rate = run->dy + run->nq;
-  double *lambda = run->y + run->nq + run->nv;
-  memcpy(run->next.rate, rate, (size_t)run->nv * sizeof *rate);
-  memcpy(run->next.lambda, lambda, (size_t)run->nc * sizeof *lambda);
-  for (int i = 0; i < run->nq; i++) {
-    run->y[i] *= 1.0 + NUDGE;
-  }
-  for (int i = 0; i < run->nv; i++) {
-    rate[i] *= 1.0 + NUDGE;
-  }
-  for (int i = 0; i < run->nc; i++) {
-    lambda[i] *= 1.0 + NUDGE;
-  }
-}
-
-static void take_back(alpha_run *run, const baum_mechanism *m, const baum_i_state *state)
-{
-  move_end(run, m, state);
-  memcpy(run->dy + run->nq, run->next.rate, (size_t)run->nv * sizeof *run->dy);
-  memcpy(run->y + run->nq + run->nv, run->next.lambda, (size_t)run->nc * sizeof *run->y);
-}
-
 /* Size of the change of the positions that rounding asks for: what the equations change by when all
  * unknowns do so in their last digits, with signs of its own in each row, for rows are rounded each
  * by itself. */
-static baum_status find_noise(alpha_run *run, const baum_i_problem *problem,
-                              const baum_i_state *state, double t, const baum_i_step_ratios *ratios,
-                              double *noise)
+static baum_status find_noise(alpha_run *run, const baum_i_problem *problem, double t,
+                              const baum_i_step_ratios *ratios, double *noise)
 {
   static const baum_dae dae = {.index = BAUM_RESIDUAL_INDEX3};
   baum_workspace *w = problem->workspace;
+  int whole = run->nq + run->nv + run->nc;
   const double *rest = run->residual + run->nq;
+  double *y = run->nudged;
+  double *dy = y + whole;
+  for (int i = 0; i < whole; i++) {
+    y[i] = run->y[i] * (1.0 + NUDGE);
+    dy[i] = run->dy[i] * (1.0 + NUDGE);
+  }
+  memcpy(y + run->nq, run->y + run->nq,
+         (size_t)run->nv * sizeof *y); /* v follows from the others */
   BAUM_I_TRY(baum_i_residual(w, &dae, t, run->y, run->dy, run->residual));
   memcpy(run->x, rest, (size_t)(run->nv + run->nc) * sizeof *rest);
-  nudge(run);
-  baum_status status = baum_i_residual(w, &dae, t, run->y, run->dy, run->residual);
-  take_back(run, w->mechanism, state);
-  BAUM_I_TRY(status);
+  BAUM_I_TRY(baum_i_residual(w, &dae, t, y, dy, run->residual));
   for (int i = 0; i < run->nv + run->nc; i++) {
     run->x[i] = (i < run->nv ? ratios->scale : 1.0) * fabs(rest[i] - run->x[i]);
   }
   baum_i_step_matrix_solve(run->matrix, run->x);
   *noise = baum_i_scaled_size(w->mechanism, run->x);
   return BAUM_OK;
-}
-
-/* Changes of positions that need no further one. */
-typedef struct limits {
-  double enough;
-  double stalled; /* when they have stopped falling */
-} limits;
-
-static limits find_limits(const alpha_run *run, const baum_i_problem *problem,
-                          const baum_i_state *state, double h)
-{
-  const baum_mechanism *m = problem->workspace->mechanism;
-  double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
-  double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
-  return (limits){fmax(CONVERGED * BETA * h * h * acceleration, rounding), STALLED * rounding};
-}
-
-static bool is_last(const limits *last, double size, double before)
-{
-  return size <= last->enough || (size > 0.5 * before && size <= last->stalled);
-}
-
-static baum_status fail(double t, double size)
-{
-  return baum_i_fail(
-    BAUM_ERR_CONVERGENCE,
-    "t = %.9g s: generalized_alpha: the equations of the next step do not converge "
-    "(last change %.3g of the scale): the step is too large or the configuration is near a "
-    "singular one",
-    t, size);
 }
 
 static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const baum_i_state *state,
@@ -298,15 +240,19 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
     .by_a = (1.0 - ALPHA_M) / ((1.0 - ALPHA_F) * BETA * h * h),
     .scale = BETA * h * h,
   };
-  limits last = find_limits(run, problem, state, h);
+  const baum_mechanism *m = problem->workspace->mechanism;
+  double acceleration = fmax(problem->rate * problem->rate, baum_i_scaled_size(m, run->now.rate));
+  double rounding = ROUNDINGS * fmax(1.0, baum_i_position_size(m, state->q));
+  double enough = fmax(CONVERGED * BETA * h * h * acceleration, rounding);
   double size = INFINITY;
   for (int k = 0; k < ITERATIONS; k++) {
     double before = size;
     BAUM_I_TRY(improve(run, problem, state, state->t + h, &ratios, &size));
-    bool done = is_last(&last, size, before);
-    if (!done && k > 1 && size > 0.5 * before && size <= LARGEST_NOISE) {
+    bool stalls = size > 0.5 * before;
+    bool done = size <= enough || (stalls && size <= STALLED * rounding);
+    if (!done && k > 1 && stalls && size <= LARGEST_NOISE) {
       double noise = 0.0;
-      BAUM_I_TRY(find_noise(run, problem, state, state->t + h, &ratios, &noise));
+      BAUM_I_TRY(find_noise(run, problem, state->t + h, &ratios, &noise));
       done = size <= NOISES * noise;
     }
     if (done) {
@@ -317,7 +263,7 @@ static baum_status iterate(alpha_run *run, const baum_i_problem *problem, const 
       break;
     }
   }
-  return fail(state->t, size);
+  return baum_i_fail_iteration("generalized_alpha", "the equations", state->t, size);
 }
 
 static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_state *state,
@@ -326,7 +272,12 @@ static baum_status take_step(void *self, const baum_i_problem *problem, baum_i_s
   (void)a;
   alpha_run *run = self;
   int nv = run->nv;
-  BAUM_I_TRY(prepare(run, problem, state));
+  /* So that every trial from a state begins alike: the first steps project, whether they are kept
+   * or not. */
+  if (!run->known || run->first) {
+    BAUM_I_TRY(baum_i_project(problem->workspace, state->t, state->q, state->v));
+  }
+  BAUM_I_TRY(run->known ? BAUM_OK : begin(run, problem, state));
   predict(run, problem->workspace->mechanism, state, h);
   BAUM_I_TRY(iterate(run, problem, state, h));
   run->trial = h;
@@ -390,7 +341,7 @@ static baum_status make_memory(alpha_run *run)
   int nv = run->nv;
   int nc = run->nc;
   int whole = run->nq + nv + nc;
-  size_t count = 3 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
+  size_t count = 5 * (size_t)whole + 6 * (size_t)nv + 3 * (size_t)nc;
   run->memory = baum_i_alloc(count, sizeof *run->memory);
   BAUM_I_TRY(baum_i_check_memory(run->memory));
   double *next = run->memory;
@@ -405,6 +356,7 @@ static baum_status make_memory(alpha_run *run)
   run->dy = take(&next, whole);
   run->residual = take(&next, whole);
   run->x = take(&next, nv + nc);
+  run->nudged = take(&next, 2 * whole);
   return BAUM_OK;
 }
 

@@ -246,15 +246,11 @@ void baum_i_ida_newton_scale_right(const baum_i_ida_newton *newton, double ratio
   double *b = N_VGetArrayPointer(right);
   double *rows = b + mechanism->nq + mechanism->nv;
   scale(b, mechanism->nq, ratio);
-  switch (newton->index) {
-  case BAUM_RESIDUAL_INDEX2: scale(rows, mechanism->nc, ratio); break;
-  case BAUM_RESIDUAL_INDEX3: scale(rows, mechanism->nc, ratio * ratio); break;
-  case BAUM_RESIDUAL_GGL:
-    scale(rows, mechanism->nc, ratio);
+  if (newton->index != BAUM_RESIDUAL_INDEX1) {
+    scale(rows, mechanism->nc, is_index3(newton) ? ratio * ratio : ratio);
+  }
+  if (newton->index == BAUM_RESIDUAL_GGL) {
     scale(rows + mechanism->nc, mechanism->nc, ratio * ratio);
-    break;
-  case BAUM_RESIDUAL_INDEX1:
-  default: break;
   }
 }
 

@@ -147,6 +147,10 @@ bool baum_i_integrator_remembers(const baum_integrator *integrator, const baum_i
 baum_status baum_i_fail_in_step(baum_status status, const char *message, const char *integrator,
                                 double t, double h);
 
+/* BAUM_ERR_CONVERGENCE of an iteration in a step from t: what does not converge, and the size of
+ * its last change over the scale. */
+baum_status baum_i_fail_iteration(const char *integrator, const char *what, double t, double size);
+
 /* Make the memory of a run; *out = NULL for a method without memory, and on failure. */
 baum_status baum_i_integrator_create(const baum_integrator *integrator,
                                      const baum_i_problem *problem, const baum_i_state *start,

@@ -55,16 +55,6 @@ static bool is_last(double size, double before, double rounding)
   return falls ? size * (size / before) <= 0.01 * rounding : size <= STALLED * rounding;
 }
 
-static baum_status fail(double t, double size)
-{
-  return baum_i_fail(
-    BAUM_ERR_CONVERGENCE,
-    "t = %.9g s: rattle: the positions of the next step do not converge (last "
-    "change %.3g of the scale): the step is too large or the configuration is near a "
-    "singular one",
-    t, size);
-}
-
 static void move_end(const rattle_run *run, const baum_mechanism *m, const baum_i_state *state,
                      double h)
 {
@@ -94,7 +84,7 @@ static baum_status find_positions(rattle_run *run, baum_workspace *w, const baum
       break;
     }
   }
-  return fail(state->t, size);
+  return baum_i_fail_iteration("rattle", "the positions", state->t, size);
 }
 
 /* ---- one step ---- */

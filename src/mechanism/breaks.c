@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Times at which what acts on a mechanism jumps: one rising list. */
+/* Break times, at which loads on a mechanism jump: one rising list. */
 #include <math.h>
 #include <string.h>
 
@@ -9,7 +9,7 @@
 #include "base/message.h"
 #include "mechanism/identify.h"
 
-/* Where t belongs in the list. */
+/* Find the place of t in the list. */
 static int place_of(const baum_mechanism *mechanism, double t)
 {
   int k = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inputs of a mechanism: names and initial values. Present values belong to runs and workspaces. */
+/* Inputs of a mechanism: names and initial values. Runs and workspaces hold the present values. */
 #include <math.h>
 #include <stdio.h>
 

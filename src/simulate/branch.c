@@ -53,19 +53,6 @@ static void follow(const baum_simulation *run, const baum_i_knot *knots, int cou
   baum_i_hermite(w->mechanism, knots, count, t, out->q, out->v, w->work_q);
 }
 
-/* Of the usual one, at t of the motion through knots. */
-static double pivot_at(baum_simulation *run, const baum_i_knot *knots, int count, double t,
-                       int *joint)
-{
-  baum_i_crossings *p = run->crossings;
-  *joint = -1;
-  follow(run, knots, count, t, &p->at);
-  if (baum_i_find_pivot(run->workspace, t, p->at.q, p->at.v) != BAUM_OK) {
-    return run->workspace->point.retry ? (double)INFINITY : 0.0;
-  }
-  return baum_i_smallest_pivot(run->workspace, joint) / p->usual;
-}
-
 /* The motion that is looked at, and the joint of its least pivot so far. */
 typedef struct look {
   baum_simulation *run;
@@ -75,11 +62,20 @@ typedef struct look {
   int joint;
 } look;
 
-static double look_at(void *user, double t)
+/* Of the usual one, at t of the motion. */
+static double pivot_at(void *user, double t)
 {
   look *in = user;
+  baum_workspace *w = in->run->workspace;
+  baum_i_crossings *p = in->run->crossings;
   int joint = -1;
-  double pivot = pivot_at(in->run, in->knots, in->count, t, &joint);
+  double pivot = 0.0;
+  follow(in->run, in->knots, in->count, t, &p->at);
+  if (baum_i_find_pivot(w, t, p->at.q, p->at.v) == BAUM_OK) {
+    pivot = baum_i_smallest_pivot(w, &joint) / p->usual;
+  } else {
+    pivot = w->point.retry ? (double)INFINITY : 0.0;
+  }
   if (pivot < in->least) {
     in->least = pivot;
     in->joint = joint;
@@ -95,7 +91,7 @@ double baum_i_branch_least_pivot(baum_simulation *run, const baum_i_knot *knots,
   double first = knots[0].t;
   double last = knots[count - 1].t;
   const double ends[2] = {fmin(first, last), fmax(first, last)};
-  double pivot = baum_i_least(look_at, &in, ends, 1e-6 * (ends[1] - ends[0]), 32, at);
+  double pivot = baum_i_least(pivot_at, &in, ends, 1e-6 * (ends[1] - ends[0]), 32, at);
   *joint = in.joint;
   return pivot;
 }

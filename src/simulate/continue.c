@@ -56,16 +56,6 @@ static void exchange(baum_simulation *run, standing *s)
   w->point.parameters = run->parameters ? run->parameters : w->mechanism->parameters;
 }
 
-/* A method that lets violations be may have left some, which this one may not take: then q and v
- * are changed by the least that does. */
-static baum_status take_over(baum_simulation *run, double t, const standing *theirs)
-{
-  if (run->options.start != BAUM_START_AS_GIVEN) {
-    BAUM_I_TRY(baum_i_project(run->workspace, t, theirs->q, theirs->v));
-  }
-  return baum_simulation_set_state(run, t, theirs->q, theirs->v);
-}
-
 static baum_status check_both(const baum_simulation *run, const baum_simulation *from)
 {
   const char *call = "baum_simulation_continue";
@@ -87,7 +77,14 @@ baum_status baum_simulation_continue(baum_simulation *simulation, const baum_sim
   baum_status status = copy_standing(from, &theirs);
   if (status == BAUM_OK) {
     exchange(simulation, &theirs);
-    status = take_over(simulation, from->state.t, &theirs);
+    /* A method that lets violations be may have left some, which this one may not take: then q and
+     * v are changed by the least that does. */
+    if (simulation->options.start != BAUM_START_AS_GIVEN) {
+      status = baum_i_project(simulation->workspace, from->state.t, theirs.q, theirs.v);
+    }
+    if (status == BAUM_OK) {
+      status = baum_simulation_set_state(simulation, from->state.t, theirs.q, theirs.v);
+    }
     if (status != BAUM_OK) {
       exchange(simulation, &theirs);
     }

@@ -103,14 +103,6 @@ static baum_status use_schedule(baum_simulation *run, const baum_i_schedule *mad
   return status;
 }
 
-static baum_status replace_schedule(baum_simulation *run, const given *g)
-{
-  baum_i_schedule made = {.jumps = NULL};
-  BAUM_I_TRY(baum_i_schedule_reserve(&made, run->schedule.count + g->count));
-  merge_jumps(&run->schedule, g, &made);
-  return use_schedule(run, &made, g->input);
-}
-
 static const char *const CALL = "baum_simulation_schedule_input";
 
 static baum_status check_schedule_entry(const baum_mechanism *m, const given *g, int k)
@@ -164,7 +156,13 @@ baum_status baum_simulation_schedule_input(baum_simulation *simulation, baum_inp
   }
   baum_i_kept_message kept;
   baum_i_message_keep(&kept);
-  return baum_i_run_end_call(simulation, replace_schedule(simulation, &g), &kept);
+  baum_i_schedule made = {.jumps = NULL};
+  baum_status status = baum_i_schedule_reserve(&made, simulation->schedule.count + count);
+  if (status == BAUM_OK) {
+    merge_jumps(&simulation->schedule, &g, &made);
+    status = use_schedule(simulation, &made, index);
+  }
+  return baum_i_run_end_call(simulation, status, &kept);
 }
 
 /* ---- drivers ---- */

@@ -32,25 +32,21 @@ static bool is_beyond_rounding(const baum_simulation *run, double h)
   return pivot < 1e-4 && pivot * error < DBL_EPSILON;
 }
 
-/* Where the projection is beyond rounding, it may not converge either. */
-static bool stays_unprojected(const baum_simulation *run, baum_status status, double h)
-{
-  if (status == BAUM_ERR_CONVERGENCE) {
-    return is_in_pose(run, find_pivot(run));
-  }
-  return status == BAUM_OK && is_beyond_rounding(run, h);
-}
-
 baum_status baum_i_run_project(baum_simulation *run, double t)
 {
   baum_i_state *trial = &run->trial;
   baum_i_run_copy(run, trial, &run->spare);
   baum_status status = baum_i_project(run->workspace, t, trial->q, trial->v);
-  if (run->crossings && stays_unprojected(run, status, t - run->state.t)) {
-    baum_i_run_copy(run, &run->spare, trial);
-    return BAUM_OK;
+  bool skips = false;
+  if (run->crossings && status == BAUM_ERR_CONVERGENCE) {
+    skips = is_in_pose(run, find_pivot(run)); /* where it is beyond rounding, it may not converge */
+  } else if (run->crossings && status == BAUM_OK) {
+    skips = is_beyond_rounding(run, t - run->state.t);
   }
-  return status;
+  if (skips) {
+    baum_i_run_copy(run, &run->spare, trial);
+  }
+  return skips ? BAUM_OK : status;
 }
 
 /* Of the present state, which has mostly just been noted. */

@@ -208,21 +208,18 @@ static void place_fixed_bodies(baum_simulation *run)
   baum_i_rest_fixed_bodies(run->workspace->mechanism, run->trial.v);
 }
 
-static baum_status start(baum_simulation *run, const double *q, const double *v)
-{
-  if (run->options.start == BAUM_START_ASSEMBLE) {
-    memcpy(run->spare.q, run->trial.q, (size_t)run->workspace->mechanism->nq * sizeof *q);
-    return start_assembled(run, run->spare.q, v);
-  }
-  run->workspace->point.t = run->trial.t; /* for the message */
-  BAUM_I_TRY(baum_i_check_sizes(run->workspace, "velocity", run->trial.v));
-  return run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK;
-}
-
 baum_status baum_i_run_start(baum_simulation *run, double t, const double *q, const double *v)
 {
+  baum_workspace *w = run->workspace;
   start_as_given(run, t, q, v);
-  BAUM_I_TRY(start(run, q, v));
+  if (run->options.start == BAUM_START_ASSEMBLE) {
+    memcpy(run->spare.q, run->trial.q, (size_t)w->mechanism->nq * sizeof *q);
+    BAUM_I_TRY(start_assembled(run, run->spare.q, v));
+  } else {
+    w->point.t = t; /* for the message */
+    BAUM_I_TRY(baum_i_check_sizes(w, "velocity", run->trial.v));
+    BAUM_I_TRY(run->options.start == BAUM_START_EXACT ? check_exact(run) : BAUM_OK);
+  }
   place_fixed_bodies(run);
   return BAUM_OK;
 }

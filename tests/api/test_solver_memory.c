@@ -118,7 +118,7 @@ static baum_status run(const baum_mechanism *m)
   o.step = 1e-3;
   baum_status status = baum_simulation_create(m, &o, &s);
   if (status == BAUM_OK) {
-    assert_non_null(strstr(baum_simulation_explain(s), "1 fixed body left out"));
+    assert_non_null(strstr(baum_simulation_explain(s), "1 fixed body omitted"));
     status = baum_simulation_step(s, 3);
   }
   baum_simulation_destroy(s);

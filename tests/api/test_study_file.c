@@ -232,7 +232,7 @@ static void a_file_of_something_else_is_refused_and_left_alone(void **state)
   for (size_t k = 0; k < sizeof others / sizeof others[0]; k++) {
     write_file(s.path, others[k].text, others[k].size);
     baum_study *study = study_of(&s);
-    ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "is no study file");
+    ASSERT_SAYS(baum_study_run(study), BAUM_ERR_BUFFER, "is not a study file");
     char *text = read_file(s.path);
     assert_memory_equal(text, others[k].text, others[k].size);
     assert_int_equal(text[others[k].size], 0);

@@ -412,7 +412,7 @@ static void a_definition_comes_back_as_it_was_given(void **state)
   check_same(&got, &second);
   first.size = 1;
   assert_int_equal(baum_mechanism_set_coordinates(mechanism, id, &first), BAUM_ERR_ARGUMENT);
-  assert_string_equal(baum_message(), "body 1 \"leg\": its size is 2 and must stay");
+  assert_string_equal(baum_message(), "body 1 \"leg\": its size is 2 and cannot change");
   baum_mechanism_destroy(mechanism);
 }
 

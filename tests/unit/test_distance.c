@@ -141,9 +141,10 @@ static void wrong_fields_are_refused(void **state)
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 4);
   def.point[0] = 1.0;
   def.point[1] = 1.0;
-  check_refused(scene.mechanism, add, &def,
-                "joint 1 \"rod\": point is given and leaves no length; give point_a and point_b "
-                "instead");
+  check_refused(
+    scene.mechanism, add, &def,
+    "joint 1 \"rod\": point is given, but the length would be zero; give point_a and point_b "
+    "instead");
   baum_mechanism_destroy(scene.mechanism);
 }
 

@@ -91,7 +91,7 @@ static void user_coordinates_have_no_place_in_the_plane(void **state)
   def.point[0] = 1.0;
   def.point[1] = 1.0;
   check_refused(scene.mechanism, add, &def,
-                "joint 1 \"B\": body_b is body 5 \"theta\", which has no place in the plane");
+                "joint 1 \"B\": body_b is body 5 \"theta\", which has no position in the plane");
   baum_mechanism_destroy(scene.mechanism);
 }
 
@@ -149,7 +149,7 @@ static void a_particle_is_its_own_point(void **state)
   assert_int_equal(baum_mechanism_freeze(scene.mechanism), BAUM_ERR_ARGUMENT);
   assert_string_equal(baum_message(),
                       "joint 1 \"B\": point is (-0.6, 0.9) m, must be at the particle body 2 "
-                      "\"ball\", drawn at (-0.6, 0.8) m");
+                      "\"ball\", at (-0.6, 0.8) m");
   assert_false(baum_mechanism_is_frozen(scene.mechanism));
   baum_mechanism_destroy(scene.mechanism);
 }

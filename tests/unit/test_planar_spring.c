@@ -263,9 +263,10 @@ static void wrong_fields_are_refused(void **state)
   check_bad_numbers(scene.mechanism, add, &def, sizeof def, numbers, 5);
   def.point[0] = 1.0;
   def.point[1] = 1.0;
-  check_refused(scene.mechanism, add, &def,
-                "force 1 \"S\": point is given and leaves no length; give point_a and point_b "
-                "instead");
+  check_refused(
+    scene.mechanism, add, &def,
+    "force 1 \"S\": point is given, but the length would be zero; give point_a and point_b "
+    "instead");
   def = baum_planar_spring_def_default();
   def.body_a = scene.link;
   def.body_b = scene.crank;

@@ -253,7 +253,7 @@ static void a_flat_parallelogram_is_singular_and_not_redundant(void **state)
   assert_int_equal(mobility.degrees_of_freedom, 1);
   assert_int_equal(mobility.redundant_rows, 0);
   assert_true(mobility.near_singular);
-  assert_non_null(strstr(mobility.text, "start configuration is singular"));
+  assert_non_null(strstr(mobility.text, "initial configuration is singular"));
   baum_mechanism_destroy(m);
 }
 
@@ -458,9 +458,9 @@ static void projection_names_redundant_rows_that_the_others_do_not_meet(void **s
     {0.0, 0.3, NULL},
     {1.0, 0.0, NULL},
     {1.0, 0.3,
-     "t = 0.3 s: projection: a row of joint |motor\" that was left out as redundant is "
-     "violated by |contradict"},
-    {1.0, 1e-4, "t = 0.0001 s: projection: a row of joint |5e-09, its rate by |0.0001"},
+     "t = 0.3 s: projection: a redundant row of joint |motor\" was omitted, but is violated by |"
+     "contradict"},
+    {1.0, 1e-4, "t = 0.0001 s: projection: a redundant row of joint |5e-09, its rate by |0.0001"},
   };
   for (int k = 0; k < 4; k++) {
     baum_mechanism *m = driven_twice(cases[k].acceleration);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Three columns for each body of a span, and what the bodies have of them: a particle has no angle,
- * ground has none. Kernels write over the six of two bodies; what is said here of six holds for any
- * number of bodies.
+/* Packing of columns. Kernels write three columns for each body; a particle has no angle and ground
+ * has no columns, so packing keeps the columns that exist. The comments speak of six columns of two
+ * bodies, but any number of bodies is allowed.
  */
 #ifndef BAUM_I_MECHANISM_GENERAL_COLUMNS_H
 #define BAUM_I_MECHANISM_GENERAL_COLUMNS_H
@@ -12,12 +12,12 @@
 #include "base/pair.h"
 #include "mechanism/identify.h"
 
-/* Velocity-sized columns (or any vector over v) of both bodies as six numbers; zeros where
- * absent, all for NULL. */
+/* Gather six numbers of both bodies from a vector over v. Absent columns, and all for NULL, are
+ * zero. */
 void baum_i_columns_gather(const baum_i_point *point, const baum_i_span *span, const double *x,
                            double *six);
 
-/* The same as baum_i_columns_scatter(), whatever the bodies are. */
+/* Like baum_i_columns_scatter(), for bodies of any kind. */
 void baum_i_columns_scatter_any(const baum_mechanism *mechanism, const baum_i_span *span,
                                 const double *six, double *x);
 
@@ -54,12 +54,12 @@ BAUM_I_INLINE void baum_i_columns_scatter_one(const baum_mechanism *mechanism,
   }
 }
 
-/* The same as baum_i_columns_pack(), whatever the bodies are. */
+/* Like baum_i_columns_pack(), for bodies of any kind. */
 void baum_i_columns_pack_any(const baum_mechanism *mechanism, const baum_i_span *span, int rows,
                              const double *six, double *packed);
 
-/* Rows of six to rows of nl. Nearly always of two bodies with all their columns, or of one on the
- * ground. */
+/* Pack rows of six to rows of nl. The fast cases are two bodies with all their columns, and one
+ * body and ground. */
 BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const baum_i_span *span,
                                        int rows, const double *six, double *packed)
 {
@@ -78,12 +78,12 @@ BAUM_I_INLINE void baum_i_columns_pack(const baum_mechanism *mechanism, const ba
   }
 }
 
-/* 6 x 6 to nl x nl. */
+/* Pack 6 x 6 to nl x nl. */
 void baum_i_columns_pack_square(const baum_mechanism *mechanism, const baum_i_span *span,
                                 const double *six, double *packed);
 
-/* Second derivatives of a joint's rows over six columns to where they are wanted. nu_q stays zero:
- * no joint with such rows has one. */
+/* Pack second derivatives of a joint's rows over six columns to the wanted blocks. nu_q stays zero,
+ * because it is zero for all joints with such rows. */
 void baum_i_columns_pack_blocks(const baum_mechanism *mechanism, const baum_i_joint *joint,
                                 const baum_i_joint_blocks *six, const baum_i_joint_blocks *blocks);
 
