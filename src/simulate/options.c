@@ -100,6 +100,13 @@ static const number NUMBERS[] = {
 };
 /* clang-format on */
 
+static baum_status check_range(const number *n, double x)
+{
+  bool above = x > n->least || (n->may_be_zero && x == 0.0);
+  bool below = x < n->most || (n->may_be_infinite && isinf(x));
+  return above && below ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+}
+
 static baum_status check_number(const number *n, stepping how, const baum_simulation_options *o)
 {
   double x;
@@ -116,9 +123,7 @@ static baum_status check_number(const number *n, stepping how, const baum_simula
                        n->unit[0] ? " " : "", n->unit, name,
                        isnan(n->unset) ? WHY_NOT[how] : "takes no tolerance here; leave it 1");
   }
-  bool fine = (x > n->least || (n->may_be_zero && x == 0.0)) &&
-              (x < n->most || (n->may_be_infinite && isinf(x)));
-  return fine ? BAUM_OK : refuse(n->name, n->unit, x, n->must);
+  return check_range(n, x);
 }
 
 /* Methods of either kind proceed by what is given. */
